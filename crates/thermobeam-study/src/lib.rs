@@ -1,0 +1,1 @@
+//! Convergence studies for the `thermobeam` solver.

@@ -1,0 +1,4 @@
+//! Solver for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two obstacles.
+
+pub mod mesh;
+pub mod parameters;

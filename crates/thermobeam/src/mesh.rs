@@ -1,0 +1,106 @@
+//! The triangulation of [0, 1].
+
+use thiserror::Error;
+
+/// Why a list of nodes is not a mesh of [0, 1].
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MeshError {
+    /// Fewer than one element.
+    #[error("a mesh needs at least 1 element, found {elements}")]
+    TooFew {
+        /// Elements asked for.
+        elements: usize,
+    },
+    /// The first node is not 0 or the last not 1.
+    #[error("node {index} is {found}, and must be {expected}")]
+    Ends {
+        /// Index of the node.
+        index: usize,
+        /// Where it is.
+        found: f64,
+        /// Where it has to be.
+        expected: f64,
+    },
+    /// Two neighbours are not in increasing order, or not finite.
+    #[error("nodes {} and {index} are {previous} and {found}: nodes must increase strictly", index - 1)]
+    NotIncreasing {
+        /// Index of the second of the two nodes.
+        index: usize,
+        /// The node before it.
+        previous: f64,
+        /// The node.
+        found: f64,
+    },
+}
+
+/// Nodes 0 = x_0 < x_1 < ... < x_n = 1 of n elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    nodes: Vec<f64>,
+}
+
+impl Mesh {
+    /// n elements of equal length.
+    pub fn uniform(elements: usize) -> Result<Self, MeshError> {
+        Self::mapped(elements, |s| s)
+    }
+
+    /// Nodes `map(i / n)`; `map` must increase strictly from 0 to 1.
+    ///
+    /// Both ends are set to 0 and 1 exactly where the map meets them up to round-off.
+    pub fn mapped(elements: usize, map: impl Fn(f64) -> f64) -> Result<Self, MeshError> {
+        if elements == 0 {
+            return Err(MeshError::TooFew { elements });
+        }
+        let mut nodes: Vec<f64> = (0..=elements).map(|i| map(i as f64 / elements as f64)).collect();
+        // A map such as s + sin(2 pi s)/10 misses the ends by a rounding error or two.
+        let slack = 8.0 * f64::EPSILON;
+        for (index, end) in [(0, 0.0), (elements, 1.0)] {
+            if (nodes[index] - end).abs() <= slack {
+                nodes[index] = end;
+            }
+        }
+        Self::from_nodes(nodes)
+    }
+
+    /// The mesh with the given nodes, which must increase strictly from 0 to 1.
+    pub fn from_nodes(nodes: Vec<f64>) -> Result<Self, MeshError> {
+        if nodes.len() < 2 {
+            return Err(MeshError::TooFew { elements: nodes.len().saturating_sub(1) });
+        }
+        let last = nodes.len() - 1;
+        for (index, expected) in [(0, 0.0), (last, 1.0)] {
+            if nodes[index] != expected {
+                return Err(MeshError::Ends { index, found: nodes[index], expected });
+            }
+        }
+        for index in 1..nodes.len() {
+            let (previous, found) = (nodes[index - 1], nodes[index]);
+            // NaN compares false with everything, so `previous < found` refuses it too.
+            if !(previous < found) {
+                return Err(MeshError::NotIncreasing { index, previous, found });
+            }
+        }
+        Ok(Self { nodes })
+    }
+
+    /// Number of elements n.
+    pub fn elements(&self) -> usize {
+        self.nodes.len() - 1
+    }
+
+    /// The n + 1 nodes.
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// Length of each element, h_i = x_i - x_{i-1} for i = 1..n.
+    pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        self.nodes.windows(2).map(|pair| pair[1] - pair[0])
+    }
+
+    /// The mesh size h, the largest element.
+    pub fn size(&self) -> f64 {
+        self.lengths().fold(0.0, f64::max)
+    }
+}

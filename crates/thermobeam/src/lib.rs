@@ -2,3 +2,5 @@
 
 pub mod mesh;
 pub mod parameters;
+pub mod scheme;
+pub mod solve;

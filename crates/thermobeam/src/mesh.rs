@@ -76,8 +76,8 @@ impl Mesh {
         }
         for index in 1..nodes.len() {
             let (previous, found) = (nodes[index - 1], nodes[index]);
-            // NaN compares false with everything, so `previous < found` refuses it too.
-            if !(previous < found) {
+            // No order at all, as with a NaN, is refused too.
+            if previous.partial_cmp(&found) != Some(std::cmp::Ordering::Less) {
                 return Err(MeshError::NotIncreasing { index, previous, found });
             }
         }

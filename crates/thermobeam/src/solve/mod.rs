@@ -1,5 +1,10 @@
 //! How the nonlinear system of a step is solved.
 
+pub(crate) mod fixed_point;
+pub(crate) mod newton;
+mod root;
+pub(crate) mod sweeps;
+
 /// The method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Solver {
@@ -31,10 +36,71 @@ pub struct Settings {
     pub tolerance: f64,
     /// Iterations after which a step is given up.
     pub max_iterations: usize,
+    /// Where Newton's iteration starts. The fixed point always starts from (4.1).
+    pub start: Start,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { solver: Solver::Newton, tolerance: 1e-10, max_iterations: 100 }
+        Self { solver: Solver::Newton, tolerance: 1e-10, max_iterations: 100, start: Start::Extrapolated }
+    }
+}
+
+/// Where Newton's iteration starts; it changes the number of passes, not the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Start {
+    /// Velocities and axial force extrapolated from the last three levels.
+    #[default]
+    Extrapolated,
+    /// The level before, as (4.1) has it.
+    Previous,
+}
+
+/// What a step took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport {
+    /// Iterations, each at least one solve of the linear system.
+    pub iterations: usize,
+    /// Fixed point: the last increment. Newton: a bound on the increment that one more iteration would bring.
+    pub increment: f64,
+    /// Fixed point: ratio of the last two increments, where there were two.
+    pub contraction: Option<f64>,
+}
+
+/// Counts of the work done: exact where times are noisy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Solves of the whole step's linear system: a pass of Newton's method, an iteration of the fixed point.
+    pub passes: usize,
+    /// Factorisations of that system, or of the displacement's part in the fixed point.
+    pub factorizations: usize,
+    /// Evaluations of the loads.
+    pub loads: usize,
+    /// Levels handed to an observer.
+    pub observations: usize,
+}
+
+/// The discrete solution at one time level: n + 1 nodal values of each field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Displacement u.
+    pub u: Vec<f64>,
+    /// Its velocity û.
+    pub v: Vec<f64>,
+    /// Rotation φ.
+    pub phi: Vec<f64>,
+    /// Its velocity φ̂.
+    pub w: Vec<f64>,
+    /// Lifted temperature θ~ = θ - θ_A (1 - x).
+    pub theta: Vec<f64>,
+    /// The contact force of the step that led here: g(u(1)), or its discrete gradient in the `midpoint` scheme.
+    pub contact_force: f64,
+}
+
+impl Level {
+    /// A level of zeros with so many nodes.
+    pub fn new(nodes: usize) -> Self {
+        let zeros = || vec![0.0; nodes];
+        Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
     }
 }

@@ -1,0 +1,215 @@
+//! Symmetric block tridiagonal factorisation without pivoting, one block a node.
+//!
+//! `S_1 = D_1`, `S_i = D_i - O_i S_{i-1}⁻¹ O_iᵀ`; a solve is `y_i = r_i - G_i y_{i-1}` forward with
+//! `G_i = O_i S_{i-1}⁻¹`, then `x_i = S_i⁻¹ y_i - G_{i+1}ᵀ x_{i+1}` backward. Pivots need no exchange because the matrix
+//! is quasi-definite: its displacement part is positive definite, its temperature part negative definite. A pivot of
+//! the wrong sign is therefore a finding (the beam is beyond its buckling force), not an accident of the order.
+
+use crate::error::StepFailure;
+use crate::lanes::Lane;
+
+/// A block, row by row.
+pub(crate) type Block<T, const B: usize> = [[T; B]; B];
+
+/// What a solve needs at one node.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node<T, const B: usize> {
+    /// `G_i = O_i S_{i-1}⁻¹`, zero at the first node.
+    pub(crate) multiplier: Block<T, B>,
+    /// `S_i⁻¹`, symmetric.
+    pub(crate) inverse: Block<T, B>,
+}
+
+/// The factorisation, a [`Node`] for each unknown node 1..n; entry 0 is unused.
+#[derive(Debug, Clone)]
+pub(crate) struct Factor<T, const B: usize> {
+    pub(crate) nodes: Vec<Node<T, B>>,
+}
+
+/// `matrix * vector`.
+#[inline(always)]
+pub(crate) fn times<T: Lane, const B: usize>(matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
+    std::array::from_fn(|row| {
+        let mut sum = matrix[row][0] * vector[0];
+        for column in 1..B {
+            sum = matrix[row][column].mul_add(vector[column], sum);
+        }
+        sum
+    })
+}
+
+/// `start - matrix * vector`.
+#[inline(always)]
+pub(crate) fn minus_times<T: Lane, const B: usize>(start: [T; B], matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
+    std::array::from_fn(|row| {
+        let mut sum = start[row];
+        for column in 0..B {
+            sum = (-matrix[row][column]).mul_add(vector[column], sum);
+        }
+        sum
+    })
+}
+
+/// `start - matrixᵀ * vector`.
+#[inline(always)]
+pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
+    start: [T; B],
+    matrix: &Block<T, B>,
+    vector: [T; B],
+) -> [T; B] {
+    std::array::from_fn(|row| {
+        let mut sum = start[row];
+        for column in 0..B {
+            sum = (-matrix[column][row]).mul_add(vector[column], sum);
+        }
+        sum
+    })
+}
+
+/// Inverse of a symmetric block by Gauss-Jordan elimination on the diagonal, with the pivots met.
+///
+/// Pivot k must have the sign of `signs[k]`; the first that has not is returned as an error (NaN included).
+fn invert<const B: usize>(mut block: Block<f64, B>, signs: [f64; B]) -> Result<Block<f64, B>, f64> {
+    for k in 0..B {
+        let pivot = block[k][k];
+        // NaN fails this comparison, and so does a pivot of the wrong sign.
+        if !(pivot * signs[k] > 0.0) {
+            return Err(pivot);
+        }
+        let scale = 1.0 / pivot;
+        block[k][k] = 1.0;
+        for column in 0..B {
+            block[k][column] *= scale;
+        }
+        for row in (0..B).filter(|&row| row != k) {
+            let factor = block[row][k];
+            block[row][k] = 0.0;
+            for column in 0..B {
+                block[row][column] -= factor * block[k][column];
+            }
+        }
+    }
+    Ok(block)
+}
+
+/// The signs of the pivots of displacement, rotation and temperature.
+fn signs<const B: usize>() -> [f64; B] {
+    std::array::from_fn(|k| if k == 2 { -1.0 } else { 1.0 })
+}
+
+impl<T: Lane, const B: usize> Factor<T, B> {
+    /// Room for n elements.
+    pub(crate) fn new(elements: usize) -> Self {
+        let zero = [[T::splat(0.0); B]; B];
+        Self { nodes: vec![Node { multiplier: zero, inverse: zero }; elements + 1] }
+    }
+
+    /// Factorises the matrix of case `lane`; `blocks(i)` gives `(O_i, D_i)` for node i = 1..n.
+    ///
+    /// # Errors
+    /// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then unusable.
+    pub(crate) fn factorize(
+        &mut self,
+        lane: usize,
+        n_value: f64,
+        mut blocks: impl FnMut(usize) -> (Block<f64, B>, Block<f64, B>),
+    ) -> Result<(), StepFailure> {
+        let mut inverse = [[0.0; B]; B];
+        for (node, stored) in self.nodes.iter_mut().enumerate().skip(1) {
+            let (lower, mut pivot_block) = blocks(node);
+            // At the first node `inverse` is zero: its left neighbour is clamped.
+            let mut multiplier = [[0.0; B]; B];
+            for row in 0..B {
+                for column in 0..B {
+                    multiplier[row][column] = (0..B).map(|k| lower[row][k] * inverse[k][column]).sum();
+                }
+            }
+            for row in 0..B {
+                for column in 0..B {
+                    let update: f64 = (0..B).map(|k| multiplier[row][k] * lower[column][k]).sum();
+                    pivot_block[row][column] -= update;
+                }
+            }
+            inverse = invert(pivot_block, signs()).map_err(|pivot| StepFailure::Indefinite { node, pivot, n_value })?;
+            for row in 0..B {
+                for column in 0..B {
+                    stored.multiplier[row][column].set_lane(lane, multiplier[row][column]);
+                    stored.inverse[row][column].set_lane(lane, inverse[row][column]);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    const N: usize = 5;
+
+    /// A random symmetric quasi-definite block tridiagonal matrix: diagonally dominant, signs as in a step.
+    fn blocks(seed: &[f64]) -> impl Fn(usize) -> (Block<f64, 3>, Block<f64, 3>) + '_ {
+        move |node| {
+            let at = |k: usize| seed[(node * 15 + k) % seed.len()];
+            let lower = std::array::from_fn(|row| std::array::from_fn(|column| at(3 * row + column)));
+            let mut diagonal = [[0.0; 3]; 3];
+            for row in 0..3 {
+                for column in 0..3 {
+                    diagonal[row][column] = at(9 + row + column);
+                }
+                diagonal[row][row] = signs::<3>()[row] * (12.0 + at(row).abs());
+            }
+            (lower, diagonal)
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_solve_agrees_with_a_dense_one(seed in proptest::collection::vec(-1.0..1.0f64, 80)) {
+            let blocks = blocks(&seed);
+            let mut dense = DMatrix::zeros(3 * N, 3 * N);
+            for node in 1..=N {
+                let (lower, diagonal) = blocks(node);
+                for row in 0..3 {
+                    for column in 0..3 {
+                        dense[(3 * node - 3 + row, 3 * node - 3 + column)] = diagonal[row][column];
+                        if node > 1 {
+                            dense[(3 * node - 3 + row, 3 * node - 6 + column)] = lower[row][column];
+                            dense[(3 * node - 6 + column, 3 * node - 3 + row)] = lower[row][column];
+                        }
+                    }
+                }
+            }
+            let right = DVector::from_fn(3 * N, |i, _| seed[i]);
+            let expected = dense.lu().solve(&right).unwrap();
+            let mut factor = Factor::<f64, 3>::new(N);
+            factor.factorize(0, 0.0, &blocks).unwrap();
+            let mut x = vec![[0.0; 3]; N + 2];
+            let mut y = [0.0; 3];
+            for node in 1..=N {
+                let r = std::array::from_fn(|k| right[3 * node - 3 + k]);
+                y = minus_times(r, &factor.nodes[node].multiplier, y);
+                x[node] = times(&factor.nodes[node].inverse, y);
+            }
+            for node in (1..N).rev() {
+                x[node] = minus_transpose_times(x[node], &factor.nodes[node + 1].multiplier, x[node + 1]);
+            }
+            for i in 0..3 * N {
+                prop_assert!((x[i / 3 + 1][i % 3] - expected[i]).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pivot_of_the_wrong_sign_is_reported_with_its_node() {
+        let mut factor = Factor::<f64, 2>::new(3);
+        let failure = factor.factorize(0, -0.9, |node| {
+            let d = if node == 3 { -1.0 } else { 1.0 };
+            ([[0.0; 2]; 2], [[d, 0.0], [0.0, 1.0]])
+        });
+        assert_eq!(failure, Err(StepFailure::Indefinite { node: 3, pivot: -1.0, n_value: -0.9 }));
+    }
+}

@@ -1,0 +1,167 @@
+//! The contact law at the free end: its force g, its energy G, and the tip equation in closed form.
+//!
+//! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, so that G' = g (the paper's
+//! definitions after (2.3) and (2.5)).
+//!
+//! A step reduces to one scalar equation at the tip, `u + c F(u) = r`, in which r is where the tip would go without
+//! obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is piecewise linear for the
+//! implicit rule and a quotient of quadratics for the discrete gradient; it never decreases, so the root is unique and
+//! lies in the piece which r selects. No iteration, whatever ε.
+
+use crate::parameters::Obstacles;
+use crate::scheme::ContactRule;
+
+/// Tip displacement and contact force at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// u(1).
+    pub u: f64,
+    /// The force F, positive when the upper obstacle pushes down.
+    pub force: f64,
+    /// dF/du(1), for the tangent of Newton's method.
+    pub stiffness: f64,
+}
+
+impl Obstacles {
+    /// Contact force g(u(1)); it enters (1.3) as σ(1, t) = -g.
+    pub fn force(&self, u: f64) -> f64 {
+        self.depth(u) / self.epsilon
+    }
+
+    /// Contact energy G(u(1)) of (2.5).
+    pub fn potential(&self, u: f64) -> f64 {
+        let depth = self.depth(u);
+        0.5 * depth * depth / self.epsilon
+    }
+
+    /// How far the tip is beyond an obstacle: positive above g2, negative below g1, NaN kept.
+    fn depth(&self, u: f64) -> f64 {
+        if u > self.g2 {
+            u - self.g2
+        } else if u < self.g1 {
+            u - self.g1
+        } else {
+            0.0 * u
+        }
+    }
+
+    /// The discrete gradient `(G(u) - G(u0))/(u - u0)`, without cancellation; g(u) where u = u0.
+    pub fn discrete_gradient(&self, u: f64, u0: f64) -> f64 {
+        let side = |depth: f64, depth0: f64| match (depth > 0.0, depth0 > 0.0) {
+            (true, true) => 0.5 * (depth + depth0) / self.epsilon,
+            // From here on u and u0 lie on different sides of the obstacle, so the difference is not zero.
+            (true, false) => 0.5 * depth * depth / (self.epsilon * (u - u0).abs()),
+            (false, true) => 0.5 * depth0 * depth0 / (self.epsilon * (u - u0).abs()),
+            (false, false) => 0.0 * (depth + depth0),
+        };
+        side(u - self.g2, u0 - self.g2) - side(self.g1 - u, self.g1 - u0)
+    }
+
+    /// Solves `u + c F(u) = r` for the rule's force F; `u0` is the tip at the start of the step.
+    pub fn solve_tip(&self, rule: ContactRule, r: f64, c: f64, u0: f64) -> Tip {
+        match rule {
+            ContactRule::Implicit => self.solve_implicit(r, c),
+            ContactRule::DiscreteGradient => self.solve_gradient(r, c, u0),
+        }
+    }
+
+    /// F = g: beyond an obstacle at γ, `u - γ = (r - γ)/(1 + c/ε)`.
+    fn solve_implicit(&self, r: f64, c: f64) -> Tip {
+        let wall = if r > self.g2 {
+            self.g2
+        } else if r < self.g1 {
+            self.g1
+        } else {
+            return Tip { u: r, force: 0.0 * r, stiffness: 0.0 };
+        };
+        // Written with ε + c so that the force keeps all its digits for stiff obstacles.
+        let force = (r - wall) / (self.epsilon + c);
+        Tip { u: wall + self.epsilon * force, force, stiffness: 1.0 / self.epsilon }
+    }
+
+    /// F = discrete gradient: the piece is found from the left-hand side at both obstacles.
+    fn solve_gradient(&self, r: f64, c: f64, u0: f64) -> Tip {
+        let mirrored = Obstacles { epsilon: self.epsilon, g1: -self.g2, g2: -self.g1 };
+        let flip = |tip: Tip| Tip { u: -tip.u, force: -tip.force, stiffness: tip.stiffness };
+        if r >= self.g2 + c * self.discrete_gradient(self.g2, u0) {
+            self.solve_above(r, c, u0)
+        } else if r <= self.g1 + c * self.discrete_gradient(self.g1, u0) {
+            flip(mirrored.solve_above(-r, c, -u0))
+        } else if u0 > self.g2 {
+            self.solve_leaving(r, c, u0)
+        } else if u0 < self.g1 {
+            flip(mirrored.solve_leaving(-r, c, -u0))
+        } else {
+            Tip { u: r, force: 0.0 * r, stiffness: 0.0 }
+        }
+    }
+
+    /// The tip ends above g2, at depth p >= 0.
+    fn solve_above(&self, r: f64, c: f64, u0: f64) -> Tip {
+        let double = 2.0 * self.epsilon;
+        let p0 = u0 - self.g2;
+        if p0 >= 0.0 {
+            // Above before and after: F = (p + p0)/(2ε), linear in p.
+            let force = (r - self.g2 + p0) / (double + c);
+            return Tip { u: self.g2 + (double * force - p0), force, stiffness: 1.0 / double };
+        }
+        // Coming from d = -p0 below: F = (p²/(2ε) - G0)/(p + d), with G0 > 0 only where u0 was below g1. Hence
+        // (1 + c/(2ε)) p² + (d - s) p - (s d + c G0) = 0 with s = r - g2, and its root p >= 0.
+        let (d, s, g0) = (-p0, r - self.g2, self.potential(u0));
+        let p = positive_root(1.0 + c / double, d - s, (s * d + c * g0).max(0.0));
+        let force = (p * p / double - g0) / (p + d);
+        Tip { u: self.g2 + p, force, stiffness: (p / self.epsilon - force) / (p + d) }
+    }
+
+    /// The tip was above g2 and ends between the obstacles, d below where it was: F = G0/d, d² - (u0 - r) d = c G0.
+    fn solve_leaving(&self, r: f64, c: f64, u0: f64) -> Tip {
+        let g0 = self.potential(u0);
+        let d = positive_root(1.0, r - u0, c * g0);
+        let force = g0 / d;
+        Tip { u: u0 - d, force, stiffness: force / d }
+    }
+}
+
+/// The root x >= 0 of `a x² + b x - c = 0` for a > 0, c >= 0, without cancellation.
+fn positive_root(a: f64, b: f64, c: f64) -> f64 {
+    let root = (b * b + 4.0 * a * c).sqrt();
+    if b > 0.0 { 2.0 * c / (b + root) } else { (root - b) / (2.0 * a) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_tip_equation_is_solved_whatever_the_start(
+            r in -0.5..0.5f64, c in 1e-8..1.0f64, u0 in -0.3..0.3f64, log_epsilon in -8.0..0.0f64, gradient: bool,
+        ) {
+            let obstacles = Obstacles { epsilon: 10f64.powf(log_epsilon), ..Obstacles::default() };
+            let rule = if gradient { ContactRule::DiscreteGradient } else { ContactRule::Implicit };
+            let tip = obstacles.solve_tip(rule, r, c, u0);
+            // The equation itself, with the force that was returned.
+            prop_assert!((tip.u + c * tip.force - r).abs() <= 1e-14 * (1.0 + c * tip.force.abs()));
+            // The force is that of the law, up to the digits that u(1) - g2 has lost.
+            let law = if gradient { obstacles.discrete_gradient(tip.u, u0) } else { obstacles.force(tip.u) };
+            let lost = 1e-16 / obstacles.epsilon * (1.0 + tip.force.abs() * obstacles.epsilon / (tip.u - u0).abs().max(1e-12));
+            prop_assert!((law - tip.force).abs() <= 1e-12 * tip.force.abs() + 4.0 * lost, "{} {}", law, tip.force);
+        }
+
+        #[test]
+        fn the_discrete_gradient_is_the_difference_quotient(u in -0.3..0.3f64, u0 in -0.3..0.3f64) {
+            let obstacles = Obstacles::default();
+            let work = obstacles.discrete_gradient(u, u0) * (u - u0);
+            let energy = obstacles.potential(u) - obstacles.potential(u0);
+            prop_assert!((work - energy).abs() <= 1e-12 * (1.0 + energy.abs()));
+        }
+    }
+
+    #[test]
+    fn a_tip_that_is_not_a_number_stays_visible() {
+        let tip = Obstacles::default().solve_tip(ContactRule::Implicit, f64::NAN, 1.0, 0.0);
+        assert!(tip.u.is_nan() && tip.force.is_nan());
+        assert!(Obstacles::default().force(f64::NAN).is_nan());
+    }
+}

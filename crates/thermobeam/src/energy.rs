@@ -1,0 +1,163 @@
+//! The discrete energy (3.9) and its exact balance, term by term.
+//!
+//! For an exactly solved step without loads
+//!
+//! ```text
+//! E^n - E^{n-1} + dt ζ (‖V_x - W‖² + ‖W_x‖²) + dt ‖θ~_x‖²(n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
+//! gap = F (u(1) - u0(1)) - (G(u(1)) - G(u0(1))) >= 0,
+//! ```
+//!
+//! V and W being the velocities that carry the step and F its contact force. It is obtained from (3.7) with the test
+//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, but with every inequality kept as an
+//! equation. In the `midpoint` scheme the third term and the gap vanish. With θ_A ≠ 0 the energy is that of the lifted
+//! temperature plus `-a θ_A ∫φ`, which is what makes it fall.
+//!
+//! Monotony can hold by luck; this balance to round-off cannot.
+
+use crate::norms::{element_product, l2_squared, shear_squared, slope_squared};
+use crate::parameters::{Beam, Obstacles};
+use crate::scheme::Scheme;
+use crate::solve::Level;
+
+/// The terms of E^n, (3.9).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy {
+    /// ½ (‖û‖² + ‖φ̂‖²).
+    pub kinetic: f64,
+    /// ½ ‖u_x - φ‖².
+    pub shear: f64,
+    /// ½ ‖φ_x‖².
+    pub bending: f64,
+    /// ½ ‖θ~‖².
+    pub thermal: f64,
+    /// N(u)²/(4ρ), or β/2 ‖u_x‖² where ρ = 0.
+    pub kirchhoff: f64,
+    /// G(u)(1).
+    pub contact: f64,
+    /// -a θ_A ∫φ.
+    pub lifting: f64,
+}
+
+impl Energy {
+    /// Of a level; `lengths` are the elements' lengths.
+    pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> Self {
+        let tip = level.u[level.u.len() - 1];
+        Self {
+            kinetic: 0.5 * (l2_squared(lengths, &level.v) + l2_squared(lengths, &level.w)),
+            shear: 0.5 * shear_squared(lengths, &level.u, &level.phi),
+            bending: 0.5 * slope_squared(lengths, &level.phi),
+            thermal: 0.5 * l2_squared(lengths, &level.theta),
+            kirchhoff: beam.kirchhoff_energy(slope_squared(lengths, &level.u)),
+            contact: obstacles.map_or(0.0, |obstacles| obstacles.potential(tip)),
+            lifting: -beam.a * beam.theta_a * mean(lengths, &level.phi),
+        }
+    }
+
+    /// E^n.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.shear + self.bending + self.thermal + self.kirchhoff + self.contact + self.lifting
+    }
+}
+
+/// ∫ y of a P1 function.
+fn mean(lengths: &[f64], y: &[f64]) -> f64 {
+    lengths.iter().zip(y.windows(2)).map(|(h, y)| 0.5 * h * (y[0] + y[1])).sum()
+}
+
+/// The balance of one step; the terms add up to `residual`, round-off for an exactly solved step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// E^n - E^{n-1}, from the differences of the fields: no digits are lost to the size of E.
+    pub change: f64,
+    /// dt ζ (‖V_x - W‖² + ‖W_x‖²).
+    pub viscous: f64,
+    /// dt ‖θ~_x‖² at n-½.
+    pub thermal: f64,
+    /// ½ (‖v - v0‖² + ‖w - w0‖²): what backward Euler takes.
+    pub inertial: f64,
+    /// The contact's gap.
+    pub contact: f64,
+    /// The sum of the five.
+    pub residual: f64,
+}
+
+impl Balance {
+    /// Of the step from `old` to `new` by `scheme` with step `dt`.
+    pub fn of(
+        beam: &Beam,
+        obstacles: Option<&Obstacles>,
+        scheme: &Scheme,
+        dt: f64,
+        lengths: &[f64],
+        old: &Level,
+        new: &Level,
+    ) -> Self {
+        let mut sums = Sums::default();
+        for (i, &h) in lengths.iter().enumerate() {
+            sums.add_element(h, 1.0 / scheme.inertia, [i, i + 1], old, new);
+        }
+        let tip = new.u.len() - 1;
+        let (u, u0) = (new.u[tip], old.u[tip]);
+        let (mut contact_change, mut gap) = (0.0, 0.0);
+        if let Some(obstacles) = obstacles {
+            contact_change = obstacles.discrete_gradient(u, u0) * (u - u0);
+            gap = new.contact_force * (u - u0) - contact_change;
+        }
+        let change = sums.quadratic
+            + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0])
+            + contact_change
+            - beam.a * beam.theta_a * sums.rotation_change;
+        let viscous = dt * beam.zeta * sums.viscous;
+        let thermal = dt * sums.heat_flow;
+        // Backward Euler loses (2 - inertia)/2 of the squared jump: all of it, or nothing for the midpoint rule.
+        let inertial = 0.5 * (2.0 - scheme.inertia) * sums.jump;
+        Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
+    }
+}
+
+/// Sums over the elements.
+#[derive(Default)]
+struct Sums {
+    /// ½ of the differences of ‖v‖², ‖w‖², ‖u_x - φ‖², ‖φ_x‖², ‖θ~‖².
+    quadratic: f64,
+    /// ‖u_x‖², old and new.
+    slope_squared: [f64; 2],
+    /// ∫ φ - φ0.
+    rotation_change: f64,
+    /// ‖V_x - W‖² + ‖W_x‖².
+    viscous: f64,
+    /// ‖θ~_x‖² at n-½.
+    heat_flow: f64,
+    /// ‖v - v0‖² + ‖w - w0‖².
+    jump: f64,
+}
+
+impl Sums {
+    fn add_element(&mut self, h: f64, weight: f64, ends: [usize; 2], old: &Level, new: &Level) {
+        let pick = |y: &[f64]| [y[ends[0]], y[ends[1]]];
+        let mean = |y: &[f64], y0: &[f64]| ends.map(|i| 0.5 * (y[i] + y0[i]));
+        let jump = |y: &[f64], y0: &[f64]| ends.map(|i| y[i] - y0[i]);
+        // ½(‖y‖² - ‖y0‖²) = (mean, jump): no cancellation.
+        for (y, y0) in [(&new.v, &old.v), (&new.w, &old.w), (&new.theta, &old.theta)] {
+            self.quadratic += element_product(h, mean(y, y0), jump(y, y0));
+        }
+        for (y, y0) in [(&new.v, &old.v), (&new.w, &old.w)] {
+            self.jump += element_product(h, jump(y, y0), jump(y, y0));
+        }
+        let slope = |y: [f64; 2]| (y[1] - y[0]) / h;
+        let shear = |u: [f64; 2], phi: [f64; 2]| phi.map(|phi| slope(u) - phi);
+        let mean_shear = shear(mean(&new.u, &old.u), mean(&new.phi, &old.phi));
+        let (du, dphi) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
+        self.quadratic += element_product(h, mean_shear, shear(du, dphi));
+        self.quadratic += h * slope(mean(&new.phi, &old.phi)) * slope(dphi);
+        self.rotation_change += 0.5 * h * (dphi[0] + dphi[1]);
+        for (sum, u) in self.slope_squared.iter_mut().zip([&old.u, &new.u]) {
+            *sum += h * slope(pick(u)) * slope(pick(u));
+        }
+        let carrying = |y: &[f64], y0: &[f64]| ends.map(|i| weight * y[i] + (1.0 - weight) * y0[i]);
+        let (v, w) = (carrying(&new.v, &old.v), carrying(&new.w, &old.w));
+        self.viscous += element_product(h, shear(v, w), shear(v, w)) + h * slope(w) * slope(w);
+        let theta = slope(mean(&new.theta, &old.theta));
+        self.heat_flow += h * theta * theta;
+    }
+}

@@ -1,0 +1,116 @@
+//! Numbers that a time step is computed in: one case (`f64`) or several side by side ([`Lanes`]).
+//!
+//! Lanes never mix: the operations of lane k are those of a run of case k alone, in the same order, so that both give
+//! the same bits.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// `a * b + c`, rounded once where the machine can, twice elsewhere.
+///
+/// `f64::mul_add` without the instruction is a library call, a hundred times slower.
+#[inline(always)]
+pub(crate) fn fma(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// A number of each of `WIDTH` cases.
+pub trait Lane:
+    Copy + std::fmt::Debug + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// Number of cases.
+    const WIDTH: usize;
+    /// The same value for every case.
+    fn splat(value: f64) -> Self;
+    /// The value of each case.
+    fn from_fn(value: impl FnMut(usize) -> f64) -> Self;
+    /// The value of case k < WIDTH.
+    fn lane(&self, k: usize) -> f64;
+    /// Sets the value of case k < WIDTH.
+    fn set_lane(&mut self, k: usize, value: f64);
+    /// `self * factor + addend`.
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
+}
+
+impl Lane for f64 {
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
+        value(0)
+    }
+    #[inline(always)]
+    fn lane(&self, _: usize) -> f64 {
+        *self
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, _: usize, value: f64) {
+        *self = value;
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        fma(self, factor, addend)
+    }
+}
+
+/// W cases side by side; the compiler turns the loops over W into vector instructions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lanes<const W: usize>([f64; W]);
+
+impl<const W: usize> Lane for Lanes<W> {
+    const WIDTH: usize = W;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; W])
+    }
+    #[inline(always)]
+    fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+    #[inline(always)]
+    fn lane(&self, k: usize) -> f64 {
+        self.0[k]
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, k: usize, value: f64) {
+        self.0[k] = value;
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(std::array::from_fn(|k| fma(self.0[k], factor.0[k], addend.0[k])))
+    }
+}
+
+impl<const W: usize> Add for Lanes<W> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl<const W: usize> Sub for Lanes<W> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+impl<const W: usize> Mul for Lanes<W> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
+    }
+}
+
+impl<const W: usize> Neg for Lanes<W> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(std::array::from_fn(|k| -self.0[k]))
+    }
+}

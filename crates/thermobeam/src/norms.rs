@@ -1,0 +1,79 @@
+//! Exact norms of P1 functions from their nodal values.
+
+/// `∫ p q` over an element of length h, for p and q linear with the given values at its ends.
+#[inline]
+pub fn element_product(h: f64, p: [f64; 2], q: [f64; 2]) -> f64 {
+    h / 6.0 * (p[0] * (2.0 * q[0] + q[1]) + p[1] * (q[0] + 2.0 * q[1]))
+}
+
+/// `‖y‖²` of a P1 function.
+pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
+    lengths.iter().zip(y.windows(2)).map(|(&h, y)| element_product(h, [y[0], y[1]], [y[0], y[1]])).sum()
+}
+
+/// `‖y_x‖²` of a P1 function.
+pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
+    lengths.iter().zip(y.windows(2)).map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h).sum()
+}
+
+/// `‖u_x - φ‖²` of two P1 functions.
+pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
+    lengths
+        .iter()
+        .zip(u.windows(2).zip(phi.windows(2)))
+        .map(|(&h, (u, phi))| {
+            let slope = (u[1] - u[0]) / h;
+            let shear = [slope - phi[0], slope - phi[1]];
+            element_product(h, shear, shear)
+        })
+        .sum()
+}
+
+/// The five squares of Theorem 3.4's left-hand side, in its order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TheoremSquares {
+    /// ‖û‖².
+    pub velocity: f64,
+    /// ‖u_x - φ‖².
+    pub shear: f64,
+    /// ‖φ̂‖².
+    pub rotation_rate: f64,
+    /// ‖φ_x‖².
+    pub curvature: f64,
+    /// ‖θ‖².
+    pub temperature: f64,
+}
+
+impl TheoremSquares {
+    /// Of P1 functions with the given nodal values.
+    pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
+        Self {
+            velocity: l2_squared(lengths, v),
+            shear: shear_squared(lengths, u, phi),
+            rotation_rate: l2_squared(lengths, w),
+            curvature: slope_squared(lengths, phi),
+            temperature: l2_squared(lengths, theta),
+        }
+    }
+
+    /// Root of the sum: the norm in which (3.14) is stated.
+    pub fn norm(&self) -> f64 {
+        (self.velocity + self.shear + self.rotation_rate + self.curvature + self.temperature).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_of_linear_functions_are_exact() {
+        let lengths = [0.1, 0.4, 0.5];
+        let nodes = [0.0, 0.1, 0.5, 1.0];
+        let line = nodes.map(|x| 3.0 * x);
+        assert!((l2_squared(&lengths, &line) - 3.0).abs() < 1e-15);
+        assert!((slope_squared(&lengths, &line) - 9.0).abs() < 1e-14);
+        // ∫ (3 - x)² = 19/3
+        assert!((shear_squared(&lengths, &line, &nodes) - 19.0 / 3.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,252 @@
+//! The paper's fixed point (4.1)-(4.5), with its lagging, its order θ, φ, u, and its start.
+//!
+//! One iteration solves three scalar systems. In the notation of `sweeps.rs`, with the last iterate marked by ⁻:
+//!
+//! ```text
+//! (2/dt M + K) Θ         = 2/dt M θ~0 - a Cᵀ W⁻ + F_θ
+//! ((κ + s) M + s K) W    = κ M w0 - (K + M) φ0 + Cᵀ(u½⁻ + ζ V⁻) + a C Θ + a θ_A C (1 - x) + F_φ
+//! (κ M + (ζ + (1 + m⁻) dt/2) K) V = κ M v0 - (1 + m⁻) K u0 + C (φ0 + s W) - F(u⁻(1)) e + F_u
+//! ```
+//!
+//! The increment is measured in the norm of Theorem 3.4's left-hand side. While the tip is in contact an error shrinks by
+//! `α = dt/ε [A_u⁻¹]_nn` per iteration, because the contact force lags: past α = 1 the iteration diverges.
+
+use crate::error::StepFailure;
+use crate::norms::TheoremSquares;
+use crate::norms::slope_squared;
+use crate::scheme::{ContactRule, Scheme};
+use crate::solve::newton::Case;
+use crate::solve::{Level, Settings, StepReport, Work};
+use crate::tridiagonal::TridiagonalFactor;
+
+/// The stepper.
+pub(crate) struct FixedPoint {
+    case: Case,
+    scheme: Scheme,
+    settings: Settings,
+    old: Level,
+    /// V, W, Θ of this iterate and of the one before.
+    now: Iterate,
+    before: Iterate,
+    /// u^{n,l-1}: at first u^{n-1} itself, by (4.1).
+    u_before: Vec<f64>,
+    force: f64,
+    load: Vec<[f64; 3]>,
+    factor_u: TridiagonalFactor,
+    factor_phi: TridiagonalFactor,
+    factor_theta: TridiagonalFactor,
+    /// Differences of two iterates, for the increment.
+    difference: [Vec<f64>; 5],
+    work: Work,
+}
+
+/// The unknowns of a step.
+#[derive(Clone)]
+struct Iterate {
+    v: Vec<f64>,
+    w: Vec<f64>,
+    theta: Vec<f64>,
+}
+
+impl FixedPoint {
+    pub(crate) fn new(case: Case, scheme: Scheme, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
+        let n = case.lengths.len();
+        let (kappa, s) = (scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
+        let mut factor_phi = TridiagonalFactor::new(n);
+        factor_phi.factorize(&case.lengths, n, kappa + s, s, 0.0)?;
+        let mut factor_theta = TridiagonalFactor::new(n);
+        factor_theta.factorize(&case.lengths, n - 1, 2.0 / case.dt, 1.0, 0.0)?;
+        let iterate = Iterate { v: level.v.clone(), w: level.w.clone(), theta: level.theta.clone() };
+        Ok(Self {
+            scheme,
+            settings,
+            old: level.clone(),
+            now: iterate.clone(),
+            before: iterate,
+            u_before: level.u.clone(),
+            force: 0.0,
+            load: vec![],
+            factor_u: TridiagonalFactor::new(n),
+            factor_phi,
+            factor_theta,
+            difference: std::array::from_fn(|_| vec![0.0; n + 1]),
+            work: Work::default(),
+            case,
+        })
+    }
+
+    pub(crate) fn load_mut(&mut self) -> &mut [[f64; 3]] {
+        if self.load.is_empty() {
+            self.load = vec![[0.0; 3]; self.old.u.len()];
+        }
+        &mut self.load
+    }
+
+    /// Does one step; on failure the old level stays.
+    pub(crate) fn advance(&mut self) -> Result<StepReport, StepFailure> {
+        self.start();
+        let (mut increment, mut contraction) = (f64::NAN, f64::NAN);
+        for iteration in 1..=self.settings.max_iterations {
+            self.iterate()?;
+            let previous = increment;
+            increment = self.increment();
+            if !increment.is_finite() {
+                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
+            }
+            contraction = increment / previous;
+            if increment <= self.settings.tolerance {
+                self.commit();
+                let contraction = contraction.is_finite().then_some(contraction);
+                return Ok(StepReport { iterations: iteration, increment, contraction });
+            }
+            self.remember();
+        }
+        let iterations = self.settings.max_iterations;
+        // NaN (one iteration only) says nothing about divergence.
+        if contraction >= 1.0 {
+            Err(StepFailure::Diverged { iterations, increment, contraction })
+        } else {
+            Err(StepFailure::IterationLimit { iterations, increment, contraction })
+        }
+    }
+
+    /// (4.1): the level before, for displacements and velocities alike.
+    fn start(&mut self) {
+        self.before.v.clone_from(&self.old.v);
+        self.before.w.clone_from(&self.old.w);
+        self.before.theta.clone_from(&self.old.theta);
+        self.u_before.clone_from(&self.old.u);
+    }
+
+    fn iterate(&mut self) -> Result<(), StepFailure> {
+        self.work.passes += 1;
+        self.solve_theta();
+        self.solve_phi();
+        self.solve_u()
+    }
+
+    fn solve_theta(&mut self) {
+        let (lengths, a, two_over_dt) = (&self.case.lengths, self.case.beam.a, 2.0 / self.case.dt);
+        let n = lengths.len();
+        let theta = &mut self.now.theta;
+        theta.fill(0.0);
+        for (i, h) in lengths.iter().enumerate() {
+            let (t, w) = (&self.old.theta[i..=i + 1], &self.before.w[i..=i + 1]);
+            let heating = 0.5 * a * (w[1] - w[0]);
+            let mass = two_over_dt * h / 6.0;
+            theta[i] += mass * (2.0 * t[0] + t[1]) - heating;
+            theta[i + 1] += mass * (t[0] + 2.0 * t[1]) - heating;
+        }
+        add_load(theta, &self.load, 2);
+        self.factor_theta.solve_in_place(n - 1, theta);
+        (theta[0], theta[n]) = (0.0, 0.0);
+    }
+
+    fn solve_phi(&mut self) {
+        let Case { beam, dt, lengths, .. } = &self.case;
+        let kappa = self.scheme.inertia / dt;
+        let w = &mut self.now.w;
+        w.fill(0.0);
+        for (i, &h) in lengths.iter().enumerate() {
+            let ends = [i, i + 1];
+            let phi = ends.map(|j| self.old.phi[j]);
+            let theta = ends.map(|j| self.now.theta[j]);
+            let slope = ends.map(|j| 0.5 * (self.old.u[j] + self.u_before[j]) + beam.zeta * self.before.v[j]);
+            let mass = ends.map(|j| kappa * self.old.w[j] - self.old.phi[j] + beam.a * beam.theta_a);
+            let shear = 0.5 * (slope[1] - slope[0]);
+            let moment = (phi[1] - phi[0]) / h - 0.5 * beam.a * (theta[0] + theta[1]);
+            w[i] += h / 6.0 * (2.0 * mass[0] + mass[1]) + shear + moment;
+            w[i + 1] += h / 6.0 * (mass[0] + 2.0 * mass[1]) + shear - moment;
+        }
+        add_load(w, &self.load, 1);
+        w[0] = 0.0;
+        self.factor_phi.solve_in_place(lengths.len(), w);
+    }
+
+    fn solve_u(&mut self) -> Result<(), StepFailure> {
+        let Case { beam, dt, lengths, obstacles } = &self.case;
+        let (n, kappa, s) = (lengths.len(), self.scheme.inertia / dt, beam.zeta + 0.5 * dt);
+        let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
+        let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
+        self.work.factorizations += 1;
+        self.factor_u.factorize(lengths, n, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;
+        let v = &mut self.now.v;
+        v.fill(0.0);
+        for (i, &h) in lengths.iter().enumerate() {
+            let ends = [i, i + 1];
+            let turn = ends.map(|j| self.old.phi[j] + s * self.now.w[j]);
+            let stress = (1.0 + m) * (self.old.u[i + 1] - self.old.u[i]) / h - 0.5 * (turn[0] + turn[1]);
+            let mass = ends.map(|j| kappa * self.old.v[j]);
+            v[i] += h / 6.0 * (2.0 * mass[0] + mass[1]) + stress;
+            v[i + 1] += h / 6.0 * (mass[0] + 2.0 * mass[1]) - stress;
+        }
+        add_load(v, &self.load, 0);
+        if let Some(obstacles) = obstacles {
+            self.force = match self.scheme.contact {
+                ContactRule::Implicit => obstacles.force(self.u_before[n]),
+                ContactRule::DiscreteGradient => obstacles.discrete_gradient(self.u_before[n], self.old.u[n]),
+            };
+            v[n] -= self.force;
+        }
+        v[0] = 0.0;
+        self.factor_u.solve_in_place(n, v);
+        Ok(())
+    }
+
+    /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14).
+    fn increment(&mut self) -> f64 {
+        let (dt, inertia) = (self.case.dt, self.scheme.inertia);
+        let [v, u, w, phi, theta] = &mut self.difference;
+        for i in 0..self.old.u.len() {
+            let dw = self.now.w[i] - self.before.w[i];
+            v[i] = inertia * (self.now.v[i] - self.before.v[i]);
+            u[i] = self.old.u[i] + dt * self.now.v[i] - self.u_before[i];
+            w[i] = inertia * dw;
+            phi[i] = dt * dw;
+            theta[i] = 2.0 * (self.now.theta[i] - self.before.theta[i]);
+        }
+        if self.u_before == self.old.u {
+            // In the first iteration φ^{n,0} = φ^{n-1}, which no velocity carries.
+            for (phi, w) in phi.iter_mut().zip(&self.now.w) {
+                *phi = dt * w;
+            }
+        }
+        TheoremSquares::of(&self.case.lengths, v, u, w, phi, theta).norm()
+    }
+
+    fn remember(&mut self) {
+        for (u, (u0, v)) in self.u_before.iter_mut().zip(self.old.u.iter().zip(&self.now.v)) {
+            *u = u0 + self.case.dt * v;
+        }
+        std::mem::swap(&mut self.now, &mut self.before);
+    }
+
+    /// (4.5).
+    fn commit(&mut self) {
+        let dt = self.case.dt;
+        // The new velocity is V itself, or 2 V - v0 where V is the mean.
+        let weight = self.scheme.inertia;
+        for i in 0..self.old.u.len() {
+            self.old.u[i] += dt * self.now.v[i];
+            self.old.phi[i] += dt * self.now.w[i];
+            self.old.v[i] = weight * self.now.v[i] + (1.0 - weight) * self.old.v[i];
+            self.old.w[i] = weight * self.now.w[i] + (1.0 - weight) * self.old.w[i];
+            self.old.theta[i] = 2.0 * self.now.theta[i] - self.old.theta[i];
+        }
+        self.old.contact_force = self.force;
+    }
+
+    pub(crate) fn read(&self, level: &mut Level) {
+        level.clone_from(&self.old);
+    }
+
+    pub(crate) fn work(&self) -> Work {
+        self.work
+    }
+}
+
+fn add_load(right: &mut [f64], load: &[[f64; 3]], component: usize) {
+    for (right, load) in right.iter_mut().zip(load) {
+        *right += load[component];
+    }
+}

@@ -1,0 +1,104 @@
+//! The safeguarded Newton iteration for the mean axial force m, where passes with a kept factor would not contract.
+
+use crate::block_tridiagonal::{minus_times, minus_transpose_times, times};
+use crate::error::StepFailure;
+use crate::lanes::Lane;
+use crate::solve::newton::{Newton, Progress};
+
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// Solves `F(m) = m - ½(N(u(m)) + N(u0)) = 0` for case k, from N(u0) on.
+    ///
+    /// F <= 0 at the lower end of the bracket; the upper end is found on the way.
+    pub(super) fn find_root(&mut self, k: usize) -> Result<(), StepFailure> {
+        self.restart(k);
+        let n0 = self.controls[k].forces[0];
+        let mut low = 0.5 * (self.cases[k].beam.beta + n0);
+        let mut high = f64::INFINITY;
+        let mut m = n0;
+        let mut previous = f64::NAN;
+        for _ in 0..self.settings.max_iterations {
+            self.controls[k].m = m;
+            self.factorize(k, m)?;
+            self.pass(Progress::Searching, false);
+            let bound = self.bound(k);
+            let control = &mut self.controls[k];
+            previous = control.increment;
+            control.increment = bound.increment;
+            let f = m - bound.m;
+            if !f.is_finite() {
+                return Err(StepFailure::NonFinite { iterations: control.iterations, increment: previous });
+            }
+            // m carries the rounding errors of a sum over the elements; below that nothing can be gained.
+            let rounding = 8.0 * f64::EPSILON * (m.abs() + n0.abs() + self.cases[k].beam.beta.abs());
+            if bound.remaining <= self.settings.tolerance || f.abs() <= rounding {
+                return Ok(());
+            }
+            if f < 0.0 {
+                low = m
+            } else {
+                high = m
+            }
+            m -= f / self.derivative(k);
+            if !(low < m && m < high) {
+                m = if high.is_finite() { 0.5 * (low + high) } else { low + (1.0 + low.abs()) };
+            }
+        }
+        let control = &self.controls[k];
+        Err(StepFailure::IterationLimit {
+            iterations: control.iterations,
+            increment: control.increment,
+            contraction: control.increment / previous,
+        })
+    }
+
+    /// Throws the iterate of case k away: it may have gone astray, or to infinity.
+    fn restart(&mut self, k: usize) {
+        self.controls[k].state = Progress::Searching;
+        let [iterate, before, ..] = &mut self.ring;
+        for (to, from) in iterate.iter_mut().zip(before.iter()) {
+            for (to, from) in to.iter_mut().zip(from) {
+                to.set_lane(k, from.lane(k));
+            }
+        }
+    }
+
+    /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`: the Kirchhoff term's rank-one change.
+    fn derivative(&mut self, k: usize) -> f64 {
+        let last = self.elements.len() - 1;
+        let (dt, rho) = (self.cases[k].dt, self.cases[k].beam.rho);
+        let of_lane = |block: &[[T; B]; B]| block.map(|row| row.map(|entry| entry.lane(k)));
+        // Twice u½ is u0 + u.
+        let mean_slope = |i: usize| {
+            let at = |i: usize| self.old[i][0].lane(k) + self.new[i][0].lane(k);
+            0.5 * (at(i) - at(i - 1)) * self.elements[i].inverse.lane(k)
+        };
+        let mut y = [0.0; B];
+        for i in 1..=last {
+            let mut right = [0.0; B];
+            right[0] = mean_slope(i) - if i < last { mean_slope(i + 1) } else { 0.0 };
+            y = minus_times(right, &of_lane(&self.factor.nodes[i].multiplier), y);
+            let z = times(&of_lane(&self.factor.nodes[i].inverse), y);
+            for (to, value) in self.middle[i].iter_mut().zip(z) {
+                to.set_lane(k, value);
+            }
+        }
+        let inverse = of_lane(&self.factor.nodes[last].inverse);
+        let mut z = self.middle[last].map(|component| component.lane(k));
+        let stiffness = if self.cases[k].obstacles.is_some() { dt * self.controls[k].tip.stiffness } else { 0.0 };
+        let force = stiffness * z[0] / (1.0 + stiffness * inverse[0][0]);
+        z = std::array::from_fn(|c| z[c] - force * inverse[c][0]);
+        let mut product = 0.0;
+        for i in (1..=last).rev() {
+            let next = if i > 1 {
+                let middle = self.middle[i - 1].map(|component| component.lane(k));
+                minus_transpose_times(middle, &of_lane(&self.factor.nodes[i].multiplier), z)
+            } else {
+                [0.0; B]
+            };
+            let slope = (self.new[i][0].lane(k) - self.new[i - 1][0].lane(k)) * self.elements[i].inverse.lane(k);
+            product += slope * (z[0] - next[0]);
+            z = next;
+        }
+        1.0 + rho * dt * product
+    }
+}

@@ -1,0 +1,305 @@
+//! The two sweeps of a whole-step solve: residual and elimination forward, substitution and update backward.
+//!
+//! The unknown at a node is `X = (V, W, Θ)`: the velocities that carry the step, `u = u0 + dt V`, `phi = phi0 + dt W`,
+//! and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, `κ = inertia/dt` and the mean axial
+//! force m = ½(N(u) + N(u0)), the residual of (3.7) reads
+//!
+//! ```text
+//! R_u = κ M (V - v0) + K ((1 + m) u½ + ζ V) - C (φ½ + ζ W)                          + F(u(1)) e - F_u
+//! R_φ = κ M (W - w0) + (K + M)(φ½ + ζ W)    - Cᵀ(u½ + ζ V) - a C (Θ + θ_A (1 - x))              - F_φ
+//! R_θ = 2/dt M (Θ - θ~0) + K Θ              + a Cᵀ W                                            - F_θ
+//! ```
+//!
+//! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the force that A was factorised
+//! with; it may differ from m, for R is exact and A only steers. The contact force is part of the solve: it touches one
+//! node, the last to be eliminated, where it is a scalar equation with a closed solution (`contact.rs`).
+//!
+//! A pass costs two runs over memory and nothing is allocated.
+
+use crate::block_tridiagonal::{Block, Node, minus_times, minus_transpose_times, times};
+use crate::lanes::Lane;
+
+/// The numbers of a step that do not depend on the node.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scalars<T> {
+    pub(crate) dt: T,
+    pub(crate) half_dt: T,
+    pub(crate) zeta: T,
+    /// ζ + dt/2, the factor of W in `φ½ + ζ W`.
+    pub(crate) stiff: T,
+    /// κ, the factor of `M (V - v0)`.
+    pub(crate) inertia: T,
+    pub(crate) two_over_dt: T,
+    pub(crate) half_a: T,
+    /// `a θ_A`. The lifting is `a θ_A ((1 - x), N_i')`, by parts `a θ_A (1, N_i)`: a constant load under the mass matrix.
+    pub(crate) lift: T,
+}
+
+/// One element.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element<T> {
+    /// 1/h.
+    pub(crate) inverse: T,
+    /// h/6, the unit of the consistent mass matrix.
+    pub(crate) sixth: T,
+}
+
+impl<T: Lane> Scalars<T> {
+    /// Those of one case.
+    pub(crate) fn of_lane(&self, k: usize) -> Scalars<f64> {
+        Scalars {
+            dt: self.dt.lane(k),
+            half_dt: self.half_dt.lane(k),
+            zeta: self.zeta.lane(k),
+            stiff: self.stiff.lane(k),
+            inertia: self.inertia.lane(k),
+            two_over_dt: self.two_over_dt.lane(k),
+            half_a: self.half_a.lane(k),
+            lift: self.lift.lane(k),
+        }
+    }
+}
+
+impl Scalars<f64> {
+    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements left and right of it.
+    pub(crate) fn blocks<const B: usize>(
+        &self,
+        m: f64,
+        left: Element<f64>,
+        right: Option<Element<f64>>,
+    ) -> (Block<f64, B>, Block<f64, B>) {
+        let tip = right.is_none();
+        let right = right.unwrap_or(Element { inverse: 0.0, sixth: 0.0 });
+        let stiff_u = self.zeta + (1.0 + m) * self.half_dt;
+        let (inverse, sixth) = (left.inverse + right.inverse, left.sixth + right.sixth);
+        let (mut lower, mut diagonal) = ([[0.0; B]; B], [[0.0; B]; B]);
+        lower[0][0] = self.inertia * left.sixth - stiff_u * left.inverse;
+        lower[0][1] = -0.5 * self.stiff;
+        lower[1][0] = 0.5 * self.stiff;
+        lower[1][1] = (self.inertia + self.stiff) * left.sixth - self.stiff * left.inverse;
+        diagonal[0][0] = 2.0 * self.inertia * sixth + stiff_u * inverse;
+        diagonal[1][1] = (self.inertia + self.stiff) * 2.0 * sixth + self.stiff * inverse;
+        if tip {
+            // C has an entry on the diagonal, (N_n, N_n') = 1/2, only where the beam ends.
+            diagonal[0][1] = -0.5 * self.stiff;
+            diagonal[1][0] = -0.5 * self.stiff;
+        }
+        if B == 3 {
+            // The temperature is given at the tip: an equation -1 δΘ = 0 keeps the shape of the matrix.
+            diagonal[2][2] = if tip { -1.0 } else { -(self.two_over_dt * 2.0 * sixth + inverse) };
+            if !tip {
+                lower[2][1] = self.half_a;
+                lower[2][2] = -(self.two_over_dt * left.sixth - left.inverse);
+            }
+            lower[1][2] = -self.half_a;
+        }
+        (lower, diagonal)
+    }
+}
+
+/// What the forward sweep reads and writes; every slice has n + 1 entries, the first of them zero.
+pub(crate) struct Forward<'a, T, const B: usize> {
+    pub(crate) scalars: &'a Scalars<T>,
+    /// 1 + m, the whole coefficient of u_x, less the viscous part.
+    pub(crate) m: T,
+    pub(crate) elements: &'a [Element<T>],
+    pub(crate) nodes: &'a [Node<T, B>],
+    /// (u0, φ0, θ~0).
+    pub(crate) old: &'a [[T; B]],
+    /// (v0, w0, -).
+    pub(crate) old_velocity: &'a [[T; B]],
+    /// X of the steps before, the latest first.
+    pub(crate) history: [&'a [[T; B]]; 3],
+    /// Weights of the history in the first iterate.
+    pub(crate) weights: [T; 3],
+    /// The loads (F_u, F_φ, F_θ), or nothing.
+    pub(crate) load: &'a [[T; B]],
+    /// X; on the first pass it is written, later it is read.
+    pub(crate) iterate: &'a mut [[T; B]],
+    /// S⁻¹ y.
+    pub(crate) middle: &'a mut [[T; B]],
+}
+
+/// The quantities of a node that an element's residual is made of.
+#[derive(Clone, Copy)]
+struct Nodal<T, const B: usize> {
+    /// X.
+    x: [T; B],
+    /// (1 + m) u½ + ζ V.
+    stretch: T,
+    /// u½ + ζ V.
+    slope: T,
+    /// φ½ + ζ W.
+    turn: T,
+    /// What the mass matrix acts on in each equation.
+    mass: [T; B],
+}
+
+impl<T: Lane, const B: usize> Forward<'_, T, B> {
+    /// Runs the sweep. `FIRST`: extrapolate the iterate from the history. `LOADED`: there are loads.
+    #[inline(always)]
+    pub(crate) fn run<const FIRST: bool, const LOADED: bool>(self) {
+        let zero = T::splat(0.0);
+        let count = self.elements.len();
+        // One length for all slices: the compiler then needs no bounds checks in the loop.
+        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
+        let (old, old_velocity) = (&self.old[..count], &self.old_velocity[..count]);
+        let history = self.history.map(|level| &level[..count]);
+        let load = if LOADED { &self.load[..count] } else { &[] };
+        let (iterate, middle) = (&mut self.iterate[..count], &mut self.middle[..count]);
+        let (scalars, m, weights) = (self.scalars, self.m, self.weights);
+
+        let mut left = Nodal { x: [zero; B], stretch: zero, slope: zero, turn: zero, mass: [zero; B] };
+        left.mass[1] = -scalars.lift;
+        let (mut pending, mut y) = ([zero; B], [zero; B]);
+        for i in 1..count {
+            let x = if FIRST {
+                let x = std::array::from_fn(|k| {
+                    let sum = history[1][i][k].mul_add(weights[1], history[2][i][k] * weights[2]);
+                    history[0][i][k].mul_add(weights[0], sum)
+                });
+                iterate[i] = x;
+                x
+            } else {
+                iterate[i]
+            };
+            let right = nodal(scalars, m, x, old[i], old_velocity[i]);
+            let (to_left, to_right) = element(scalars, elements[i], &left, &right);
+            if i > 1 {
+                let mut residual: [T; B] = std::array::from_fn(|k| pending[k] + to_left[k]);
+                if LOADED {
+                    residual = std::array::from_fn(|k| residual[k] - load[i - 1][k]);
+                }
+                y = minus_times(signed(residual), &nodes[i - 1].multiplier, y);
+                middle[i - 1] = times(&nodes[i - 1].inverse, y);
+            }
+            (pending, left) = (to_right, right);
+        }
+        let tip = count - 1;
+        if LOADED {
+            pending = std::array::from_fn(|k| pending[k] - load[tip][k]);
+        }
+        if B == 3 {
+            pending[2] = zero;
+        }
+        y = minus_times(signed(pending), &nodes[tip].multiplier, y);
+        middle[tip] = times(&nodes[tip].inverse, y);
+    }
+}
+
+/// -R for the symmetric system, whose third row is negated.
+#[inline(always)]
+fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
+    std::array::from_fn(|k| if k == 2 { residual[k] } else { -residual[k] })
+}
+
+#[inline(always)]
+fn nodal<T: Lane, const B: usize>(s: &Scalars<T>, m: T, x: [T; B], old: [T; B], velocity: [T; B]) -> Nodal<T, B> {
+    let half_u = x[0].mul_add(s.half_dt, old[0]);
+    let slope = x[0].mul_add(s.zeta, half_u);
+    let turn = x[1].mul_add(s.stiff, old[1]);
+    let mut mass = [T::splat(0.0); B];
+    mass[0] = s.inertia * (x[0] - velocity[0]);
+    mass[1] = s.inertia.mul_add(x[1] - velocity[1], turn) - s.lift;
+    if B == 3 {
+        mass[2] = s.two_over_dt * (x[2] - old[2]);
+    }
+    Nodal { x, stretch: m.mul_add(half_u, slope), slope, turn, mass }
+}
+
+/// The element's share of the residual at its left and at its right node.
+#[inline(always)]
+fn element<T: Lane, const B: usize>(
+    s: &Scalars<T>,
+    e: Element<T>,
+    left: &Nodal<T, B>,
+    right: &Nodal<T, B>,
+) -> ([T; B], [T; B]) {
+    let half = T::splat(0.5);
+    // Stresses: what the derivative of the test function meets.
+    let stress = (right.stretch - left.stretch).mul_add(e.inverse, -(half * (left.turn + right.turn)));
+    let mut moment = (right.turn - left.turn) * e.inverse;
+    // What the test function itself meets beside the mass matrix, the same at both nodes.
+    let shear = half * (right.slope - left.slope);
+    let (mut to_left, mut to_right) = ([T::splat(0.0); B], [T::splat(0.0); B]);
+    for k in 0..B {
+        let sum = left.mass[k] + right.mass[k];
+        to_left[k] = sum + left.mass[k];
+        to_right[k] = sum + right.mass[k];
+    }
+    to_left[0] = e.sixth.mul_add(to_left[0], -stress);
+    to_right[0] = e.sixth.mul_add(to_right[0], stress);
+    if B == 3 {
+        moment = (-s.half_a).mul_add(left.x[2] + right.x[2], moment);
+        let flux = (right.x[2] - left.x[2]) * e.inverse;
+        let heating = s.half_a * (right.x[1] - left.x[1]);
+        to_left[2] = e.sixth.mul_add(to_left[2], heating - flux);
+        to_right[2] = e.sixth.mul_add(to_right[2], heating + flux);
+    }
+    to_left[1] = e.sixth.mul_add(to_left[1], -(moment + shear));
+    to_right[1] = e.sixth.mul_add(to_right[1], moment - shear);
+    (to_left, to_right)
+}
+
+/// What the backward sweep reads and writes.
+pub(crate) struct Backward<'a, T, const B: usize> {
+    pub(crate) scalars: &'a Scalars<T>,
+    pub(crate) elements: &'a [Element<T>],
+    pub(crate) nodes: &'a [Node<T, B>],
+    pub(crate) middle: &'a [[T; B]],
+    /// 1 for the cases that are still iterating, 0 for those whose iterate stands.
+    pub(crate) active: T,
+    /// δ at the tip, contact included.
+    pub(crate) tip: [T; B],
+    pub(crate) old: &'a [[T; B]],
+    /// X, updated.
+    pub(crate) iterate: &'a mut [[T; B]],
+    /// (u, φ, θ~) at the new level.
+    pub(crate) new: &'a mut [[T; B]],
+}
+
+/// Two squared norms that the backward sweep sums up on its way.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sums<T> {
+    /// ‖u_x‖² at the new level.
+    pub(crate) slope_squared: T,
+    /// ‖δV_x‖² of the pass.
+    pub(crate) increment_slope_squared: T,
+}
+
+impl<T: Lane, const B: usize> Backward<'_, T, B> {
+    #[inline(always)]
+    pub(crate) fn run(self) -> Sums<T> {
+        let count = self.elements.len();
+        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
+        let (middle, old) = (&self.middle[..count], &self.old[..count]);
+        let (iterate, new) = (&mut self.iterate[..count], &mut self.new[..count]);
+        let zero = T::splat(0.0);
+        let mut sums = Sums { slope_squared: zero, increment_slope_squared: zero };
+        let mut delta = self.tip;
+        for i in (1..count).rev() {
+            let x: [T; B] = std::array::from_fn(|k| self.active.mul_add(delta[k], iterate[i][k]));
+            iterate[i] = x;
+            let updated = update(self.scalars, x, old[i]);
+            new[i] = updated;
+            if i + 1 < count {
+                let slope = new[i + 1][0] - updated[0];
+                sums.slope_squared = (slope * elements[i + 1].inverse).mul_add(slope, sums.slope_squared);
+            }
+            let next =
+                if i > 1 { minus_transpose_times(middle[i - 1], &nodes[i].multiplier, delta) } else { [zero; B] };
+            let change = delta[0] - next[0];
+            sums.increment_slope_squared = (change * elements[i].inverse).mul_add(change, sums.increment_slope_squared);
+            delta = next;
+        }
+        let first = new[1][0];
+        sums.slope_squared = (first * elements[1].inverse).mul_add(first, sums.slope_squared);
+        sums
+    }
+}
+
+/// (u, φ, θ~) at the new level from X.
+#[inline(always)]
+fn update<T: Lane, const B: usize>(s: &Scalars<T>, x: [T; B], old: [T; B]) -> [T; B] {
+    std::array::from_fn(|k| if k == 2 { x[k] + x[k] - old[k] } else { x[k].mul_add(s.dt, old[k]) })
+}

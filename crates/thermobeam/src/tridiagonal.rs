@@ -1,0 +1,103 @@
+//! Symmetric positive definite tridiagonal systems, one scalar a node.
+
+use crate::error::StepFailure;
+
+/// `L D Lᵀ` of the matrix `mass M + stiffness K` restricted to the nodes 1..=last.
+#[derive(Debug, Clone)]
+pub struct TridiagonalFactor {
+    /// Sub-diagonal of L, a value for each node.
+    multiplier: Vec<f64>,
+    /// Inverse pivots.
+    inverse: Vec<f64>,
+}
+
+impl TridiagonalFactor {
+    /// Room for n elements.
+    pub fn new(elements: usize) -> Self {
+        Self { multiplier: vec![0.0; elements + 1], inverse: vec![0.0; elements + 1] }
+    }
+
+    /// Factorises `mass M + stiffness K`, rows and columns 1..=last; `last` is n, or n - 1 where the tip is fixed.
+    ///
+    /// # Errors
+    /// [`StepFailure::Indefinite`] at the first pivot that is not positive.
+    pub fn factorize(
+        &mut self,
+        lengths: &[f64],
+        last: usize,
+        mass: f64,
+        stiffness: f64,
+        n_value: f64,
+    ) -> Result<(), StepFailure> {
+        let mut previous_inverse = 0.0;
+        for i in 1..=last {
+            let left = lengths[i - 1];
+            let mut pivot = mass * left / 3.0 + stiffness / left;
+            if let Some(right) = lengths.get(i) {
+                pivot += mass * right / 3.0 + stiffness / right;
+            }
+            let lower = mass * left / 6.0 - stiffness / left;
+            self.multiplier[i] = lower * previous_inverse;
+            pivot -= self.multiplier[i] * lower;
+            if !(pivot > 0.0) {
+                return Err(StepFailure::Indefinite { node: i, pivot, n_value });
+            }
+            previous_inverse = 1.0 / pivot;
+            self.inverse[i] = previous_inverse;
+        }
+        Ok(())
+    }
+
+    /// Replaces the right-hand side in nodes 1..=last by the solution.
+    pub fn solve_in_place(&self, last: usize, x: &mut [f64]) {
+        for i in 2..=last {
+            x[i] -= self.multiplier[i] * x[i - 1];
+        }
+        x[last] *= self.inverse[last];
+        for i in (1..last).rev() {
+            x[i] = x[i] * self.inverse[i] - self.multiplier[i + 1] * x[i + 1];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::{mass, stiffness};
+    use crate::mesh::Mesh;
+    use nalgebra::{DMatrix, DVector};
+
+    #[test]
+    fn a_solve_agrees_with_a_dense_one_free_and_fixed() {
+        let mesh = Mesh::mapped(6, |s| s * s * 0.5 + 0.5 * s).unwrap();
+        let lengths: Vec<f64> = mesh.lengths().collect();
+        let (m, k) = (mass(&mesh), stiffness(&mesh));
+        for last in [5, 6] {
+            let dense = DMatrix::from_fn(last, last, |i, j| {
+                let entry = |a: &crate::assembly::Tridiagonal| match (i + 1) as isize - (j + 1) as isize {
+                    1 => a.lower[i + 1],
+                    0 => a.diagonal[i + 1],
+                    -1 => a.upper[i + 1],
+                    _ => 0.0,
+                };
+                7.0 * entry(&m) + 0.3 * entry(&k)
+            });
+            let right = DVector::from_fn(last, |i, _| (i as f64 + 1.0).sin());
+            let expected = dense.lu().solve(&right).unwrap();
+            let mut factor = TridiagonalFactor::new(6);
+            factor.factorize(&lengths, last, 7.0, 0.3, 0.0).unwrap();
+            let mut x = vec![0.0; 7];
+            x[1..=last].copy_from_slice(right.as_slice());
+            factor.solve_in_place(last, &mut x);
+            for i in 0..last {
+                assert!((x[i + 1] - expected[i]).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_reported() {
+        let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 2, 1.0, -5.0, -5.0);
+        assert!(matches!(failure, Err(StepFailure::Indefinite { node: 1, n_value: -5.0, .. })));
+    }
+}

@@ -1,1 +1,3 @@
 //! Convergence studies for the `thermobeam` solver.
+
+pub mod fit;

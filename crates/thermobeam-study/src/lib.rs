@@ -1,3 +1,4 @@
 //! Convergence studies for the `thermobeam` solver.
 
 pub mod fit;
+pub mod verdict;

@@ -1,4 +1,5 @@
 //! Convergence studies for the `thermobeam` solver.
 
+pub mod calibration;
 pub mod fit;
 pub mod verdict;

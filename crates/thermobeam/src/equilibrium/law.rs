@@ -1,0 +1,157 @@
+//! The static problem for a given N: linear, one law for each state of contact.
+
+use super::shape::{Deep, Shape, Wave};
+use crate::bracket::bisect;
+use std::f64::consts::PI;
+
+/// What the free end rests on, and what loads the beam.
+///
+/// Without a support c = 0. With one, `c = -(u(1) - position) / ε`, pulling as well as pushing: whether the state
+/// found really presses is for the caller to judge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Law {
+    /// aθ_A.
+    pub(super) drive: f64,
+    /// The obstacle touched.
+    pub(super) support: Option<Support>,
+}
+
+/// One obstacle: a spring of compliance ε, relaxed where u(1) = position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Support {
+    /// ε.
+    pub(super) epsilon: f64,
+    /// g₁ or g₂.
+    pub(super) position: f64,
+}
+
+/// `1 + N_k = 1 / (1 + κ²)`, κ = (k - 1/2)π: where the beam without support buckles into k quarter waves and more.
+///
+/// * `k` counts from 1.
+pub(super) fn free_buckling(k: usize) -> f64 {
+    let kappa = (k as f64 - 0.5) * PI;
+    1.0 / (1.0 + kappa * kappa)
+}
+
+/// How many `free_buckling` values lie strictly above s > 0.
+fn free_buckling_above(s: f64) -> usize {
+    let reach = (1.0 / s - 1.0).max(0.0).sqrt() / PI + 0.5;
+    // Strictly above: at s = 1 + N_k itself the k-th does not count.
+    (reach.ceil() as usize).saturating_sub(1)
+}
+
+impl Law {
+    /// No load at all: the straight beam solves the law for every N.
+    pub(super) fn homogeneous(&self) -> bool {
+        self.drive == 0.0 && self.support.is_none_or(|support| support.position == 0.0)
+    }
+
+    /// The shape at `s = 1 + N`, which must be neither 0 nor a buckling value of this law.
+    pub(super) fn solve(&self, s: f64) -> Shape {
+        if s > 0.0 { Shape::Wave(self.solve_wave(1.0 / s)) } else { Shape::Deep(self.solve_deep(1.0 / s)) }
+    }
+
+    fn solve_wave(&self, q: f64) -> Wave {
+        let (rotation, stress) = self.numerators(q);
+        let determinant = self.determinant(q);
+        Wave { q, alpha: rotation / determinant, stress: stress / determinant, drive: self.drive }
+    }
+
+    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` on (α, c), or of the first alone on α.
+    pub(super) fn determinant(&self, q: f64) -> f64 {
+        use crate::stumpff::{c0, c1, c2, c3};
+        let x = q - 1.0;
+        match self.support {
+            None => c0(x),
+            Some(Support { epsilon, .. }) => c0(x) * (epsilon + q - q * q * c3(x)) + q * q * c1(x) * c2(x),
+        }
+    }
+
+    /// Cramer's numerators of (α, c).
+    fn numerators(&self, q: f64) -> (f64, f64) {
+        use crate::stumpff::{c0, c1, c2, c3};
+        let x = q - 1.0;
+        match self.support {
+            None => (self.drive * c2(x), 0.0),
+            Some(Support { epsilon, position }) => (
+                c2(x) * (self.drive * (epsilon + q) + q * position),
+                c0(x) * (position + q * self.drive * c3(x)) - q * c1(x) * self.drive * c2(x),
+            ),
+        }
+    }
+
+    fn solve_deep(&self, q: f64) -> Deep {
+        let mut deep = Deep { q, stress: 0.0, drive: self.drive };
+        if let Some(Support { epsilon, position }) = self.support {
+            // Without stress u(1) = q aθ_A (1 - T)/k²; each unit of stress adds the flexibility.
+            let loaded = q * self.drive * (1.0 - deep.t()) / (1.0 - q);
+            deep.stress = (position - loaded) / (epsilon + flexibility(&deep));
+        }
+        deep
+    }
+
+    /// `1 + N` at this law's k-th buckling value above N = -1, where the linear problem is singular; k from 1.
+    ///
+    /// A support is a rank-one stiffness, so its values interlace with the free ones: the k-th lies strictly
+    /// between the free k-th and (k+1)-st, with equality impossible because u(1) ≠ 0 in every free buckling mode.
+    pub(super) fn buckling(&self, k: usize) -> f64 {
+        if self.support.is_none() {
+            return free_buckling(k);
+        }
+        let (from, to) = (1.0 / free_buckling(k), 1.0 / free_buckling(k + 1));
+        1.0 / bisect(|q| self.determinant(q), from, to)
+    }
+
+    /// `1 + N` at the one buckling value below N = -1, which only a support has.
+    ///
+    /// There the flexibility falls from 0 (N → -∞) to -∞ (N → -1), so it meets -ε exactly once.
+    pub(super) fn deep_buckling(&self) -> Option<f64> {
+        let Support { epsilon, .. } = self.support?;
+        let excess = |s: f64| epsilon + flexibility(&Deep { q: 1.0 / s, stress: 0.0, drive: 0.0 });
+        // Flexibility is close to 1/s far out and to -1/√-s close in: both ends are beyond the root.
+        let far = -4.0 - 4.0 / epsilon;
+        let near = -1e-3 * (1.0 + epsilon).powi(-2);
+        Some(bisect(excess, far, near))
+    }
+
+    /// How many of this law's buckling values lie strictly above s > 0.
+    pub(super) fn buckling_above(&self, s: f64) -> usize {
+        let free = free_buckling_above(s);
+        if self.support.is_none() || free == 0 || self.buckling(free) > s { free } else { free - 1 }
+    }
+
+    /// The buckling mode at the buckling value s, of some amplitude.
+    pub(super) fn mode(&self, s: f64) -> Shape {
+        use crate::stumpff::{c0, c2};
+        let q = 1.0 / s;
+        if s < 0.0 {
+            return Shape::Deep(Deep { q, stress: 1.0, drive: 0.0 });
+        }
+        // The null vector of the clamping row; for the free beam c0 is zero here but for round-off.
+        let stress = if self.support.is_none() { 0.0 } else { c0(q - 1.0) };
+        let alpha = if self.support.is_none() { 1.0 } else { q * c2(q - 1.0) };
+        Shape::Wave(Wave { q, alpha, stress, drive: 0.0 })
+    }
+
+    /// The sign with which the mode enters the solution just above the buckling value s; just below it is the opposite.
+    pub(super) fn sign_above(&self, s: f64) -> f64 {
+        let step = 1e-6 * s.abs();
+        let (numerator, slope) = match self.mode(s) {
+            Shape::Wave(mode) => {
+                let (rotation, stress) = self.numerators(mode.q);
+                let slope = self.determinant(1.0 / (s + step)) - self.determinant(1.0 / (s - step));
+                (rotation * mode.alpha + stress * mode.stress, slope)
+            }
+            Shape::Deep(_) | Shape::Line { .. } => {
+                let stress = |s: f64| self.solve(s).stress();
+                (stress(s + step) - stress(s - step), 1.0)
+            }
+        };
+        if numerator * slope < 0.0 { -1.0 } else { 1.0 }
+    }
+}
+
+/// The displacement of the tip that a unit of stress makes for N < -1, `q (1 - qT) / k²`.
+fn flexibility(deep: &Deep) -> f64 {
+    deep.q * (1.0 - deep.q * deep.t()) / (1.0 - deep.q)
+}

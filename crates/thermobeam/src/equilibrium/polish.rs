@@ -1,0 +1,101 @@
+//! Newton's method on the pole-free system for (N, α, c), from an approximate state.
+//!
+//! The scan's f has poles, and a root beside one knows its distance to it, hence its amplitude, only to round-off
+//! over distance. The three conditions
+//!
+//! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
+//!
+//! have no poles, and are regular at every state that is not a fold or a bifurcation. Below N = -1 the shape has
+//! φ(0) = 0 built in and needs no α: there α = 0 stands in for the first condition.
+
+use super::law::{Law, Support};
+use super::shape::{Deep, Shape, Wave};
+
+/// Steps after which the iteration is given up; it converges quadratically but for the differenced Jacobian.
+const STEPS: usize = 12;
+
+/// Step of the central differences, relative: exact for α and c, in which the conditions are quadratic.
+const DIFFERENCE: f64 = 1e-5;
+
+/// A first step larger than this, relative, belongs to a fold, where the scan's answer is the better one.
+const LARGEST_FIRST_STEP: f64 = 1e-3;
+
+type Vector = [f64; 3];
+
+/// Improves a state; returns it unchanged where Newton's method has no business.
+pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
+    let residual = |v: Vector| residual(law, beta, rho, v);
+    let mut state = match start {
+        Shape::Line { .. } => return start,
+        Shape::Wave(wave) => [1.0 / wave.q, wave.alpha, wave.stress],
+        Shape::Deep(deep) => [1.0 / deep.q, 0.0, deep.stress],
+    };
+    let mut bound = LARGEST_FIRST_STEP;
+    for _ in 0..STEPS {
+        let Some(step) = newton_step(&residual, state) else { break };
+        let size = relative_size(step, state);
+        // Not smaller than before, or NaN: round-off is reached, or the start was no start.
+        if !(size < bound) {
+            break;
+        }
+        (0..3).for_each(|i| state[i] -= step[i]);
+        bound = 0.5 * size;
+    }
+    unpack(law, state)
+}
+
+/// `max(|ds|/s, |dα| and |dc| over the larger of both)`.
+fn relative_size(step: Vector, state: Vector) -> f64 {
+    let bending = state[1].abs().max(state[2].abs());
+    let change = step[1].abs().max(step[2].abs());
+    (step[0] / state[0]).abs() + if change == 0.0 { 0.0 } else { change / bending }
+}
+
+fn unpack(law: &Law, [s, alpha, stress]: Vector) -> Shape {
+    let (q, drive) = (1.0 / s, law.drive);
+    if s > 0.0 { Shape::Wave(Wave { q, alpha, stress, drive }) } else { Shape::Deep(Deep { q, stress, drive }) }
+}
+
+/// The three conditions.
+fn residual(law: &Law, beta: f64, rho: f64, v: Vector) -> Vector {
+    let shape = unpack(law, v);
+    let [s, alpha, stress] = v;
+    let clamped = if s > 0.0 { shape.phi(0.0) } else { alpha };
+    let contact = match law.support {
+        None => stress,
+        Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
+    };
+    [clamped, contact, s - (1.0 + beta) - rho * shape.stretch()]
+}
+
+fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Vector> {
+    let bending = state[1].abs().max(state[2].abs());
+    let mut jacobian = [[0.0; 3]; 3];
+    for (column, scale) in [state[0].abs(), bending, bending].into_iter().enumerate() {
+        let h = DIFFERENCE * scale;
+        let (mut up, mut down) = (state, state);
+        up[column] += h;
+        down[column] -= h;
+        let (up_residual, down_residual) = (residual(up), residual(down));
+        for row in 0..3 {
+            jacobian[row][column] = (up_residual[row] - down_residual[row]) / (up[column] - down[column]);
+        }
+    }
+    solve(jacobian, residual(state))
+}
+
+/// Solves a 3 x 3 system by Cramer's rule; none if it is singular.
+fn solve(a: [Vector; 3], b: Vector) -> Option<Vector> {
+    let cross = |x: Vector, y: Vector| -> Vector {
+        [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+    };
+    let dot = |x: Vector, y: Vector| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
+    let inverse_rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
+    let determinant = dot(a[0], inverse_rows[0]);
+    if determinant == 0.0 || !determinant.is_finite() {
+        return None;
+    }
+    // Columns of the inverse are the cross products of the rows of a, over the determinant.
+    let component = |i: usize| (0..3).map(|j| inverse_rows[j][i] * b[j]).sum::<f64>() / determinant;
+    Some([component(0), component(1), component(2)])
+}

@@ -1,0 +1,184 @@
+//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, with a proof that none is missed.
+//!
+//! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive definite) and K that of
+//! ‖u'‖². In the eigenbasis of K against B,
+//!
+//! `S(N) = ‖u'‖² = Σ_j a_j / (N - N_j)²`, a_j >= 0,
+//!
+//! with the buckling values N_j as poles (an integral over the spectrum in general, all of whose points
+//! but the N_j sit at N = -1). So S is convex and f strictly concave between two neighbouring poles:
+//!
+//! * above the largest pole S falls, f rises to ∞: exactly one root;
+//! * between two poles, and in each interval below N = -1: none, two, or one double root, told by the largest value of f;
+//! * below β none, since ρS >= 0.
+//!
+//! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by
+//! Sylvester's law it has as many negative directions as there are poles above N, less one where f' = 1 - ρS' < 0.
+
+use super::law::Law;
+use crate::bracket::{bisect, climb};
+
+/// A root closer to a pole than this, relative to `1 + N`, is sought by its amplitude instead of by N.
+///
+/// Far above round-off, so that f's sign is certain at this distance; far below any distance that matters,
+/// so that the amplitude follows from the pole's N alone to eleven digits.
+const POLE_GAP: f64 = 1e-11;
+
+/// How many units of round-off of its largest term f may be from zero at its top to count as a double root.
+const FOLD: f64 = 32.0 * f64::EPSILON;
+
+/// s closest to 0 from below that is told apart from N = -1.
+const DEEP_GAP: f64 = 1e-14;
+
+/// Where a root is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// At this `s = 1 + N`.
+    Between(f64),
+    /// So close to the buckling value s that only the amplitude of its mode is certain, which has this sign.
+    Buckling(f64, f64),
+}
+
+/// A root and what stability needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Root {
+    /// Where.
+    pub(super) place: Place,
+    /// Negative directions of the second variation; none if there are infinitely many.
+    pub(super) unstable_directions: Option<usize>,
+    /// f' = 0 too: the second variation is singular.
+    pub(super) fold: bool,
+}
+
+/// The end of an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum End {
+    Buckling(f64),
+    Plain(f64),
+}
+
+impl End {
+    fn s(self) -> f64 {
+        match self {
+            End::Buckling(s) | End::Plain(s) => s,
+        }
+    }
+}
+
+/// f for one law, as a function of `s = 1 + N`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scan<'a> {
+    /// The linear problem.
+    pub(super) law: &'a Law,
+    /// β.
+    pub(super) beta: f64,
+    /// ρ > 0.
+    pub(super) rho: f64,
+}
+
+impl Scan<'_> {
+    /// All roots N > -1 above the `waves`-th buckling value, the largest first.
+    pub(super) fn shallow(&self, waves: usize) -> Vec<Root> {
+        let rest = 1.0 + self.beta;
+        let mut hi = End::Plain(self.beyond(self.law.buckling(1)));
+        let mut roots = Vec::new();
+        for above in 0..waves {
+            let lo = End::Buckling(self.law.buckling(above + 1));
+            roots.extend(self.interval(lo, hi, Some(above)));
+            if lo.s() <= rest {
+                break;
+            }
+            hi = lo;
+        }
+        roots
+    }
+
+    /// All roots N < -1.
+    pub(super) fn deep(&self) -> Vec<Root> {
+        let rest = 1.0 + self.beta;
+        if rest >= -DEEP_GAP {
+            return Vec::new();
+        }
+        let top = End::Plain(-DEEP_GAP);
+        match self.law.deep_buckling() {
+            Some(pole) if rest < pole => {
+                let mut roots = self.interval(End::Plain(rest), End::Buckling(pole), None);
+                roots.extend(self.interval(End::Buckling(pole), top, None));
+                roots
+            }
+            _ => self.interval(End::Plain(rest), top, None),
+        }
+    }
+
+    fn f(&self, s: f64) -> f64 {
+        s - (1.0 + self.beta) - self.rho * self.law.solve(s).stretch()
+    }
+
+    /// Some s above the largest pole where f > 0.
+    fn beyond(&self, pole: f64) -> f64 {
+        let mut s = 2.0 * (pole + (1.0 + self.beta).abs());
+        // f grows like s: this ends long before s overflows, or f was not finite to begin with.
+        while self.f(s) <= 0.0 && s < f64::MAX / 4.0 {
+            s *= 2.0;
+        }
+        s
+    }
+
+    /// The roots of f, concave between `lo` and `hi`, where `above` poles lie above.
+    fn interval(&self, lo: End, hi: End, above: Option<usize>) -> Vec<Root> {
+        let inside = |end: End, side: f64| match end {
+            End::Plain(s) => s,
+            End::Buckling(s) => s + side * POLE_GAP * s.abs(),
+        };
+        let (a, b) = (inside(lo, 1.0), inside(hi, -1.0));
+        let (left, right) = (self.f(a) > 0.0, self.f(b) > 0.0);
+        let rising = |place| Root { place, unstable_directions: above, fold: false };
+        let falling = |place| Root { place, unstable_directions: above.map(|n| n.saturating_sub(1)), fold: false };
+        let between = |a, b| Place::Between(bisect(|s| self.f(s), a, b));
+        match (left, right) {
+            (true, true) => [self.at_pole(lo, 1.0).map(rising), self.at_pole(hi, -1.0).map(falling)],
+            (false, true) => [Some(rising(between(a, b))), self.at_pole(hi, -1.0).map(falling)],
+            (true, false) => [self.at_pole(lo, 1.0).map(rising), Some(falling(between(a, b)))],
+            (false, false) => match self.top(a, b) {
+                Top::Above(s) => [Some(rising(between(a, s))), Some(falling(between(s, b)))],
+                Top::Touching(s) => [Some(Root { fold: true, ..falling(Place::Between(s)) }), None],
+                Top::Below => [None, None],
+            },
+        }
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// f > 0 right beside a pole means that f still falls to -∞ in between: one root, at the pole.
+    fn at_pole(&self, end: End, side: f64) -> Option<Place> {
+        match end {
+            End::Plain(_) => None,
+            End::Buckling(s) => Some(Place::Buckling(s, side * self.law.sign_above(s))),
+        }
+    }
+
+    /// Where f is positive between two points at which it is not.
+    fn top(&self, a: f64, b: f64) -> Top {
+        let noise = |s: f64| {
+            let stretch = self.rho * self.law.solve(s).stretch();
+            FOLD * (s.abs() + (1.0 + self.beta).abs() + stretch)
+        };
+        // The top may be much closer to one end than to the other, most of all to N = -1.
+        let enough = 2.0 * noise(b).min(noise(a));
+        let (s, value) = climb(|s| self.f(s), a, b, enough);
+        if value > noise(s) {
+            Top::Above(s)
+        } else if value >= -noise(s) {
+            Top::Touching(s)
+        } else {
+            Top::Below
+        }
+    }
+}
+
+enum Top {
+    Above(f64),
+    Touching(f64),
+    Below,
+}

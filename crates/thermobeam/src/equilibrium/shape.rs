@@ -1,0 +1,209 @@
+//! The bent beam in closed form, for a given axial force N and stress c.
+
+use crate::stumpff::{c0, c1, c2, c3, c5};
+
+/// A solution of the static equations in the interior and at x = 1; see the module's head for the letters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Shape {
+    /// `u = slope x`, `φ = 0`, `c = 0`.
+    Line {
+        /// u', constant.
+        slope: f64,
+    },
+    /// N > -1.
+    Wave(Wave),
+    /// N < -1.
+    Deep(Deep),
+}
+
+/// N > -1: `φ = α c_0(Xy²) - d y² c_2(Xy²)` with y = 1 - x, X = q - 1.
+///
+/// Entire in q: neither N = 0 nor a buckling value is special.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wave {
+    /// `q = 1 / (1 + N) > 0`.
+    pub(super) q: f64,
+    /// α = φ(1).
+    pub(super) alpha: f64,
+    /// The stress c.
+    pub(super) stress: f64,
+    /// The load aθ_A.
+    pub(super) drive: f64,
+}
+
+/// N < -1: `φ = d (1 - cosh ky / cosh k) / k²` with y = 1 - x, k² = 1 - q > 1.
+///
+/// The clamped end is built in; only ratios of hyperbolic functions occur, so that k may be as large as it likes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Deep {
+    /// `q = 1 / (1 + N) < 0`.
+    pub(super) q: f64,
+    /// The stress c.
+    pub(super) stress: f64,
+    /// The load aθ_A.
+    pub(super) drive: f64,
+}
+
+impl Shape {
+    /// The N that the shape belongs to; a line has no other than -1.
+    pub(super) fn n_value(&self) -> f64 {
+        match self {
+            Shape::Line { .. } => -1.0,
+            Shape::Wave(Wave { q, .. }) | Shape::Deep(Deep { q, .. }) => 1.0 / q - 1.0,
+        }
+    }
+
+    /// `c = (1 + N) u' - φ`, the same for all x.
+    pub(super) fn stress(&self) -> f64 {
+        match self {
+            Shape::Line { .. } => 0.0,
+            Shape::Wave(wave) => wave.stress,
+            Shape::Deep(deep) => deep.stress,
+        }
+    }
+
+    /// `‖u'‖² = ∫₀¹ u'² dx`.
+    pub(super) fn stretch(&self) -> f64 {
+        match self {
+            Shape::Line { slope } => slope * slope,
+            Shape::Wave(wave) => wave.stretch(),
+            Shape::Deep(deep) => deep.stretch(),
+        }
+    }
+
+    /// u at x.
+    pub(super) fn u(&self, x: f64) -> f64 {
+        match self {
+            Shape::Line { slope } => slope * x,
+            Shape::Wave(wave) => wave.u(x),
+            Shape::Deep(deep) => deep.u(x),
+        }
+    }
+
+    /// u' at x.
+    pub(super) fn u_x(&self, x: f64) -> f64 {
+        match self {
+            Shape::Line { slope } => *slope,
+            Shape::Wave(wave) => wave.q * (wave.phi(x) + wave.stress),
+            Shape::Deep(deep) => deep.u_x(x),
+        }
+    }
+
+    /// φ at x.
+    pub(super) fn phi(&self, x: f64) -> f64 {
+        match self {
+            Shape::Line { .. } => 0.0,
+            Shape::Wave(wave) => wave.phi(x),
+            Shape::Deep(deep) => deep.phi(x),
+        }
+    }
+
+    /// φ' at x.
+    pub(super) fn phi_x(&self, x: f64) -> f64 {
+        match self {
+            Shape::Line { .. } => 0.0,
+            Shape::Wave(wave) => wave.phi_x(x),
+            Shape::Deep(deep) => deep.phi_x(x),
+        }
+    }
+}
+
+impl Wave {
+    /// `d = aθ_A + cq`, the constant right-hand side of φ'' + Xφ + d = 0.
+    fn d(&self) -> f64 {
+        self.drive + self.stress * self.q
+    }
+
+    fn x(&self) -> f64 {
+        self.q - 1.0
+    }
+
+    /// `‖u'‖² = q² ∫ (αC - dW + c)² dy` with C = c_0(Xy²), W = y² c_2(Xy²).
+    ///
+    /// The products integrate to Stumpff functions of X and 4X by cosh² = (1 + cosh 2·)/2.
+    fn stretch(&self) -> f64 {
+        let (x, alpha, c, d) = (self.x(), self.alpha, self.stress, self.d());
+        let cc = 0.5 * (1.0 + c1(4.0 * x));
+        let cw = 2.0 * c3(4.0 * x) - c3(x);
+        let ww = 8.0 * c5(4.0 * x) - 2.0 * c5(x);
+        let squares = alpha * alpha * cc + d * d * ww + c * c;
+        let products = alpha * c * c1(x) - alpha * d * cw - d * c * c3(x);
+        self.q * self.q * (squares + 2.0 * products)
+    }
+
+    fn phi(&self, x: f64) -> f64 {
+        let y = 1.0 - x;
+        let argument = self.x() * y * y;
+        self.alpha * c0(argument) - self.d() * y * y * c2(argument)
+    }
+
+    fn phi_x(&self, x: f64) -> f64 {
+        let y = 1.0 - x;
+        (self.alpha * self.x() + self.d()) * y * c1(self.x() * y * y)
+    }
+
+    /// `u = q ∫₀ˣ (φ + c)`.
+    fn u(&self, x: f64) -> f64 {
+        let y = 1.0 - x;
+        let argument = self.x() * y * y;
+        let cosine = c1(self.x()) - y * c1(argument);
+        let remainder = c3(self.x()) - y.powi(3) * c3(argument);
+        self.q * (self.alpha * cosine - self.d() * remainder + self.stress * x)
+    }
+}
+
+impl Deep {
+    fn d(&self) -> f64 {
+        self.drive + self.stress * self.q
+    }
+
+    fn k(&self) -> f64 {
+        (1.0 - self.q).sqrt()
+    }
+
+    /// `tanh k / k`.
+    pub(super) fn t(&self) -> f64 {
+        self.k().tanh() / self.k()
+    }
+
+    /// `q / k²`, the factor that u' = (φ + c) q has in front of `aθ_A + c - d cosh ky / cosh k`.
+    ///
+    /// In this form the stress, which dominates φ near N = -1, has already cancelled by hand.
+    fn factor(&self) -> f64 {
+        self.q / (1.0 - self.q)
+    }
+
+    fn stretch(&self) -> f64 {
+        let (e, d, t) = (self.drive + self.stress, self.d(), self.t());
+        let sech = self.k().cosh().recip();
+        self.factor().powi(2) * (e * e - 2.0 * e * d * t + 0.5 * d * d * (sech * sech + t))
+    }
+
+    /// `cosh ky / cosh k` for y = 1 - x.
+    fn cosh_ratio(&self, x: f64) -> f64 {
+        let k = self.k();
+        ((-k * x).exp() + (-k * (2.0 - x)).exp()) / (1.0 + (-2.0 * k).exp())
+    }
+
+    /// `sinh ky / (k cosh k)` for y = 1 - x.
+    fn sinh_ratio(&self, x: f64) -> f64 {
+        let k = self.k();
+        ((-k * x).exp() - (-k * (2.0 - x)).exp()) / (k * (1.0 + (-2.0 * k).exp()))
+    }
+
+    fn u(&self, x: f64) -> f64 {
+        self.factor() * ((self.drive + self.stress) * x - self.d() * (self.sinh_ratio(0.0) - self.sinh_ratio(x)))
+    }
+
+    fn u_x(&self, x: f64) -> f64 {
+        self.factor() * (self.drive + self.stress - self.d() * self.cosh_ratio(x))
+    }
+
+    fn phi(&self, x: f64) -> f64 {
+        self.d() * (1.0 - self.cosh_ratio(x)) / (1.0 - self.q)
+    }
+
+    fn phi_x(&self, x: f64) -> f64 {
+        self.d() * self.sinh_ratio(x)
+    }
+}

@@ -57,14 +57,15 @@
 //!
 //! Source: (1.1)-(1.3) of Bernardi and Copetti; the classification by N follows Sapir and Reiss for the beam without contact.
 
+mod branch;
 mod law;
 mod polish;
 mod scan;
 mod shape;
 
 use crate::parameters::{Beam, Obstacles, ParameterError};
+use branch::Branch;
 use law::{Law, Support, free_buckling};
-use scan::{Place, Root, Scan};
 use shape::Shape;
 use thiserror::Error;
 
@@ -72,12 +73,6 @@ use thiserror::Error;
 ///
 /// A state below it has at least `HALF_WAVES - 1` unstable directions, so every stable state is listed whatever β.
 pub const HALF_WAVES: usize = 16;
-
-/// N = β + ρ‖u'‖² of a reported state holds to this, relative to the largest of its terms.
-const CONSISTENCY: f64 = 1e-9;
-
-/// For ρ = 0 a determinant this close to zero, relative to its largest term, is one that round-off cannot tell from zero.
-const RESONANCE: f64 = 1e-13;
 
 /// Which obstacle the free end presses against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -183,7 +178,19 @@ pub fn lists_all(beam: &Beam) -> bool {
 ///   N_{[`HALF_WAVES`] + 1} and all with N <= -1. Those in between are all unstable.
 ///
 /// Errors: a coefficient out of range; ρ = 0 at a buckling value; β at a buckling value with a load at round-off level.
-/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice.
+/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice; a fold is told from
+/// two states, or none, to round-off of N.
+///
+/// ```
+/// use thermobeam::equilibrium::{Contact, equilibria};
+/// use thermobeam::parameters::{Beam, Obstacles};
+///
+/// let beam = Beam { beta: -0.8, ..Beam::default() };
+/// let states = equilibria(&beam, Some(&Obstacles::default()))?;
+/// let found: Vec<_> = states.iter().map(|state| (state.contact, state.stable)).collect();
+/// assert_eq!(found, [(Contact::Lower, true), (Contact::Free, false), (Contact::Upper, true)]);
+/// # Ok::<(), thermobeam::equilibrium::EquilibriumError>(())
+/// ```
 pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equilibrium>, EquilibriumError> {
     beam.validate()?;
     if let Some(obstacles) = obstacles {
@@ -222,162 +229,5 @@ fn is_consistent(state: &Equilibrium, obstacles: Option<&Obstacles>) -> bool {
         Contact::Free => obstacles.is_none_or(|o| (o.g1..=o.g2).contains(&state.u_tip)),
         Contact::Upper => state.contact_force > 0.0,
         Contact::Lower => state.contact_force < 0.0,
-    }
-}
-
-/// Whether a state of this N belongs into the list, which leaves out a neighbourhood of N = -1 from above.
-fn is_listed(n_value: f64) -> bool {
-    n_value <= -1.0 || 1.0 + n_value > free_buckling(HALF_WAVES + 1)
-}
-
-/// One state of contact: its law, and the steady states of that law, pressing or not.
-struct Branch<'a> {
-    beam: &'a Beam,
-    contact: Contact,
-    law: Law,
-    /// What stiffens the straight beam although it does not press.
-    pinch: Option<Law>,
-}
-
-impl Branch<'_> {
-    fn states(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        let mut states = if self.beam.rho == 0.0 {
-            vec![self.linear()?]
-        } else if self.law.homogeneous() {
-            self.straight_and_buckled()?
-        } else {
-            self.bent()?
-        };
-        states.extend(self.at_minus_one());
-        Ok(states)
-    }
-
-    /// ρ = 0: N = β, and one linear problem.
-    fn linear(&self) -> Result<Equilibrium, EquilibriumError> {
-        let s = 1.0 + self.beam.beta;
-        if self.law.homogeneous() && self.law.support.is_none() {
-            return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
-        }
-        if s == 0.0 {
-            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.drive }, None, false));
-        }
-        if let Some(error) = self.resonant(s) {
-            return Err(error);
-        }
-        let above = (s > 0.0).then(|| self.law.buckling_above(s));
-        Ok(self.state(self.beam.beta, self.law.solve(s), above, false))
-    }
-
-    fn resonant(&self, s: f64) -> Option<EquilibriumError> {
-        let q = 1.0 / s;
-        let epsilon = self.law.support.map_or(0.0, |support| support.epsilon);
-        let singular = if s > 0.0 {
-            self.law.determinant(q).abs() <= RESONANCE * (1.0 + q + epsilon)
-        } else {
-            self.law.deep_buckling().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
-        };
-        singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
-    }
-
-    /// The unloaded beam: u = φ = 0, N = β.
-    fn straight(&self) -> Equilibrium {
-        let s = 1.0 + self.beam.beta;
-        let law = self.pinch.unwrap_or(self.law);
-        let unstable = (s > 0.0).then(|| law.buckling_above(s));
-        let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
-        self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
-    }
-
-    /// No load: the straight state, and a pair at each buckling value above β.
-    fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        // With a support at 0 the straight beam touches without pressing: it is the free law's state.
-        let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
-        let shallow = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
-        let deep = self.law.deep_buckling().map(|s| (s, None));
-        let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
-        for (s, unstable_directions) in shallow.chain(deep).filter(|(s, _)| exists(*s)) {
-            for sign in [1.0, -1.0] {
-                let place = Place::Buckling(s, sign);
-                states.push(self.settle(&Root { place, unstable_directions, fold: false })?);
-            }
-        }
-        Ok(states)
-    }
-
-    /// A load: the roots of the scalar equation.
-    fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
-        let roots = scan.shallow(HALF_WAVES + 1).into_iter().chain(scan.deep());
-        let states: Result<Vec<_>, _> = roots.map(|root| self.settle(&root)).collect();
-        Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
-    }
-
-    /// The free state at N = -1 that exists where `ρ(aθ_A)² = -1 - β` to round-off.
-    fn at_minus_one(&self) -> Option<Equilibrium> {
-        let Beam { beta, rho, .. } = *self.beam;
-        let slope = -self.law.drive;
-        let defect = -1.0 - beta - rho * slope * slope;
-        let exists =
-            self.law.support.is_none() && rho * slope != 0.0 && defect.abs() <= 4.0 * f64::EPSILON * beta.abs();
-        exists.then(|| self.state(-1.0, Shape::Line { slope }, None, false))
-    }
-
-    /// The state at a root, checked.
-    fn settle(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
-        let Beam { beta, rho, .. } = *self.beam;
-        let shape = match root.place {
-            Place::Between(s) => self.law.solve(s),
-            Place::Buckling(s, sign) => self.buckled(s, sign)?,
-        };
-        let shape = if root.fold { shape } else { polish::polish(&self.law, beta, rho, shape) };
-        let n_value = shape.n_value();
-        let stretch = rho * shape.stretch();
-        let defect = (n_value - beta - stretch) / (1.0 + n_value.abs().max(beta.abs()).max(stretch));
-        // Negated, so that NaN fails.
-        if !(defect.abs() <= CONSISTENCY) {
-            return Err(EquilibriumError::Inaccurate { contact: self.contact, n_value, defect });
-        }
-        Ok(self.state(n_value, shape, root.unstable_directions, root.fold))
-    }
-
-    /// The buckling mode at s with the amplitude that makes `N = β + ρ‖u'‖²`, and the given sign.
-    fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
-        let mode = self.law.mode(s);
-        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.stretch());
-        // Negated, so that NaN fails.
-        if !(square > 0.0) {
-            return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
-        }
-        let factor = sign * square.sqrt();
-        Ok(match mode {
-            Shape::Wave(w) => Shape::Wave(shape::Wave {
-                alpha: factor * w.alpha,
-                stress: factor * w.stress,
-                drive: self.law.drive,
-                ..w
-            }),
-            Shape::Deep(d) => Shape::Deep(shape::Deep { stress: factor * d.stress, drive: self.law.drive, ..d }),
-            line @ Shape::Line { .. } => line,
-        })
-    }
-
-    fn state(&self, n_value: f64, shape: Shape, unstable_directions: Option<usize>, singular: bool) -> Equilibrium {
-        // Subtracted, so that no force is 0 and not -0.
-        let contact_force = 0.0 - shape.stress();
-        let u_tip = match self.law.support {
-            // The same number without the cancellation that a compliance of 1e-8 would magnify.
-            Some(Support { epsilon, position }) => position + epsilon * contact_force,
-            None => shape.u(1.0),
-        };
-        Equilibrium {
-            contact: self.contact,
-            n_value,
-            u_tip,
-            phi_tip: shape.phi(1.0),
-            contact_force,
-            stable: unstable_directions == Some(0) && !singular,
-            unstable_directions,
-            shape,
-        }
     }
 }

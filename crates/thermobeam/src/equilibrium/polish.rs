@@ -34,8 +34,8 @@ pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     for _ in 0..STEPS {
         let Some(step) = newton_step(&residual, state) else { break };
         let size = relative_size(step, state);
-        // Not smaller than before, or NaN: round-off is reached, or the start was no start.
-        if !(size < bound) {
+        // Not smaller than before: round-off is reached, or the start was no start.
+        if size.is_nan() || size >= bound {
             break;
         }
         (0..3).for_each(|i| state[i] -= step[i]);

@@ -1,0 +1,170 @@
+//! The steady states of one state of contact.
+
+use super::law::{Law, Support, free_buckling};
+use super::polish::polish;
+use super::scan::{Place, Root, Scan};
+use super::shape::{Deep, Shape, Wave};
+use super::{Contact, Equilibrium, EquilibriumError, HALF_WAVES};
+use crate::parameters::Beam;
+
+/// N = β + ρ‖u'‖² of a reported state holds to this, relative to the largest of its terms.
+const CONSISTENCY: f64 = 1e-9;
+
+/// For ρ = 0 a determinant this close to zero, relative to its largest term, is one that round-off cannot tell from zero.
+const RESONANCE: f64 = 1e-13;
+
+/// Whether a state of this N belongs into the list, which leaves out a neighbourhood of N = -1 from above.
+fn is_listed(n_value: f64) -> bool {
+    n_value <= -1.0 || 1.0 + n_value > free_buckling(HALF_WAVES + 1)
+}
+
+/// One state of contact: its law, and the steady states of that law, pressing or not.
+pub(super) struct Branch<'a> {
+    /// The coefficients.
+    pub(super) beam: &'a Beam,
+    /// The state of contact.
+    pub(super) contact: Contact,
+    /// Its linear problem.
+    pub(super) law: Law,
+    /// What stiffens the straight beam although it does not press.
+    pub(super) pinch: Option<Law>,
+}
+
+impl Branch<'_> {
+    /// The steady states of the law.
+    pub(super) fn states(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
+        let mut states = if self.beam.rho == 0.0 {
+            vec![self.linear()?]
+        } else if self.law.homogeneous() {
+            self.straight_and_buckled()?
+        } else {
+            self.bent()?
+        };
+        states.extend(self.at_minus_one());
+        Ok(states)
+    }
+
+    /// ρ = 0: N = β, and one linear problem.
+    fn linear(&self) -> Result<Equilibrium, EquilibriumError> {
+        let s = 1.0 + self.beam.beta;
+        if self.law.homogeneous() && self.law.support.is_none() {
+            return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
+        }
+        if s == 0.0 {
+            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.drive }, None, false));
+        }
+        if let Some(error) = self.resonant(s) {
+            return Err(error);
+        }
+        let above = (s > 0.0).then(|| self.law.buckling_above(s));
+        Ok(self.state(self.beam.beta, self.law.solve(s), above, false))
+    }
+
+    fn resonant(&self, s: f64) -> Option<EquilibriumError> {
+        let q = 1.0 / s;
+        let epsilon = self.law.support.map_or(0.0, |support| support.epsilon);
+        let singular = if s > 0.0 {
+            self.law.determinant(q).abs() <= RESONANCE * (1.0 + q + epsilon)
+        } else {
+            self.law.deep_buckling().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
+        };
+        singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
+    }
+
+    /// The unloaded beam: u = φ = 0, N = β.
+    fn straight(&self) -> Equilibrium {
+        let s = 1.0 + self.beam.beta;
+        let law = self.pinch.unwrap_or(self.law);
+        let unstable = (s > 0.0).then(|| law.buckling_above(s));
+        let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
+        self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
+    }
+
+    /// No load: the straight state, and a pair at each buckling value above β.
+    fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
+        // With a support at 0 the straight beam touches without pressing: it is the free law's state.
+        let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
+        let shallow = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
+        let deep = self.law.deep_buckling().map(|s| (s, None));
+        let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
+        for (s, unstable_directions) in shallow.chain(deep).filter(|(s, _)| exists(*s)) {
+            for sign in [1.0, -1.0] {
+                let place = Place::Buckling(s, sign);
+                states.push(self.settle(&Root { place, unstable_directions, fold: false })?);
+            }
+        }
+        Ok(states)
+    }
+
+    /// A load: the roots of the scalar equation.
+    fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
+        let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
+        let roots = scan.shallow(HALF_WAVES + 1).into_iter().chain(scan.deep());
+        let states: Result<Vec<_>, _> = roots.map(|root| self.settle(&root)).collect();
+        Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
+    }
+
+    /// The free state at N = -1 that exists where `ρ(aθ_A)² = -1 - β` to round-off.
+    fn at_minus_one(&self) -> Option<Equilibrium> {
+        let Beam { beta, rho, .. } = *self.beam;
+        let slope = -self.law.drive;
+        let defect = -1.0 - beta - rho * slope * slope;
+        let exists =
+            self.law.support.is_none() && rho * slope != 0.0 && defect.abs() <= 4.0 * f64::EPSILON * beta.abs();
+        exists.then(|| self.state(-1.0, Shape::Line { slope }, None, false))
+    }
+
+    /// The state at a root, checked.
+    fn settle(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
+        let Beam { beta, rho, .. } = *self.beam;
+        let shape = match root.place {
+            Place::Between(s) => self.law.solve(s),
+            Place::Buckling(s, sign) => self.buckled(s, sign)?,
+        };
+        let shape = if root.fold { shape } else { polish(&self.law, beta, rho, shape) };
+        let n_value = shape.n_value();
+        let stretch = rho * shape.stretch();
+        let defect = (n_value - beta - stretch) / (1.0 + n_value.abs().max(beta.abs()).max(stretch));
+        if defect.is_nan() || defect.abs() > CONSISTENCY {
+            return Err(EquilibriumError::Inaccurate { contact: self.contact, n_value, defect });
+        }
+        Ok(self.state(n_value, shape, root.unstable_directions, root.fold))
+    }
+
+    /// The buckling mode at s with the amplitude that makes `N = β + ρ‖u'‖²`, and the given sign.
+    fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
+        let mode = self.law.mode(s);
+        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.stretch());
+        if square.is_nan() || square <= 0.0 {
+            return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
+        }
+        let factor = sign * square.sqrt();
+        Ok(match mode {
+            Shape::Wave(w) => {
+                Shape::Wave(Wave { alpha: factor * w.alpha, stress: factor * w.stress, drive: self.law.drive, ..w })
+            }
+            Shape::Deep(d) => Shape::Deep(Deep { stress: factor * d.stress, drive: self.law.drive, ..d }),
+            line @ Shape::Line { .. } => line,
+        })
+    }
+
+    fn state(&self, n_value: f64, shape: Shape, unstable_directions: Option<usize>, singular: bool) -> Equilibrium {
+        // Subtracted, so that no force is 0 and not -0.
+        let contact_force = 0.0 - shape.stress();
+        let u_tip = match self.law.support {
+            // The same number without the cancellation that a compliance of 1e-8 would magnify.
+            Some(Support { epsilon, position }) => position + epsilon * contact_force,
+            None => shape.u(1.0),
+        };
+        Equilibrium {
+            contact: self.contact,
+            n_value,
+            u_tip,
+            phi_tip: shape.phi(1.0),
+            contact_force,
+            stable: unstable_directions == Some(0) && !singular,
+            unstable_directions,
+            shape,
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Buckling, folds and the borderline cases.
+
+use super::{close, driven, obstacles, states};
+use std::f64::consts::PI;
+use thermobeam::equilibrium::{Contact, EquilibriumError, equilibria, lists_all};
+use thermobeam::parameters::Obstacles;
+
+/// N_k, where the beam without support buckles.
+fn buckling(k: u32) -> f64 {
+    let kappa = (f64::from(k) - 0.5) * PI;
+    -kappa * kappa / (1.0 + kappa * kappa)
+}
+
+#[test]
+fn a_straight_beam_has_a_pair_of_buckled_states_per_buckling_value() {
+    let beam = driven(-0.985, 3.0, 0.0);
+    let found = states(&beam, None);
+    assert_eq!(found.len(), 7);
+    for k in 1..=3 {
+        let n = buckling(k);
+        let pair: Vec<_> = found.iter().filter(|state| (state.n_value - n).abs() < 1e-13).collect();
+        assert_eq!(pair.len(), 2, "buckling value {k}");
+        // u' = α q cos(κ(1 - x)), whose square integrates to α² q²/2.
+        let (q, kappa) = (1.0 / (1.0 + n), (f64::from(k) - 0.5) * PI);
+        let alpha = (2.0 * (n - beam.beta) / beam.rho).sqrt() / q;
+        close(pair[1].phi_tip.abs(), alpha, 1e-13);
+        close(pair[1].u_tip, alpha * q / kappa, 1e-13);
+        close(pair[0].u_tip, -pair[1].u_tip, 1e-15);
+        assert_eq!(pair[0].unstable_directions, Some(k as usize - 1));
+    }
+    let straight = &found[3];
+    assert_eq!((straight.u_tip, straight.n_value, straight.unstable_directions), (0.0, beam.beta, Some(3)));
+}
+
+#[test]
+fn obstacles_take_away_the_buckled_states_that_they_are_in_the_way_of() {
+    let beam = driven(-0.72, 1.0, 0.0);
+    let amplitude = states(&beam, None)[2].u_tip;
+    let wide = Obstacles { g1: -1.001 * amplitude, g2: 1.001 * amplitude, epsilon: 1e-3 };
+    let narrow = Obstacles { g1: -0.999 * amplitude, ..wide };
+    let contacts = |o: &Obstacles| states(&beam, Some(o)).iter().map(|state| state.contact).collect::<Vec<_>>();
+    assert_eq!(contacts(&wide), [Contact::Free; 3]);
+    assert_eq!(contacts(&narrow), [Contact::Lower, Contact::Free, Contact::Free]);
+}
+
+#[test]
+fn a_small_load_moves_buckled_states_linearly() {
+    let sum = |drive: f64| {
+        let found = states(&driven(-0.9, 1.0, drive), None);
+        assert_eq!(found.len(), 3, "drive {drive:e}");
+        (found[0].u_tip + found[2].u_tip) / drive
+    };
+    let slope = sum(1e-4);
+    for drive in [1e-6, -1e-8, 1e-10, -1e-12] {
+        close(sum(drive), slope, 1e-5 + 4e-16 / drive.abs());
+    }
+    // Below round-off of the amplitude the pair is that of the unloaded beam.
+    let unloaded = states(&driven(-0.9, 1.0, 0.0), None);
+    for drive in [1e-15, 1e-17, -1e-30, 1e-200] {
+        let found = states(&driven(-0.9, 1.0, drive), None);
+        assert_eq!(found.len(), 3, "drive {drive:e}");
+        found.iter().zip(&unloaded).for_each(|(state, limit)| close(state.u_tip, limit.u_tip, 1e-14));
+    }
+}
+
+#[test]
+fn two_states_merge_in_a_fold_and_vanish() {
+    let count = |drive: f64| states(&driven(-0.8, 1.0, drive), None).len();
+    let (mut three, mut one) = (1e-4, 1.0);
+    assert_eq!((count(three), count(one)), (3, 1));
+    while one - three > 1e-14 * one {
+        let middle = 0.5 * (three + one);
+        if count(middle) == 1 { one = middle } else { three = middle }
+    }
+    assert_eq!((count(three * (1.0 - 1e-12)), count(one * (1.0 + 1e-12))), (3, 1));
+    // Beside the fold the pair is √ close, one of it stable, one not.
+    let close_by = states(&driven(-0.8, 1.0, three * (1.0 - 1e-10)), None);
+    assert!((close_by[1].u_tip - close_by[0].u_tip).abs() < 1e-4);
+    assert_eq!(close_by.iter().filter(|state| state.stable).count(), 2);
+}
+
+#[test]
+fn the_straight_beam_pinched_between_two_obstacles_at_zero_is_stiffer() {
+    let beam = driven(-0.8, 1.0, 0.0);
+    let pinched = states(&beam, obstacles(1e-3, 0.0, 0.0).as_ref());
+    assert_eq!(pinched.len(), 1);
+    assert!(pinched[0].stable);
+    let one_sided = states(&beam, obstacles(1e-3, -1.0, 0.0).as_ref());
+    assert_eq!(one_sided.iter().map(|state| state.stable).collect::<Vec<_>>(), [true, false]);
+}
+
+#[test]
+fn at_minus_one_the_stress_vanishes() {
+    // ρ(aθ_A)² = -1 - β, all exact in binary.
+    let found = states(&driven(-1.25, 1.0, 0.5), None);
+    let state = found.iter().find(|state| state.n_value == -1.0).expect("the state at N = -1");
+    assert_eq!((state.u_tip, state.phi_tip, state.u_x(0.3), state.unstable_directions), (-0.5, 0.0, -0.5, None));
+}
+
+#[test]
+fn what_cannot_be_told_is_an_error() {
+    let resonant = equilibria(&driven(buckling(2), 0.0, 0.1), None);
+    assert!(matches!(resonant, Err(EquilibriumError::Resonance { contact: Contact::Free, .. })), "{resonant:?}");
+    let bad = equilibria(&driven(f64::NAN, 1.0, 0.1), None);
+    assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
+    assert!(lists_all(&driven(-0.999, 1.0, 0.0)) && !lists_all(&driven(-1.0, 1.0, 0.0)));
+}

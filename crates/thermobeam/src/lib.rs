@@ -17,3 +17,4 @@ pub mod simulation;
 pub mod solve;
 pub mod tridiagonal;
 mod stumpff;
+pub mod vibration;

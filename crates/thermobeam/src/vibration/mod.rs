@@ -1,0 +1,167 @@
+//! Free vibrations of the linear beam, exact: a = β = ρ = 0, no obstacles, θ = 0.
+//!
+//! # Separation
+//!
+//! Both equations of (1.1) then have the form w_tt = L(w + ζ w_t) with the elastic operator L, and (1.3) the same
+//! combination w + ζ w_t. So each undamped mode L(U, Φ) = -ω²(U, Φ) may be multiplied by its own T(t) with
+//!
+//! `T'' + ζω² T' + ω² T = 0`:
+//!
+//! see [`DampedMode`]. What remains is
+//!
+//! ```text
+//! U'' - Φ' = -ω² U,      Φ'' + U' - Φ = -ω² Φ,
+//! U(0) = Φ(0) = 0,       U'(1) - Φ(1) = 0,    Φ'(1) = 0.
+//! ```
+//!
+//! # Frequencies
+//!
+//! An exponential e^{px} solves the equations where `(p² + ω²)(p² + ω² - 1) + p² = 0`, that is `p² = -ω² ± ω`.
+//! With `κ±² = ω² ∓ ω`, C±(x) = cos κ± x and S±(x) = sin κ± x / κ± (the first pair is hyperbolic for ω < 1, linear for ω = 1;
+//! as functions of κ±² both are entire), the two solutions that are clamped at x = 0 are
+//!
+//! ```text
+//! U = A [(1 - ω) S+ - (1 + ω) S-] + B [C+ - C-],
+//! Φ = A [C+ - C-]                 + B ω [S+ + S-].
+//! ```
+//!
+//! The two conditions at x = 1 read, divided by ω and with everything taken at 1,
+//!
+//! ```text
+//! [(1 + ω) S- + (1 - ω) S+] A + (C+ + C-) B = 0,
+//! -(C+ + C-) A + ω (S- - S+) B = 0,
+//! ```
+//!
+//! with determinant `2 (1 + C+ C- - ω² S+ S-)`. On [0, 1] it is at least 0.1: no frequency there. For ω > 1 put
+//!
+//! ```text
+//! ω = (E + 1/E)/2, E > 1,     s = (κ+ + κ-)/2 = √(E² + 1)/2,     (κ- - κ+)/2 = s/E.
+//! ```
+//!
+//! The determinant is then a difference of two squares, and vanishes where
+//!
+//! `|cos s| = r(s) := cos(s/E)/E`.
+//!
+//! # None is missed
+//!
+//! r falls from 0.76 (s = 1/√2, ω = 1) to 0 and never reaches 1, and |r'| < 0.7 < 0.87 < |sin s| at a root with s >= 1,
+//! below which |cos s| > r. So each interval of length π/2 between the zeros of sin s and cos s has exactly one root,
+//! simple; the first, which starts with s = 1, included. With it goes a bracket, and the i-th frequency needs no other.
+//! High frequencies come in pairs, ω ≈ (n - 1/2)π ∓ 0.44/ω: there the determinant itself has nearly double roots,
+//! which a scan of its sign would overlook.
+//!
+//! ```
+//! use thermobeam::vibration::{DampedMode, Mode};
+//!
+//! let lowest = DampedMode::new(Mode::new(0), 0.1)?;
+//! let tip = |t: f64| lowest.mode().u(1.0) * lowest.factor(t);
+//! assert!((lowest.mode().omega() - 1.27396492100).abs() < 1e-11);
+//! assert!(tip(0.0) == 1.0 && tip(5.0).abs() < 1.0);
+//! # Ok::<(), thermobeam::parameters::ParameterError>(())
+//! ```
+
+mod damped;
+mod discrete;
+
+use crate::bracket::bisect;
+use crate::stumpff::{c0, c1};
+use std::f64::consts::FRAC_PI_2;
+
+pub use damped::DampedMode;
+pub use discrete::{SpectrumError, discrete_frequencies};
+
+/// The `count` lowest frequencies ω, in increasing order.
+pub fn frequencies(count: usize) -> Vec<f64> {
+    (0..count).map(frequency).collect()
+}
+
+/// The frequency of the given index from 0, exact to a few units of round-off.
+fn frequency(index: usize) -> f64 {
+    let excess = |s: f64| s.cos().abs() - (s / e(s)).cos() / e(s);
+    // Below s = 1 there is none, and at ω = 1 (s = 1/√2) the quotient has a zero that the determinant has not.
+    let (from, to) = (FRAC_PI_2 * index as f64, FRAC_PI_2 * (index + 1) as f64);
+    let e = e(bisect(excess, from.max(1.0), to));
+    0.5 * (e + 1.0 / e)
+}
+
+/// `E = √(4s² - 1)`.
+fn e(s: f64) -> f64 {
+    ((2.0 * s - 1.0) * (2.0 * s + 1.0)).sqrt()
+}
+
+/// A mode of vibration of the undamped beam, scaled to U(1) = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    omega: f64,
+    a: f64,
+    b: f64,
+}
+
+impl Mode {
+    /// The mode of the given index, the lowest frequency being index 0.
+    ///
+    /// U and Φ are exact to round-off times ω: at high frequencies two almost equal waves make up their difference.
+    pub fn new(index: usize) -> Self {
+        let omega = frequency(index);
+        let [plus, minus] = squares(omega);
+        // The second condition at x = 1, or the first, whichever says more: at high frequencies both are small.
+        let sum = c0(plus) + c0(minus);
+        let rotation = omega * (c1(minus) - c1(plus));
+        let shear = (1.0 + omega) * c1(minus) + (1.0 - omega) * c1(plus);
+        let (a, b) = if rotation.abs() > shear.abs() { (rotation, sum) } else { (sum, -shear) };
+        let unscaled = Self { omega, a, b };
+        // U(1) = 0 would make three conditions at the tip and two at the clamp: too many for a mode.
+        let tip = unscaled.u(1.0);
+        Self { omega, a: a / tip, b: b / tip }
+    }
+
+    /// ω.
+    pub fn omega(&self) -> f64 {
+        self.omega
+    }
+
+    /// U at x in [0, 1].
+    pub fn u(&self, x: f64) -> f64 {
+        let [plus, minus] = self.waves(x);
+        self.a * ((1.0 - self.omega) * plus.sine - (1.0 + self.omega) * minus.sine)
+            + self.b * (plus.cosine - minus.cosine)
+    }
+
+    /// U' at x.
+    pub fn u_x(&self, x: f64) -> f64 {
+        let ([plus, minus], [plus_square, minus_square]) = (self.waves(x), squares(self.omega));
+        self.a * ((1.0 - self.omega) * plus.cosine - (1.0 + self.omega) * minus.cosine)
+            + self.b * (minus_square * minus.sine - plus_square * plus.sine)
+    }
+
+    /// Φ at x.
+    pub fn phi(&self, x: f64) -> f64 {
+        let [plus, minus] = self.waves(x);
+        self.a * (plus.cosine - minus.cosine) + self.b * self.omega * (plus.sine + minus.sine)
+    }
+
+    /// Φ' at x.
+    pub fn phi_x(&self, x: f64) -> f64 {
+        let ([plus, minus], [plus_square, minus_square]) = (self.waves(x), squares(self.omega));
+        self.a * (minus_square * minus.sine - plus_square * plus.sine)
+            + self.b * self.omega * (plus.cosine + minus.cosine)
+    }
+
+    /// C± and S± at x.
+    fn waves(&self, x: f64) -> [Wave; 2] {
+        squares(self.omega).map(|square| {
+            let argument = square * x * x;
+            Wave { cosine: c0(argument), sine: x * c1(argument) }
+        })
+    }
+}
+
+struct Wave {
+    cosine: f64,
+    sine: f64,
+}
+
+/// `κ±² = ω² ∓ ω`.
+fn squares(omega: f64) -> [f64; 2] {
+    [omega * (omega - 1.0), omega * (omega + 1.0)]
+}

@@ -155,3 +155,38 @@ impl Law {
 fn flexibility(deep: &Deep) -> f64 {
     deep.q * (1.0 - deep.q * deep.t()) / (1.0 - deep.q)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mode_changes_sign_at_each_buckling_value_as_announced() {
+        let support = Some(Support { epsilon: 0.3, position: 0.2 });
+        for law in
+            [(0.4, None), (-0.4, None), (0.4, support), (-0.7, support)].map(|(drive, support)| Law { drive, support })
+        {
+            for s in (1..=5).map(|k| law.buckling(k)).chain(law.deep_buckling()) {
+                let amplitude = |s: f64| match (law.solve(s), law.mode(s)) {
+                    (Shape::Wave(found), Shape::Wave(mode)) => found.alpha / mode.alpha,
+                    (found, mode) => found.stress() / mode.stress(),
+                };
+                let (above, below) = (amplitude(s + 1e-6 * s.abs()), amplitude(s - 1e-6 * s.abs()));
+                assert!(above.abs() > 10.0 && above * below < 0.0, "no pole at {s} of {law:?}");
+                assert_eq!(law.sign_above(s), above.signum(), "{s} of {law:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn supported_buckling_values_interlace_with_the_free_ones() {
+        for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
+            let law = Law { drive: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            for k in 1..=20 {
+                let s = law.buckling(k);
+                assert!(free_buckling(k + 1) < s && s < free_buckling(k), "{k}-th at epsilon = {epsilon}");
+                assert_eq!((law.buckling_above(s * 1.000001), law.buckling_above(s * 0.999999)), (k - 1, k));
+            }
+        }
+    }
+}

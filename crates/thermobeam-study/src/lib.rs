@@ -3,3 +3,4 @@
 pub mod calibration;
 pub mod fit;
 pub mod verdict;
+pub mod plots;

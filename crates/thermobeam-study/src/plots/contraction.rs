@@ -1,0 +1,52 @@
+//! Measured against predicted contraction of the fixed point.
+
+use super::marker::Marks;
+use super::style::{self, Dash, Look, look};
+use super::xy::{Curve, Xy};
+use super::{Axis, Series};
+
+/// Contraction factors of an iteration: predicted and measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contraction {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// `(predicted, measured)`, one series per kind of case.
+    pub series: Vec<Series>,
+}
+
+/// Draws measured over predicted contraction, log-log, with the identity and the region of divergence.
+pub fn contraction(figure: &Contraction) -> String {
+    let curve = |(k, series): (usize, &Series)| Curve {
+        label: Some(series.label.clone()),
+        points: series.points.clone(),
+        look: look(k),
+        width: 0.0,
+        marks: Marks::Filled,
+        is_data: true,
+    };
+    let mut xy = Xy {
+        title: figure.title.clone(),
+        x: Axis::log("predicted contraction α (dimensionless)"),
+        y: Axis::log("measured contraction (dimensionless)"),
+        curves: figure.series.iter().enumerate().map(curve).collect(),
+        beyond: Some((1.0, "diverges (α ≥ 1)".into())),
+        // Wide enough for the text above the region.
+        show_x: vec![1.0, 10.0],
+        ..Xy::default()
+    };
+    xy.curves.insert(0, identity(&xy));
+    xy.draw()
+}
+
+/// The line on which prediction and measurement agree, over the whole plot.
+fn identity(xy: &Xy) -> Curve {
+    let x = xy.x_ruler();
+    Curve {
+        label: Some("measured = predicted".into()),
+        points: [x.lo, x.hi].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec(),
+        look: Look { colour: style::MUTED, dash: Dash::Long, ..look(0) },
+        width: 1.6,
+        marks: Marks::None,
+        is_data: false,
+    }
+}

@@ -1,0 +1,106 @@
+//! Quantities over time.
+
+use super::marker::Marks;
+use super::style::{self, look};
+use super::xy::{Curve, Xy};
+use super::{Axis, Guide, Phases, Scale, Series};
+
+/// Quantities over time, with limits and phases.
+///
+/// Series of any length: long ones are drawn as their envelope, in which no spike is lost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// Label of the time axis; `"time t (dimensionless)"` where it is empty.
+    pub x_label: String,
+    /// The vertical axis.
+    pub y: Axis,
+    /// `(t, value)`, times ascending.
+    pub series: Vec<Series>,
+    /// Obstacles, limits.
+    pub guides: Vec<Guide>,
+    /// Intervals to shade.
+    pub phases: Phases,
+}
+
+/// Draws quantities over time.
+pub fn history(figure: &History) -> String {
+    let curve = |(k, series): (usize, &Series)| Curve {
+        label: Some(series.label.clone()),
+        points: series.points.clone(),
+        look: look(k),
+        width: style::LINE,
+        marks: Marks::None,
+        is_data: true,
+    };
+    Xy {
+        title: figure.title.clone(),
+        x: time_axis(&figure.x_label),
+        y: figure.y.clone(),
+        curves: figure.series.iter().enumerate().map(curve).collect(),
+        guides: figure.guides.clone(),
+        phases: figure.phases.clone(),
+        ..Xy::default()
+    }
+    .draw()
+}
+
+/// Iterations that each time step took.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Iterations {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// Label of the time axis; `"time t (dimensionless)"` where it is empty.
+    pub x_label: String,
+    /// `(t at the end of the step, iterations)`, times ascending; one series per solver.
+    pub series: Vec<Series>,
+    /// Intervals to shade.
+    pub phases: Phases,
+}
+
+/// Draws iterations per step as steps, from zero.
+pub fn iterations(figure: &Iterations) -> String {
+    let curve = |(k, series): (usize, &Series)| Curve {
+        label: Some(series.label.clone()),
+        points: steps(&series.points),
+        look: look(k),
+        width: style::LINE,
+        marks: Marks::None,
+        is_data: true,
+    };
+    Xy {
+        title: figure.title.clone(),
+        x: time_axis(&figure.x_label),
+        y: Axis { label: "iterations per step".into(), scale: Scale::Linear },
+        curves: figure.series.iter().enumerate().map(curve).collect(),
+        phases: figure.phases.clone(),
+        show_y: vec![0.0, 1.0],
+        ..Xy::default()
+    }
+    .draw()
+}
+
+fn time_axis(label: &str) -> Axis {
+    Axis::linear(if label.is_empty() { "time t (dimensionless)" } else { label })
+}
+
+/// Every value held from the end of the step before to the end of its own.
+fn steps(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut held = Vec::with_capacity(2 * points.len());
+    for (k, &(t, value)) in points.iter().enumerate() {
+        if let Some(before) = k.checked_sub(1) {
+            held.push((points[before].0, value));
+        }
+        held.push((t, value));
+    }
+    held
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_step_holds_its_value() {
+        assert_eq!(super::steps(&[(1.0, 3.0), (2.0, 5.0)]), [(1.0, 3.0), (1.0, 5.0), (2.0, 5.0)]);
+    }
+}

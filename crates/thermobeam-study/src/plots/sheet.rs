@@ -1,0 +1,228 @@
+//! A laid-out page: plot area, axes, grid, legend and notes, each in its own place.
+
+use super::Guide;
+use super::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect};
+use super::legend::{Entry, Legend, elide};
+use super::marker::tick;
+use super::ruler::{Ruler, Ticks, power_of_ten};
+use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
+
+const EDGE: f64 = 16.0;
+const NOTE_HEIGHT: f64 = 24.0;
+/// From the frame down to the middle of the tick labels, and to the middle of the axis label.
+const TICK_LABEL_DROP: f64 = 19.0;
+const AXIS_LABEL_DROP: f64 = 48.0;
+/// Guide labels closer than this would overlap.
+const GUIDE_SPACING: f64 = 21.0;
+
+/// What a page is to hold.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) title: Option<String>,
+    pub(super) x: Ruler,
+    pub(super) y: Ruler,
+    pub(super) x_label: String,
+    pub(super) y_label: String,
+    /// Room wanted to the right of the plot, in px.
+    pub(super) right: f64,
+    /// Text above the plot, at positions on the x scale.
+    pub(super) above: Option<(f64, String)>,
+    pub(super) legend: Vec<Entry>,
+    pub(super) notes: Vec<String>,
+}
+
+/// A page with everything in its place.
+pub(super) struct Sheet {
+    pub(super) canvas: Canvas,
+    pub(super) plot: Rect,
+    pub(super) x: Ruler,
+    pub(super) y: Ruler,
+    x_ticks: Ticks,
+    y_ticks: Ticks,
+    legend: Legend,
+    plan: Plan,
+}
+
+impl Plan {
+    /// Measures all texts and places the plot area between them.
+    pub(super) fn lay_out(self) -> Sheet {
+        let y_ticks = self.y.ticks(6);
+        let left = EDGE + LABEL_SIZE + 10.0 + widest(&y_ticks) + 12.0;
+        let right = style::WIDTH - self.right.max(2.0 * EDGE);
+        let x_ticks = ticks_that_fit(&self.x, right - left);
+        let headline = self.above.is_some() || y_ticks.exponent != 0;
+        let top = EDGE + if self.title.is_some() { 32.0 } else { 0.0 } + if headline { 24.0 } else { 0.0 };
+        let plot = Rect { left, top, right, bottom: top + style::PLOT_HEIGHT };
+        let legend = Legend::arrange(self.legend.clone(), style::WIDTH - 2.0 * EDGE);
+        let height = legend_top(&plot) + legend.height() + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
+        Sheet {
+            canvas: Canvas::new(style::WIDTH, height.round()),
+            x: self.x.from_to(plot.left, plot.right),
+            y: self.y.from_to(plot.bottom, plot.top),
+            plot,
+            x_ticks,
+            y_ticks,
+            legend,
+            plan: self,
+        }
+    }
+}
+
+fn legend_top(plot: &Rect) -> f64 {
+    plot.bottom + AXIS_LABEL_DROP + 18.0
+}
+
+fn widest(ticks: &Ticks) -> f64 {
+    ticks.major.iter().map(|t| text_width(&t.label, TICK_SIZE)).fold(0.0, f64::max)
+}
+
+/// The finest ticks whose labels stand clear of each other.
+fn ticks_that_fit(ruler: &Ruler, width: f64) -> Ticks {
+    let fits = |t: &Ticks| (widest(t) + 0.8 * TICK_SIZE) * t.major.len() as f64 <= width;
+    let fewer = (2..=8).rev().map(|wanted| ruler.ticks(wanted));
+    fewer.into_iter().find(fits).unwrap_or_else(|| ruler.ticks(1))
+}
+
+impl Sheet {
+    /// Position of a data point, if its axes can show it.
+    pub(super) fn px(&self, (x, y): (f64, f64)) -> Option<Point> {
+        Some((self.x.px(x)?, self.y.px(y)?))
+    }
+
+    /// Draws the grid: to be called before the data.
+    pub(super) fn draw_grid(&mut self) {
+        let Sheet { plot, x, y, x_ticks, y_ticks, canvas, .. } = self;
+        let upright = |pen: &Pen<'_>, v: f64, colour| {
+            pen.line(&[(x.px_of(v), plot.top), (x.px_of(v), plot.bottom)], colour, 1.0);
+        };
+        let level = |pen: &Pen<'_>, v: f64, colour| {
+            pen.line(&[(plot.left, y.px_of(v)), (plot.right, y.px_of(v))], colour, 1.0);
+        };
+        canvas.draw(Layer::clipped(*plot), |pen| {
+            x_ticks.minor.iter().for_each(|&v| upright(pen, v, style::MINOR_GRID));
+            y_ticks.minor.iter().for_each(|&v| level(pen, v, style::MINOR_GRID));
+            x_ticks.major.iter().for_each(|t| upright(pen, t.at, style::GRID));
+            y_ticks.major.iter().for_each(|t| level(pen, t.at, style::GRID));
+        });
+    }
+
+    /// Draws a thin line at each guide, and its label in the right margin.
+    pub(super) fn draw_guides(&mut self, guides: &[Guide]) {
+        let mut places: Vec<(f64, &str)> =
+            guides.iter().filter_map(|g| Some((self.y.px(g.value)?, g.label.as_str()))).collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let plot = self.plot;
+        self.canvas.draw(Layer::clipped(plot).dashed(style::Dash::Short), |pen| {
+            for &(y, _) in &places {
+                pen.line(&[(plot.left, y), (plot.right, y)], style::MUTED, 1.4);
+            }
+        });
+        let spread = spread_out(&places.iter().map(|p| p.0).collect::<Vec<_>>(), plot);
+        self.canvas.draw(Layer::plain(), |pen| {
+            for (&(line, label), &at) in places.iter().zip(&spread) {
+                pen.line(&[(plot.right + 1.0, line), (plot.right + 9.0, at)], style::MUTED, style::THIN);
+                pen.text(label, (plot.right + 13.0, at), TICK_SIZE, Anchor::Start, style::INK);
+            }
+        });
+    }
+
+    /// Draws what surrounds the data, and closes the document.
+    pub(super) fn finish(mut self) -> String {
+        let Sheet { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
+        canvas.draw(Layer::plain(), |pen| {
+            pen.frame(*plot, style::INK, style::THIN);
+            draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
+            draw_y_axis(pen, plot, y, y_ticks, &plan.y_label);
+            draw_headlines(pen, plot, plan, x);
+        });
+        self.draw_foot();
+        let Plan { title, x_label, y_label, .. } = self.plan;
+        self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")))
+    }
+
+    fn draw_foot(&mut self) {
+        let top = legend_top(&self.plot);
+        self.legend.draw(&mut self.canvas, self.plot.centre().0, top);
+        let first = top + self.legend.height() + 0.5 * NOTE_HEIGHT;
+        let left = self.plot.left;
+        let notes = &self.plan.notes;
+        self.canvas.draw(Layer::plain(), |pen| {
+            for (k, note) in notes.iter().enumerate() {
+                let at = (left, first + k as f64 * NOTE_HEIGHT);
+                let note = elide(note, NOTE_SIZE, style::WIDTH - left - EDGE);
+                pen.text(&note, at, NOTE_SIZE, Anchor::Start, style::MUTED);
+            }
+        });
+    }
+}
+
+fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
+    for t in &ticks.major {
+        let x = ruler.px_of(t.at);
+        tick(pen, (x, plot.bottom), (x, plot.bottom - 6.0));
+        pen.text(&t.label, (x, plot.bottom + TICK_LABEL_DROP), TICK_SIZE, Anchor::Middle, style::INK);
+    }
+    let row = plot.bottom + AXIS_LABEL_DROP;
+    if ticks.exponent != 0 {
+        let power = format!("×{}", power_of_ten(ticks.exponent));
+        pen.text(&power, (plot.right, row), TICK_SIZE, Anchor::End, style::INK);
+    }
+    let label = elide(label, LABEL_SIZE, plot.width());
+    pen.text(&label, (plot.centre().0, row), LABEL_SIZE, Anchor::Middle, style::INK);
+}
+
+fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
+    for t in &ticks.major {
+        let y = ruler.px_of(t.at);
+        tick(pen, (plot.left, y), (plot.left + 6.0, y));
+        pen.text(&t.label, (plot.left - 9.0, y), TICK_SIZE, Anchor::End, style::INK);
+    }
+    if ticks.exponent != 0 {
+        let power = format!("×{}", power_of_ten(ticks.exponent));
+        pen.text(&power, (plot.left, plot.top - 13.0), TICK_SIZE, Anchor::Start, style::INK);
+    }
+    let label = elide(label, LABEL_SIZE, plot.height() + 2.0 * EDGE);
+    pen.text_upwards(&label, (EDGE + 0.5 * LABEL_SIZE, plot.centre().1), LABEL_SIZE);
+}
+
+fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Plan, x: &Ruler) {
+    if let Some(title) = &plan.title {
+        let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
+        pen.text(&title, (0.5 * style::WIDTH, EDGE + 10.0), TITLE_SIZE, Anchor::Middle, style::INK);
+    }
+    if let Some((at, text)) = &plan.above {
+        pen.text(text, (x.px_of(*at), plot.top - 13.0), TICK_SIZE, Anchor::Middle, style::INK);
+    }
+}
+
+/// Room that guide labels take up to the right of the plot.
+pub(super) fn guide_margin(guides: &[Guide]) -> f64 {
+    guides.iter().map(|g| text_width(&g.label, TICK_SIZE) + 22.0).fold(0.0, f64::max)
+}
+
+/// Moves sorted heights apart so that labels there do not overlap, within the plot where that is possible.
+fn spread_out(heights: &[f64], plot: Rect) -> Vec<f64> {
+    let mut spread = heights.to_vec();
+    for k in 1..spread.len() {
+        spread[k] = spread[k].max(spread[k - 1] + GUIDE_SPACING);
+    }
+    let mut lowest = plot.bottom.max(spread.first().copied().unwrap_or(plot.bottom));
+    for y in spread.iter_mut().rev() {
+        *y = y.min(lowest);
+        lowest = *y - GUIDE_SPACING;
+    }
+    spread
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn close_guide_labels_are_moved_apart() {
+        let plot = Rect { left: 0.0, top: 0.0, right: 100.0, bottom: 430.0 };
+        let spread = spread_out(&[10.0, 12.0, 425.0, 429.0], plot);
+        assert!(spread.windows(2).all(|w| w[1] - w[0] >= GUIDE_SPACING - 1e-9), "{spread:?}");
+        assert!(spread[3] <= plot.bottom);
+    }
+}

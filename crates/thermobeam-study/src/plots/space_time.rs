@@ -1,0 +1,137 @@
+//! A field over space and time, as a picture.
+
+use super::Scale;
+use super::colour::ColourScale;
+use super::heat::paint;
+use super::ruler::{Ruler, on_scale};
+use super::sheet::Plan;
+use super::xy::left_out;
+
+/// Cells of the picture at most, along time and along the beam. Even noise, which merges nowhere, stays below 400 kB.
+const MOST_COLUMNS: usize = 170;
+const MOST_ROWS: usize = 110;
+
+/// A field over space and time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpaceTime {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// What the colours show, such as `"displacement u (dimensionless)"`.
+    pub label: String,
+    /// Times of the frames, ascending.
+    pub times: Vec<f64>,
+    /// Nodes of the mesh, ascending.
+    pub nodes: Vec<f64>,
+    /// `frames[n][i]` belongs to `times[n]` and `nodes[i]`.
+    pub frames: Vec<Vec<f64>>,
+}
+
+/// Draws a field over time (horizontal) and place (vertical), white where it is zero.
+pub fn space_time(figure: &SpaceTime) -> String {
+    let t = Ruler::around(Scale::Linear, figure.times.iter().copied(), 0.0);
+    let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
+    let cells = raster(figure, &t, &x);
+    let colours = ColourScale::diverging(&figure.label, cells.iter().flatten().copied());
+    let non_finite = figure.frames.iter().flatten().filter(|&&v| on_scale(Scale::Linear, v).is_none()).count();
+    let plan = Plan {
+        title: figure.title.clone(),
+        x: t,
+        y: x,
+        x_label: "time t (dimensionless)".into(),
+        y_label: "position x (dimensionless)".into(),
+        right: colours.margin(),
+        above: None,
+        legend: Vec::new(),
+        notes: left_out(non_finite, 0),
+    };
+    let mut sheet = plan.lay_out();
+    let plot = sheet.plot;
+    let (x_edges, y_edges) = (
+        even(plot.left, plot.right, cells.first().map_or(0, Vec::len)),
+        even(plot.bottom, plot.top, cells.len()),
+    );
+    let rows: Vec<_> = cells.iter().map(|row| row.iter().map(|&v| colours.colour(v)).collect()).collect();
+    paint(&mut sheet.canvas, &x_edges, &y_edges, &rows);
+    colours.draw_bar(&mut sheet);
+    sheet.finish()
+}
+
+fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
+    (0..=cells).map(|k| from + (to - from) * k as f64 / cells.max(1) as f64).collect()
+}
+
+/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, interpolated in space,
+/// where the elements are linear too.
+fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler) -> Vec<Vec<f64>> {
+    if figure.times.is_empty() || figure.nodes.is_empty() {
+        return Vec::new();
+    }
+    let columns = MOST_COLUMNS.min(4 * figure.times.len());
+    let rows = MOST_ROWS.min(4 * figure.nodes.len());
+    let middle = |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
+    let weights: Vec<_> = (0..rows).map(|k| between(&figure.nodes, middle(x, k, rows))).collect();
+    let mut cells = vec![vec![f64::NAN; columns]; rows];
+    let half = 0.5 * (t.hi - t.lo) / columns as f64;
+    for column in 0..columns {
+        let frames = frames_near(&figure.times, middle(t, column, columns), half);
+        for (row, &(node, s)) in weights.iter().enumerate() {
+            cells[row][column] = mix(figure, &frames, node, s);
+        }
+    }
+    cells
+}
+
+/// The interval of ascending values that holds `v`, and how far along it `v` lies.
+fn between(values: &[f64], v: f64) -> (usize, f64) {
+    let k = values.partition_point(|&a| a <= v).clamp(1, values.len().max(2) - 1) - 1;
+    match (values.get(k), values.get(k + 1)) {
+        (Some(&a), Some(&b)) if b > a => (k, ((v - a) / (b - a)).clamp(0.0, 1.0)),
+        _ => (k, 0.0),
+    }
+}
+
+/// Frames and weights that make up a cell: all that fall into it, or the two around it.
+fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
+    let (first, last) = (times.partition_point(|&a| a < t - half), times.partition_point(|&a| a < t + half));
+    if last > first {
+        return (first..last).map(|n| (n, 1.0 / (last - first) as f64)).collect();
+    }
+    let (n, s) = between(times, t);
+    vec![(n, 1.0 - s), (n + 1, s)]
+}
+
+fn mix(figure: &SpaceTime, frames: &[(usize, f64)], node: usize, s: f64) -> f64 {
+    let value = |n: usize, i: usize| figure.frames.get(n).and_then(|f| f.get(i)).copied().unwrap_or(f64::NAN);
+    // A weight of zero must not let a missing neighbour spoil the value.
+    let term = |weight: f64, v: f64| if weight == 0.0 { 0.0 } else { weight * v };
+    let in_space = |n: usize| term(1.0 - s, value(n, node)) + term(s, value(n, node + 1));
+    frames.iter().map(|&(n, weight)| if weight == 0.0 { 0.0 } else { weight * in_space(n) }).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_field_is_reproduced() {
+        let (times, nodes) = (vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
+        let frames = times.iter().map(|t| nodes.iter().map(|x| t + 10.0 * x).collect()).collect();
+        let figure = SpaceTime { times, nodes, frames, ..Default::default() };
+        let t = Ruler::between(Scale::Linear, 0.0, 2.0);
+        let x = Ruler::between(Scale::Linear, 0.0, 1.0);
+        let cells = raster(&figure, &t, &x);
+        let (rows, columns) = (cells.len(), cells[0].len());
+        let exact = 0.5 / rows as f64 * 10.0;
+        // The first column holds the frame t = 0 and takes its value.
+        assert!((cells[0][0] - exact).abs() < 1e-12);
+        assert!((cells[rows - 1][columns - 2] - (10.0 - exact)).abs() < 2.0);
+    }
+
+    #[test]
+    fn intervals_are_found_at_both_ends() {
+        assert_eq!(between(&[0.0, 1.0, 2.0], 0.0), (0, 0.0));
+        assert_eq!(between(&[0.0, 1.0, 2.0], 2.0), (1, 1.0));
+        assert_eq!(between(&[0.0], 5.0), (0, 0.0));
+        assert_eq!(between(&[], 5.0), (0, 0.0));
+    }
+}

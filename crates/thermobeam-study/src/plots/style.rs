@@ -1,0 +1,108 @@
+//! The house style of all figures: sizes, colours, and how the k-th series is told from the others.
+
+use super::marker::Marker;
+use plotters::style::RGBColor;
+
+/// Page width in px. Figures are read at full and at half of it, which the text sizes below allow for.
+pub(super) const WIDTH: f64 = 900.0;
+/// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
+pub(super) const PLOT_HEIGHT: f64 = 430.0;
+
+/// Helvetica and its metric twins first: the estimates of [`text_width`] are taken from the widest, DejaVu Sans.
+pub(super) const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
+pub(super) const TITLE_SIZE: f64 = 22.0;
+pub(super) const LABEL_SIZE: f64 = 20.0;
+pub(super) const TICK_SIZE: f64 = 18.0;
+pub(super) const NOTE_SIZE: f64 = 16.0;
+
+pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
+pub(super) const WHITE: RGBColor = RGBColor(255, 255, 255);
+pub(super) const MUTED: RGBColor = RGBColor(96, 96, 96);
+pub(super) const GRID: RGBColor = RGBColor(214, 214, 214);
+pub(super) const MINOR_GRID: RGBColor = RGBColor(238, 238, 238);
+/// Shaded intervals and regions: light enough for the grid's darker lines to stay visible on it.
+pub(super) const SHADE: RGBColor = RGBColor(228, 233, 240);
+/// Cells without a value.
+pub(super) const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
+
+pub(super) const THIN: f64 = 1.2;
+pub(super) const LINE: f64 = 2.2;
+
+/// Okabe and Ito's palette, told apart by all common kinds of colour vision; its yellow is too pale on white.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(170, 68, 153),
+    RGBColor(230, 159, 0),
+    RGBColor(34, 34, 34),
+    RGBColor(86, 180, 233),
+];
+
+/// One more than the colours, so that the 8th series differs from the 1st by its marker too.
+const MARKERS: [Marker; 8] = [
+    Marker::Circle,
+    Marker::Square,
+    Marker::Triangle,
+    Marker::Diamond,
+    Marker::Inverted,
+    Marker::Cross,
+    Marker::Plus,
+    Marker::Star,
+];
+
+const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::DashDot, Dash::Short];
+
+/// Dash patterns, distinct in black and white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dash {
+    Solid,
+    Long,
+    Short,
+    Dotted,
+    DashDot,
+}
+
+impl Dash {
+    /// The `stroke-dasharray` in px, `None` for a solid line.
+    pub(super) fn pattern(self) -> Option<&'static [f64]> {
+        match self {
+            Dash::Solid => None,
+            Dash::Long => Some(&[12.0, 5.0]),
+            Dash::Short => Some(&[6.0, 4.0]),
+            Dash::Dotted => Some(&[2.2, 3.6]),
+            Dash::DashDot => Some(&[11.0, 4.0, 2.5, 4.0]),
+        }
+    }
+}
+
+/// What sets one series apart: each of the three is enough by itself for a handful of series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Look {
+    pub(super) colour: RGBColor,
+    pub(super) marker: Marker,
+    pub(super) dash: Dash,
+}
+
+/// Look of the k-th series.
+pub(super) fn look(k: usize) -> Look {
+    Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[k % MARKERS.len()], dash: DASHES[k % DASHES.len()] }
+}
+
+/// Width of a text in px, on the generous side: without font files it can only be estimated.
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    let em: f64 = text.chars().map(glyph_width).sum();
+    em * size
+}
+
+/// Advance of one glyph in em, after DejaVu Sans, rounded up.
+fn glyph_width(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | 'I' | ' ' => 0.33,
+        'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '[' | ']' => 0.42,
+        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' => 0.43,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.98,
+        'A'..='Z' | '=' | '+' | '−' | '×' | '<' | '>' | '≥' | '≤' => 0.8,
+        _ => 0.64,
+    }
+}

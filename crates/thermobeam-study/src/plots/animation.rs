@@ -83,9 +83,9 @@ impl Stage {
         let t = Ruler::around(Scale::Linear, frames.iter().map(|f| f.0), 0.0);
         let nodes = thinned(figure.nodes.len(), MOST_POINTS).into_iter().map(|i| figure.nodes[i]);
         Self {
-            x: x.from_to(PLOT.left, PLOT.right),
-            u: u.from_to(PLOT.bottom, PLOT.top),
-            t: t.from_to(PLOT.left, PLOT.right),
+            x: x.laid_out(PLOT.left, PLOT.right),
+            u: u.laid_out(PLOT.bottom, PLOT.top),
+            t: t.laid_out(PLOT.left, PLOT.right),
             nodes: nodes.collect(),
         }
     }
@@ -118,7 +118,7 @@ impl Stage {
             0 => String::new(),
             e => format!(" / {}", super::ruler::power_of_ten(e)),
         };
-        pen.text_upwards(&format!("displacement u{power}"), (24.0, PLOT.centre().1), LABEL_SIZE);
+        pen.text_upwards(&format!("displacement u (dimensionless){power}"), (24.0, PLOT.centre().1), LABEL_SIZE);
     }
 
     fn draw_obstacles(&self, pen: &Pen<'_>, figure: &Animation) {

@@ -87,9 +87,8 @@ fn end_states(series: &Series, look: Look) -> Curve {
 
 /// Colour says which contact state, dashes say whether it is stable.
 fn entries(labels: &[&str], branches: &[Branch]) -> Vec<Entry> {
-    let line = |look: Look, label: String| {
-        Entry { swatch: Swatch::Line { look, width: 2.6, marks: Marks::None }, label }
-    };
+    let line =
+        |look: Look, label: String| Entry { swatch: Swatch::Line { look, width: 2.6, marks: Marks::None }, label };
     let mut entries = Vec::new();
     for (k, label) in labels.iter().enumerate() {
         for stable in [true, false] {

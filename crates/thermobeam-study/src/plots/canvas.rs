@@ -4,6 +4,7 @@
 //! on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives
 //! it the dash pattern, the clip rectangle or the halo, which SVG lets its children inherit.
 
+use super::clip::keep_inside;
 use super::style::{self, Dash};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -119,7 +120,8 @@ impl Canvas {
         let mut fragment = String::new();
         let size = (grid(self.width) as u32, grid(self.height) as u32);
         {
-            let pen = Pen { area: SVGBackend::with_string(&mut fragment, size).into_drawing_area() };
+            let page = Rect { left: 0.0, top: 0.0, right: self.width, bottom: self.height };
+            let pen = Pen { page, area: SVGBackend::with_string(&mut fragment, size).into_drawing_area() };
             draw(&pen);
             let closed = pen.area.present();
             debug_assert!(closed.is_ok(), "drawing into memory cannot fail");
@@ -167,6 +169,7 @@ pub(super) enum Anchor {
 
 /// Draws shapes and text, in px.
 pub(super) struct Pen<'a> {
+    page: Rect,
     area: DrawingArea<SVGBackend<'a>, Shift>,
 }
 
@@ -180,8 +183,15 @@ impl Pen<'_> {
         debug_assert!(drawn.is_ok(), "drawing into memory cannot fail");
     }
 
-    /// An open line through points; fewer than two draw nothing.
+    /// An open line through points.
     pub(super) fn line(&self, points: &[Point], colour: RGBColor, width: f64) {
+        // Plotters moves what lies off the page to its edge, which would bend the line.
+        for piece in keep_inside(points, &self.page) {
+            self.path(&piece, colour, width);
+        }
+    }
+
+    fn path(&self, points: &[Point], colour: RGBColor, width: f64) {
         let mut path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
         path.dedup();
         if let [only] = path[..] {
@@ -202,8 +212,9 @@ impl Pen<'_> {
 
     /// The rim of a rectangle.
     pub(super) fn frame(&self, r: Rect, colour: RGBColor, width: f64) {
-        let corners = [(grid(r.left), grid(r.top)), (grid(r.right), grid(r.bottom))];
-        self.put(&Rectangle::new(corners, stroke(colour, width)));
+        // Plotters' rectangles have no line width.
+        let (a, c) = ((r.left, r.top), (r.right, r.bottom));
+        self.line(&[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)], colour, width);
     }
 
     pub(super) fn disc(&self, centre: Point, radius: f64, colour: RGBColor) {

@@ -62,7 +62,7 @@ impl ColourScale {
     }
 
     pub(super) fn ticks(&self) -> Ticks {
-        self.ruler.ticks(6)
+        self.ruler.ticks(8)
     }
 
     /// Room that the bar takes up to the right of the plot.
@@ -79,7 +79,7 @@ impl ColourScale {
         let plot = sheet.plot;
         let left = plot.right + BAR_GAP;
         let bar = Rect { left, right: left + BAR_WIDTH, ..plot };
-        let ruler = self.ruler.from_to(bar.bottom, bar.top);
+        let ruler = self.ruler.laid_out(bar.bottom, bar.top);
         let ticks = self.ticks();
         sheet.canvas.draw(Layer::plain(), |pen| {
             let step = bar.height() / LEVELS as f64;

@@ -1,9 +1,10 @@
 //! Iso lines of values on a grid.
 
-use super::canvas::{Anchor, Layer, Point};
+use super::canvas::{Anchor, Layer, Point, Rect};
+use super::clip::keep_outside;
 use super::ruler::Ticks;
 use super::sheet::Sheet;
-use super::style::{self, TICK_SIZE, WHITE};
+use super::style::{self, TICK_SIZE, WHITE, text_width};
 
 /// A grid point in px with its value on the colour scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,10 +19,6 @@ pub(super) fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ti
     let plot = sheet.plot;
     for level in &levels.major {
         let segments = iso_segments(rows, level.at);
-        sheet.canvas.draw(Layer::clipped(plot), |pen| {
-            segments.iter().for_each(|s| pen.line(s, WHITE, 3.4));
-            segments.iter().for_each(|s| pen.line(s, style::INK, 1.4));
-        });
         // As far as can be from the frame and from the other labels.
         let room = |p: &Point| {
             let frame = [p.0 - plot.left, plot.right - p.0, 2.0 * (p.1 - plot.top), 2.0 * (plot.bottom - p.1)];
@@ -30,15 +27,27 @@ pub(super) fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ti
         };
         let middles = segments.iter().map(|[a, b]| (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1)));
         let best = middles.map(|p| (room(&p), p)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let mut pieces = segments.clone();
         if let Some((_, at)) = best.filter(|(room, _)| *room > 45.0) {
             labels.push((at, &level.label));
+            pieces = segments.iter().flat_map(|&s| keep_outside(s, &around(at, &level.label))).collect();
         }
+        sheet.canvas.draw(Layer::clipped(plot), |pen| {
+            pieces.iter().for_each(|s| pen.line(s, WHITE, 3.4));
+            pieces.iter().for_each(|s| pen.line(s, style::INK, 1.4));
+        });
     }
     sheet.canvas.draw(Layer::plain().with_halo(), |pen| {
         for (at, label) in labels {
             pen.text(label, at, TICK_SIZE, Anchor::Middle, style::INK);
         }
     });
+}
+
+/// The place of a label, which interrupts its line.
+fn around(at: Point, label: &str) -> Rect {
+    let half = 0.5 * text_width(label, TICK_SIZE) + 2.0;
+    Rect { left: at.0 - half, right: at.0 + half, top: at.1 - 11.0, bottom: at.1 + 11.0 }
 }
 
 /// Pieces of an iso line: every cell is cut into two triangles, on which the value is linear.

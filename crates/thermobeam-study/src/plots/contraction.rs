@@ -30,10 +30,13 @@ pub fn contraction(figure: &Contraction) -> String {
         y: Axis::log("measured contraction (dimensionless)"),
         curves: figure.series.iter().enumerate().map(curve).collect(),
         beyond: Some((1.0, "diverges (α ≥ 1)".into())),
-        // Wide enough for the text above the region.
-        show_x: vec![1.0, 10.0],
         ..Xy::default()
     };
+    // Both axes alike, so that the identity is the diagonal; up to 10, so that the text fits above its region.
+    let shown = xy.curves.iter().flat_map(|c| &c.points).filter(|p| p.0.min(p.1) > 0.0 && p.0.max(p.1).is_finite());
+    let shown: Vec<f64> = shown.flat_map(|p| [p.0, p.1]).chain([1.0, 10.0]).collect();
+    xy.show_x = shown.clone();
+    xy.show_y = shown;
     xy.curves.insert(0, identity(&xy));
     xy.draw()
 }

@@ -1,5 +1,6 @@
 //! Errors against the mesh width or the time step.
 
+use super::legend::{Entry, Swatch};
 use super::marker::Marks;
 use super::ruler::on_scale;
 use super::slopes::{Trend, triangles};
@@ -75,7 +76,9 @@ pub fn convergence(figure: &Convergence) -> String {
     };
     xy.curves.extend(baselines(&figure.series));
     for (k, series) in figure.series.iter().enumerate() {
-        xy.curves.extend(curves(series, look(k)));
+        let (curves, entry) = curves(series, look(k));
+        xy.curves.extend(curves);
+        xy.legend.push(entry);
     }
     let (outlines, bottom) = triangles(&figure.slopes, &trends(&figure.series), &xy.x_ruler(), &xy.y_ruler());
     if !outlines.is_empty() {
@@ -98,26 +101,31 @@ fn baselines(series: &[ErrorSeries]) -> impl Iterator<Item = Curve> {
     })
 }
 
-/// The line, which is the fit where there is one, and the markers.
-fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
+/// The line, which is the fit where there is one, the markers, and the legend's entry for both.
+fn curves(series: &ErrorSeries, look: Look) -> (Vec<Curve>, Entry) {
+    let entry = |look: Look, width: f64| Entry {
+        swatch: Swatch::Line { look, width, marks: Marks::Filled },
+        label: label(series),
+    };
     let marked = Curve {
-        label: Some(label(series)),
+        label: None,
         points: series.points.clone(),
         look,
         width: style::LINE,
         marks: Marks::Filled,
         is_data: true,
     };
-    let Some(fit) = series.fit else { return vec![marked] };
+    let Some(fit) = series.fit else { return (vec![marked], entry(look, style::LINE)) };
+    let solid = Look { dash: Dash::Solid, ..look };
     let line = Curve {
         label: None,
         points: fitted_line(&series.points, fit),
-        look: Look { dash: Dash::Solid, ..look },
+        look: solid,
         width: style::THIN,
         marks: Marks::None,
         is_data: false,
     };
-    vec![line, Curve { width: 0.0, ..marked }]
+    (vec![line, Curve { width: 0.0, ..marked }], entry(solid, style::THIN))
 }
 
 fn label(series: &ErrorSeries) -> String {

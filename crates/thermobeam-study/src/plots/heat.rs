@@ -30,13 +30,20 @@ pub(super) fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
 /// Cells between the edges (in px), row by row; cells without a colour are grey.
 pub(super) fn paint(canvas: &mut Canvas, x_edges: &[f64], y_edges: &[f64], rows: &[Vec<Option<RGBColor>>]) {
     let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
-    for (row, y) in rows.iter().zip(y_edges.windows(2)) {
-        let (top, bottom) = (y[0].min(y[1]).round(), y[0].max(y[1]).round());
-        for (from, to, colour) in runs(row) {
-            let (Some(a), Some(b)) = (x_edges.get(from), x_edges.get(to)) else { continue };
-            let (left, width) = (a.round(), b.round() - a.round());
-            let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
-            let _ = write!(path, "M{left} {top}h{width}v{}h-{width}z", bottom - top);
+    let mut add = |x: Option<(f64, f64)>, y: Option<(f64, f64)>, colour: RGBColor| {
+        let (Some((left, right)), Some((top, bottom))) = (x, y) else { return };
+        let (width, height) = (right - left, bottom - top);
+        let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
+        let _ = write!(path, "M{left} {top}h{width}v{height}h-{width}z");
+    };
+    let columns = transposed(rows);
+    if count_runs(rows) <= count_runs(&columns) {
+        for (k, row) in rows.iter().enumerate() {
+            runs(row).iter().for_each(|&(from, to, c)| add(span(x_edges, from, to), span(y_edges, k, k + 1), c));
+        }
+    } else {
+        for (k, column) in columns.iter().enumerate() {
+            runs(column).iter().for_each(|&(from, to, c)| add(span(x_edges, k, k + 1), span(y_edges, from, to), c));
         }
     }
     // Whole px, scaled to the page's grid: a third fewer digits.
@@ -45,6 +52,26 @@ pub(super) fn paint(canvas: &mut Canvas, x_edges: &[f64], y_edges: &[f64], rows:
         let _ = writeln!(layer, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>");
     }
     canvas.raw(&(layer + "</g>\n"));
+}
+
+/// Whole px between two edges, in ascending order.
+fn span(edges: &[f64], from: usize, to: usize) -> Option<(f64, f64)> {
+    let (a, b) = (edges.get(from)?.round(), edges.get(to)?.round());
+    Some((a.min(b), a.max(b)))
+}
+
+fn transposed(rows: &[Vec<Option<RGBColor>>]) -> Vec<Vec<Option<RGBColor>>> {
+    let columns = rows.iter().map(Vec::len).min().unwrap_or(0);
+    (0..columns).map(|j| rows.iter().map(|row| row[j]).collect()).collect()
+}
+
+fn count_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
+    rows.iter().map(|row| runs(row).len()).sum()
+}
+
+/// Pieces that [`paint`] writes: it merges along rows or along columns, whichever gives fewer.
+pub(super) fn fewest_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
+    count_runs(rows).min(count_runs(&transposed(rows)))
 }
 
 /// `(first, one past last, colour)` of equal neighbours.

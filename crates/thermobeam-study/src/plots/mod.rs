@@ -17,8 +17,8 @@
 //! | [`work_precision`] | error against run time |
 //! | [`animation`] | the beam between its obstacles, moving |
 //!
-//! From data to document: `Axis` and data give a [`ruler`] per axis; rulers, legend and notes give a [`sheet`], which is
-//! a laid-out page; [`xy`] and [`heat`] draw on the sheet; the sheet's [`canvas`] is the one place that emits SVG.
+//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
+//! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
 //!
 //! ```
 //! use thermobeam_study::plots::{ErrorSeries, Convergence, convergence};
@@ -32,6 +32,7 @@
 mod animation;
 mod bifurcation;
 mod canvas;
+mod clip;
 mod colour;
 mod contour;
 mod contraction;

@@ -1,5 +1,6 @@
 //! A value and a category over two parameters.
 
+use super::Series;
 use super::canvas::{Layer, Point, Rect};
 use super::colour::ColourScale;
 use super::heat::hatch;
@@ -8,7 +9,6 @@ use super::marker::Marks;
 use super::sheet::Sheet;
 use super::style::{self, Dash, Look, WHITE, look};
 use super::surface::{Lattice, Surface};
-use super::Series;
 
 /// A map over two parameters.
 #[derive(Clone, Debug, Default, PartialEq)]

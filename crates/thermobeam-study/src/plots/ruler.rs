@@ -80,7 +80,7 @@ impl Ruler {
     }
 
     /// Lays the ruler down on the page.
-    pub(super) fn from_to(self, start: f64, end: f64) -> Self {
+    pub(super) fn laid_out(self, start: f64, end: f64) -> Self {
         Self { start, end, ..self }
     }
 
@@ -104,8 +104,8 @@ impl Ruler {
         let decades = self.hi.floor() - self.lo.ceil() + 1.0;
         match self.scale {
             Scale::Linear => linear_ticks(self.lo, self.hi, wanted),
-            Scale::Log if decades >= 2.0 => self.decade_ticks(wanted),
-            Scale::Log => self.ticks_within_a_decade(wanted),
+            Scale::Log if decades >= 3.0 => self.decade_ticks(wanted),
+            Scale::Log => self.ticks_within_few_decades(wanted),
         }
     }
 
@@ -129,11 +129,17 @@ impl Ruler {
         all.filter(|&v| v >= self.lo && v <= self.hi).collect()
     }
 
-    fn ticks_within_a_decade(&self, wanted: usize) -> Ticks {
+    fn ticks_within_few_decades(&self, wanted: usize) -> Ticks {
         let minor = self.multiples((1..10).map(f64::from));
         let round = self.multiples([1.0, 2.0, 5.0].into_iter());
+        if round.len() > wanted {
+            return self.decade_ticks(wanted);
+        }
         if round.len() >= 3 {
-            let major = round.iter().map(|&at| Tick { at, label: scientific(at) }).collect();
+            // From 1 to 1000, as counts and percentages are, powers of ten would only be in the way.
+            let is_plain = self.lo >= -0.3 && self.hi <= 3.05 && round[0] >= 0.0;
+            let label = |at: f64| if is_plain { fixed(10f64.powf(at), 0) } else { scientific(at) };
+            let major = round.iter().map(|&at| Tick { at, label: label(at) }).collect();
             return Ticks { major, minor, exponent: 0 };
         }
         let linear = linear_ticks(10f64.powf(self.lo), 10f64.powf(self.hi), wanted);
@@ -226,7 +232,10 @@ mod tests {
 
     #[test]
     fn linear_ticks_are_round_and_signed_by_a_true_minus() {
-        assert_eq!(labels(&Ruler::around(Scale::Linear, [-0.1, 0.1], 0.0).ticks(4)), ["−0.10", "−0.05", "0.00", "0.05", "0.10"]);
+        assert_eq!(
+            labels(&Ruler::around(Scale::Linear, [-0.1, 0.1], 0.0).ticks(4)),
+            ["−0.10", "−0.05", "0.00", "0.05", "0.10"]
+        );
     }
 
     #[test]
@@ -238,7 +247,8 @@ mod tests {
 
     #[test]
     fn any_data_gives_a_range() {
-        let cases: [&[f64]; 7] = [&[], &[f64::NAN], &[0.0], &[5.0, 5.0], &[1e300, -1e300], &[f64::INFINITY, 1e-320], &[1.0, 1.0 + 1e-15]];
+        let cases: [&[f64]; 7] =
+            [&[], &[f64::NAN], &[0.0], &[5.0, 5.0], &[1e300, -1e300], &[f64::INFINITY, 1e-320], &[1.0, 1.0 + 1e-15]];
         for values in cases {
             for scale in [Scale::Linear, Scale::Log] {
                 let ruler = Ruler::around(scale, values.iter().copied(), 0.05);

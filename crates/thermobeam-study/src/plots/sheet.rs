@@ -46,7 +46,7 @@ pub(super) struct Sheet {
 impl Plan {
     /// Measures all texts and places the plot area between them.
     pub(super) fn lay_out(self) -> Sheet {
-        let y_ticks = self.y.ticks(6);
+        let y_ticks = self.y.ticks(8);
         let left = EDGE + LABEL_SIZE + 10.0 + widest(&y_ticks) + 12.0;
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
         let x_ticks = ticks_that_fit(&self.x, right - left);
@@ -57,8 +57,8 @@ impl Plan {
         let height = legend_top(&plot) + legend.height() + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
         Sheet {
             canvas: Canvas::new(style::WIDTH, height.round()),
-            x: self.x.from_to(plot.left, plot.right),
-            y: self.y.from_to(plot.bottom, plot.top),
+            x: self.x.laid_out(plot.left, plot.right),
+            y: self.y.laid_out(plot.bottom, plot.top),
             plot,
             x_ticks,
             y_ticks,

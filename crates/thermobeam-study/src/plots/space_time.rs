@@ -2,14 +2,17 @@
 
 use super::Scale;
 use super::colour::ColourScale;
-use super::heat::paint;
+use super::heat::{fewest_runs, paint};
 use super::ruler::{Ruler, on_scale};
 use super::sheet::Plan;
 use super::xy::left_out;
+use plotters::style::RGBColor;
 
-/// Cells of the picture at most, along time and along the beam. Even noise, which merges nowhere, stays below 400 kB.
-const MOST_COLUMNS: usize = 170;
-const MOST_ROWS: usize = 110;
+/// Cells of the picture along time and along the beam, finest first. Even noise, which merges nowhere, stays below
+/// 400 kB on the coarsest.
+const RESOLUTIONS: [(usize, usize); 3] = [(220, 140), (190, 120), (170, 105)];
+/// Runs of equal cells at most, of about 17 bytes each.
+const MOST_RUNS: usize = 17_900;
 
 /// A field over space and time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,8 +33,9 @@ pub struct SpaceTime {
 pub fn space_time(figure: &SpaceTime) -> String {
     let t = Ruler::around(Scale::Linear, figure.times.iter().copied(), 0.0);
     let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
-    let cells = raster(figure, &t, &x);
-    let colours = ColourScale::diverging(&figure.label, cells.iter().flatten().copied());
+    let values = figure.frames.iter().flatten().copied();
+    let colours = ColourScale::diverging(&figure.label, values);
+    let picture = picture(figure, &t, &x, &colours);
     let non_finite = figure.frames.iter().flatten().filter(|&&v| on_scale(Scale::Linear, v).is_none()).count();
     let plan = Plan {
         title: figure.title.clone(),
@@ -46,14 +50,24 @@ pub fn space_time(figure: &SpaceTime) -> String {
     };
     let mut sheet = plan.lay_out();
     let plot = sheet.plot;
-    let (x_edges, y_edges) = (
-        even(plot.left, plot.right, cells.first().map_or(0, Vec::len)),
-        even(plot.bottom, plot.top, cells.len()),
-    );
-    let rows: Vec<_> = cells.iter().map(|row| row.iter().map(|&v| colours.colour(v)).collect()).collect();
-    paint(&mut sheet.canvas, &x_edges, &y_edges, &rows);
+    let (x_edges, y_edges) =
+        (even(plot.left, plot.right, picture.first().map_or(0, Vec::len)), even(plot.bottom, plot.top, picture.len()));
+    paint(&mut sheet.canvas, &x_edges, &y_edges, &picture);
     colours.draw_bar(&mut sheet);
     sheet.finish()
+}
+
+/// The finest picture that is small enough.
+fn picture(figure: &SpaceTime, t: &Ruler, x: &Ruler, colours: &ColourScale) -> Vec<Vec<Option<RGBColor>>> {
+    let mut picture = Vec::new();
+    for most in RESOLUTIONS {
+        let cells = raster(figure, t, x, most);
+        picture = cells.iter().map(|row| row.iter().map(|&v| colours.colour(v)).collect()).collect();
+        if fewest_runs(&picture) <= MOST_RUNS {
+            break;
+        }
+    }
+    picture
 }
 
 fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
@@ -62,23 +76,18 @@ fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
 
 /// Values in the middle of the picture's cells, row by row: averaged over the cell in time, interpolated in space,
 /// where the elements are linear too.
-fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler) -> Vec<Vec<f64>> {
+fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec<Vec<f64>> {
     if figure.times.is_empty() || figure.nodes.is_empty() {
         return Vec::new();
     }
-    let columns = MOST_COLUMNS.min(4 * figure.times.len());
-    let rows = MOST_ROWS.min(4 * figure.nodes.len());
+    let columns = most.0.min(4 * figure.times.len());
+    let rows = most.1.min(4 * figure.nodes.len());
     let middle = |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
     let weights: Vec<_> = (0..rows).map(|k| between(&figure.nodes, middle(x, k, rows))).collect();
-    let mut cells = vec![vec![f64::NAN; columns]; rows];
     let half = 0.5 * (t.hi - t.lo) / columns as f64;
-    for column in 0..columns {
-        let frames = frames_near(&figure.times, middle(t, column, columns), half);
-        for (row, &(node, s)) in weights.iter().enumerate() {
-            cells[row][column] = mix(figure, &frames, node, s);
-        }
-    }
-    cells
+    let frames: Vec<_> = (0..columns).map(|k| frames_near(&figure.times, middle(t, k, columns), half)).collect();
+    let row = |&(node, s): &(usize, f64)| frames.iter().map(|near| mix(figure, near, node, s)).collect();
+    weights.iter().map(row).collect()
 }
 
 /// The interval of ascending values that holds `v`, and how far along it `v` lies.
@@ -119,7 +128,7 @@ mod tests {
         let figure = SpaceTime { times, nodes, frames, ..Default::default() };
         let t = Ruler::between(Scale::Linear, 0.0, 2.0);
         let x = Ruler::between(Scale::Linear, 0.0, 1.0);
-        let cells = raster(&figure, &t, &x);
+        let cells = raster(&figure, &t, &x, (200, 100));
         let (rows, columns) = (cells.len(), cells[0].len());
         let exact = 0.5 / rows as f64 * 10.0;
         // The first column holds the frame t = 0 and takes its value.

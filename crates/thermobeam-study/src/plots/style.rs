@@ -51,7 +51,7 @@ const MARKERS: [Marker; 8] = [
     Marker::Star,
 ];
 
-const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::DashDot, Dash::Short];
+const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::Mixed, Dash::Short];
 
 /// Dash patterns, distinct in black and white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub(super) enum Dash {
     Long,
     Short,
     Dotted,
-    DashDot,
+    Mixed,
 }
 
 impl Dash {
@@ -71,7 +71,7 @@ impl Dash {
             Dash::Long => Some(&[12.0, 5.0]),
             Dash::Short => Some(&[6.0, 4.0]),
             Dash::Dotted => Some(&[2.2, 3.6]),
-            Dash::DashDot => Some(&[11.0, 4.0, 2.5, 4.0]),
+            Dash::Mixed => Some(&[11.0, 4.0, 2.5, 4.0]),
         }
     }
 }

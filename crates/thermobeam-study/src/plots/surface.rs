@@ -110,10 +110,8 @@ impl Lattice {
     fn vertices(&self, sheet: &Sheet, z: Scale) -> Vec<Vec<Vertex>> {
         let row = |(&y, values): (&f64, &Vec<f64>)| {
             let cells = self.x.iter().zip(values);
-            let vertex = |(&x, &v): (&f64, &f64)| Vertex {
-                at: (sheet.x.px_of(x), sheet.y.px_of(y)),
-                value: on_scale(z, v),
-            };
+            let vertex =
+                |(&x, &v): (&f64, &f64)| Vertex { at: (sheet.x.px_of(x), sheet.y.px_of(y)), value: on_scale(z, v) };
             cells.map(vertex).collect()
         };
         self.y.iter().zip(&self.values).map(row).collect()

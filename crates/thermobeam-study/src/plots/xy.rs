@@ -63,7 +63,10 @@ impl Xy {
         let phases = self.phases.intervals.iter().flat_map(|&(a, b)| [a, b]);
         // Time runs from edge to edge; parameters that were chosen deserve room around them.
         let margin = if self.x.scale == Scale::Log { MARGIN } else { 0.0 };
-        Ruler::around(self.x.scale, values.chain(phases), margin)
+        let ruler = Ruler::around(self.x.scale, values.chain(phases), margin);
+        // The end of the first step is as good as the start.
+        let starts_at_zero = self.x.scale == Scale::Linear && ruler.lo > 0.0 && ruler.lo < 0.02 * ruler.hi;
+        if starts_at_zero { Ruler::between(self.x.scale, 0.0, ruler.hi) } else { ruler }
     }
 
     /// The vertical range.
@@ -123,9 +126,7 @@ impl Xy {
 
     fn notes(&self) -> Vec<String> {
         let data = || self.curves.iter().filter(|c| c.is_data).flat_map(|c| &c.points);
-        let is_drawable = |&(x, y): &(f64, f64)| {
-            on_scale(Scale::Linear, x).and(on_scale(Scale::Linear, y)).is_some()
-        };
+        let is_drawable = |&(x, y): &(f64, f64)| on_scale(Scale::Linear, x).and(on_scale(Scale::Linear, y)).is_some();
         let non_finite = data().filter(|p| !is_drawable(p)).count();
         let off_scale = data().count() - non_finite - self.drawable().count();
         left_out(non_finite, off_scale)
@@ -150,23 +151,20 @@ impl Xy {
     }
 
     fn draw_curves(&self, sheet: &mut Sheet) {
-        let long = self.curves.iter().filter(|c| c.points.len() > 1000).count().max(1);
-        let columns = (sheet.plot.width() as usize).min(ENVELOPE_COLUMNS / long).max(1);
+        let share = ENVELOPE_COLUMNS / self.curves.len().max(1);
+        let columns = (sheet.plot.width() as usize).min(share).max(1);
         for curve in &self.curves {
             let positions: Vec<Option<Point>> = curve.points.iter().map(|&p| sheet.px(p)).collect();
-            if curve.width > 0.0 {
-                let layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
-                sheet.canvas.draw(layer, |pen| {
-                    for line in lines(&positions, columns) {
-                        match line[..] {
-                            [only] => pen.disc(only, 1.5 * curve.width, curve.look.colour),
-                            _ => pen.line(&line, curve.look.colour, curve.width),
-                        }
-                    }
-                });
-            }
+            let (alone, lines): (Vec<_>, Vec<_>) = match curve.width {
+                0.0 => Default::default(),
+                _ => lines(&positions, columns).into_iter().partition(|line| line.len() == 1),
+            };
+            sheet.canvas.draw(Layer::clipped(sheet.plot).dashed(curve.look.dash), |pen| {
+                lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
+            });
             // Not clipped: a marker on the frame stays whole.
             sheet.canvas.draw(Layer::plain(), |pen| {
+                alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
                 for &at in positions.iter().flatten() {
                     curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
                 }

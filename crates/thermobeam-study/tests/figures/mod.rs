@@ -133,16 +133,19 @@ pub(crate) fn tip_history(samples: u32) -> History {
 pub(crate) fn energy_history() -> History {
     let t = |k: u32| 10.0 * f64::from(k) / 2000.0;
     let energy = |beta: f64, rate: f64| {
-        (0..2000).map(|k| (t(k), 0.25 * beta * beta + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos()))).collect()
+        (0..2000)
+            .map(|k| (t(k), 0.25 * beta * beta + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos())))
+            .collect()
     };
     History {
         title: Some("Energy falls to the level of the straight beam".into()),
         y: Axis::linear("energy E (dimensionless)"),
-        series: vec![series("β = 0", energy(0.0, 0.5)), series("β = −2", energy(2.0, 0.9)), series("β = 2.1", energy(2.1, 1.4))],
-        guides: vec![
-            Guide { label: "β²/(4ρ)".into(), value: 1.0 },
-            Guide { label: "2.1²/(4ρ)".into(), value: 1.1025 },
+        series: vec![
+            series("β = 0", energy(0.0, 0.5)),
+            series("β = −2", energy(2.0, 0.9)),
+            series("β = 2.1", energy(2.1, 1.4)),
         ],
+        guides: vec![Guide { label: "β²/(4ρ)".into(), value: 1.0 }, Guide { label: "2.1²/(4ρ)".into(), value: 1.1025 }],
         ..Default::default()
     }
 }
@@ -163,7 +166,9 @@ pub(crate) fn balance_history() -> History {
 pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
     let times: Vec<f64> = (0..frames).map(|n| 10.0 * f64::from(n) / f64::from(frames - 1)).collect();
     let x: Vec<f64> = (0..nodes).map(|i| f64::from(i) / f64::from(nodes - 1)).collect();
-    let field = |t: f64, x: f64| tip(t) * x * x * (3.0 - x) / 2.0 + 0.02 * (-0.1 * t).exp() * (7.85 * x).sin() * (19.0 * t).cos();
+    let field = |t: f64, x: f64| {
+        tip(t) * x * x * (3.0 - x) / 2.0 + 0.02 * (-0.1 * t).exp() * (7.85 * x).sin() * (19.0 * t).cos()
+    };
     SpaceTime {
         title: None,
         label: "displacement u (dimensionless)".into(),
@@ -191,7 +196,9 @@ pub(crate) fn iteration_counts() -> Iterations {
     let phases = contact_phases(3.0);
     let in_contact = |t: f64| phases.intervals.iter().any(|&(a, b)| a <= t && t <= b);
     let count = |base: f64, more: f64| {
-        (1..=3000).map(|k| (f64::from(k) * 1e-3, base + if in_contact(f64::from(k) * 1e-3) { more } else { 0.0 })).collect()
+        (1..=3000)
+            .map(|k| (f64::from(k) * 1e-3, base + if in_contact(f64::from(k) * 1e-3) { more } else { 0.0 }))
+            .collect()
     };
     Iterations {
         series: vec![series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))],
@@ -204,12 +211,13 @@ pub(crate) fn stability_map() -> ParameterMap {
     let dt: Vec<f64> = (0..33).map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k))).collect();
     let eps: Vec<f64> = (0..25).map(|k| 10f64.powf(-4.0 + 0.1 * f64::from(k))).collect();
     let alpha = |dt: f64, eps: f64| dt.powf(1.5) / (eps * 0.1_f64.sqrt());
-    let count = |a: f64| if a < 1.0 { (23.0 / -a.ln()).ceil().min(100.0).max(2.0) } else { f64::NAN };
+    let count = |a: f64| if a < 1.0 { (23.0 / -a.ln()).ceil().clamp(2.0, 100.0) } else { f64::NAN };
     let grid = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
         eps.iter().map(|&e| dt.iter().map(|&d| f(alpha(d, e))).collect()).collect()
     };
     let marked = grid(&|a| if a < 1.0 { 0.0 } else { 1.0 });
-    let boundary = |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
+    let boundary =
+        |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
     ParameterMap {
         cells: Surface {
             x: Axis::log("time step dt (dimensionless)"),
@@ -229,7 +237,12 @@ pub(crate) fn stability_map() -> ParameterMap {
 pub(crate) fn equilibria() -> Bifurcation {
     let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
     let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| Branch { label: label.into(), points, stable };
-    let pitchfork = |sign: f64| (0..69).map(|k| (beta(k), sign * 0.6 * (-0.7116 - beta(k)).max(0.0).sqrt())).filter(|p| p.1.abs() < 0.1).collect();
+    let pitchfork = |sign: f64| {
+        (0..69)
+            .map(|k| (beta(k), sign * 0.6 * (-0.7116 - beta(k)).max(0.0).sqrt()))
+            .filter(|p| p.1.abs() < 0.1)
+            .collect()
+    };
     Bifurcation {
         title: None,
         x_label: "axial force β (dimensionless)".into(),
@@ -264,7 +277,8 @@ pub(crate) fn costs() -> WorkPrecision {
 pub(crate) fn motion() -> Animation {
     let times: Vec<f64> = (0..60).map(|n| 3.0 * f64::from(n) / 59.0).collect();
     let nodes: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
-    let shape = |t: f64, x: f64| tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x);
+    let shape =
+        |t: f64, x: f64| tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x);
     Animation {
         title: Some("A beam between two obstacles".into()),
         frames: times.iter().map(|&t| nodes.iter().map(|&x| shape(t, x)).collect()).collect(),
@@ -278,16 +292,15 @@ pub(crate) fn motion() -> Animation {
 /// Labels too long, markup, values that cannot be drawn, hardly any range.
 pub(crate) fn hostile() -> History {
     History {
-        title: Some("A title so long that no page could ever hold it, not even one that was twice as wide as this one".into()),
+        title: Some(
+            "A title so long that no page could ever hold it, not even one that was twice as wide as this one".into(),
+        ),
         y: Axis::log("a vertical label that goes on & on <for ever> and then for a little longer than that"),
         series: vec![
-            series("a series whose name does not fit into a legend of any reasonable width, whatever one may try to do", vec![
-                (0.0, 1.0),
-                (1.0, f64::NAN),
-                (2.0, 1.000_000_1),
-                (f64::INFINITY, 1.0),
-                (3.0, -1.0),
-            ]),
+            series(
+                "a series whose name does not fit into a legend of any reasonable width, whatever one may try to do",
+                vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.000_000_1), (f64::INFINITY, 1.0), (3.0, -1.0)],
+            ),
             series("<b>&\u{0}", vec![(0.5, 1.000_000_05)]),
         ],
         ..Default::default()

@@ -4,3 +4,5 @@ pub mod calibration;
 pub mod fit;
 pub mod verdict;
 pub mod plots;
+pub mod expression;
+mod nearest;

@@ -1,0 +1,150 @@
+//! Functions of one variable, written as mathematics writes them.
+//!
+//! | written | means |
+//! | --- | --- |
+//! | `-x^2` | -(x²): a power binds tighter than a sign |
+//! | `2^3^2` | 2⁹ = 512: powers are read from the right |
+//! | `2^-1`, `2*-x` | a sign may follow an operator |
+//! | `1e-3`, `.5`, `2.` | numbers |
+//! | `pi`, `e` | constants |
+//! | `sin cos tan asin acos atan sinh cosh tanh exp ln log10 sqrt abs` | functions of one argument |
+//! | `min max` | functions of two arguments |
+//!
+//! A product needs its `*`: `2x` is an error. The same syntax tree is evaluated on `f64` and on second-order dual
+//! numbers, so that derivatives are exact and never typed in by hand.
+
+mod error;
+mod parser;
+mod syntax;
+mod token;
+
+use std::fmt;
+
+use num_dual::Dual2_64;
+
+pub(crate) use error::did_you_mean;
+pub use error::{ExpressionError, ExpressionProblem, NotFinite};
+use syntax::Node;
+
+/// The name that stands for the argument of a function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// Position along the beam.
+    X,
+    /// Time.
+    T,
+    /// Parameter of a mesh map.
+    S,
+}
+
+impl Variable {
+    /// How it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Variable::X => "x",
+            Variable::T => "t",
+            Variable::S => "s",
+        }
+    }
+}
+
+/// A function of one variable, together with the text that it was read from.
+///
+/// ```
+/// use thermobeam_study::expression::{Expression, Variable};
+///
+/// let f = Expression::parse("x^3 - 2*x", Variable::X)?;
+/// assert_eq!(f.eval(2.0), 4.0);
+/// assert_eq!(f.derivatives(0.0), [0.0, -2.0, 0.0]);
+/// # Ok::<(), thermobeam_study::expression::ExpressionError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    source: String,
+    variable: Variable,
+    root: Node,
+}
+
+impl Expression {
+    /// Samples of [`Self::check_finite`]: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
+    const SAMPLES: u32 = 2520;
+
+    /// Reads a function of `variable`; the error points at the place.
+    pub fn parse(source: &str, variable: Variable) -> Result<Self, ExpressionError> {
+        let root = parser::parse(source, variable)?;
+        Ok(Self { source: source.to_owned(), variable, root })
+    }
+
+    /// The text that it was read from.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The variable.
+    pub fn variable(&self) -> Variable {
+        self.variable
+    }
+
+    /// The value at `x`; not finite outside of the function's domain.
+    pub fn eval(&self, x: f64) -> f64 {
+        self.root.eval(x)
+    }
+
+    /// Value, first and second derivative at `x`.
+    ///
+    /// At a kink (`abs`, `min`, `max`) these are the derivatives of one of the two sides.
+    pub fn derivatives(&self, x: f64) -> [f64; 3] {
+        let Dual2_64 { re, v1, v2 } = self.root.eval(Dual2_64::new(x, 1.0, 0.0));
+        [re, v1, v2]
+    }
+
+    /// Says where on [0, 1] the function is not finite, nor its derivatives up to `order` (0, 1 or 2).
+    ///
+    /// The function is sampled: a pole between two samples goes unseen.
+    pub fn check_finite(&self, order: usize) -> Result<(), NotFinite> {
+        self.check_finite_up_to(1.0, order)
+    }
+
+    /// As [`Self::check_finite`], on [0, end].
+    pub fn check_finite_up_to(&self, end: f64, order: usize) -> Result<(), NotFinite> {
+        for at in Self::samples(end) {
+            // Values are taken as `eval` gives them, because that is what the solver will see.
+            let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
+            for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
+                if !found.is_finite() {
+                    return Err(NotFinite { variable: self.variable, at, end, order, found });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The rounding error to expect of a value of this function on [0, end].
+    ///
+    /// `8 ε max(|f| + |x f'|)`: the second term is what a rounding error in x alone does to the value.
+    pub fn roundoff(&self, end: f64) -> f64 {
+        // A handful of operations, each with an error of half an ε, of operands about as large as the result.
+        const ROUNDINGS: f64 = 8.0;
+        ROUNDINGS * f64::EPSILON * self.size(end)
+    }
+
+    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is left out.
+    pub(crate) fn size(&self, end: f64) -> f64 {
+        let size_at = |at: f64| {
+            let [value, first, _] = self.derivatives(at);
+            let slope = (at * first).abs();
+            value.abs() + if slope.is_finite() { slope } else { 0.0 }
+        };
+        Self::samples(end).map(size_at).fold(0.0, f64::max)
+    }
+
+    fn samples(end: f64) -> impl Iterator<Item = f64> {
+        (0..=Self::SAMPLES).map(move |i| end * (f64::from(i) / f64::from(Self::SAMPLES)))
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source)
+    }
+}

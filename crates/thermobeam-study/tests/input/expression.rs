@@ -1,0 +1,294 @@
+use std::f64::consts::{E, PI};
+
+use proptest::prelude::*;
+use thermobeam_study::expression::{Expression, Variable};
+
+use crate::says;
+
+fn function(text: &str) -> Expression {
+    Expression::parse(text, Variable::X).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn refusal(text: &str) -> String {
+    Expression::parse(text, Variable::X).expect_err(text).to_string()
+}
+
+#[test]
+fn expressions_mean_what_mathematics_means() {
+    let x = 0.7;
+    for (text, value) in [
+        ("-x^2", -(x * x)),
+        ("(-x)^2", x * x),
+        ("2^3^2", 512.0),
+        ("(2^3)^2", 64.0),
+        ("2^-1", 0.5),
+        ("2^-1^2", 0.5),
+        ("2^-x*3", 2f64.powf(-x) * 3.0),
+        ("-2^2", -4.0),
+        ("--x", x),
+        ("+x", x),
+        ("2*-x", -2.0 * x),
+        ("2 - -x", 2.0 + x),
+        ("8/4/2", 1.0),
+        ("8/4*2", 4.0),
+        ("5-3-1", 1.0),
+        ("1+2*3", 7.0),
+        ("(1+2)*3", 9.0),
+        ("1e-3", 1e-3),
+        ("1E3", 1e3),
+        ("2.e0 + .5", 2.5),
+        ("2*e", 2.0 * E),
+        ("pi", PI),
+        ("e^x", x.exp()),
+        ("(-2)^3", -8.0),
+        ("0^0", 1.0),
+        ("x^x", x.powf(x)),
+        ("x^0.5", x.sqrt()),
+        ("x^-2", 1.0 / (x * x)),
+        ("sin(x)", x.sin()),
+        ("cos(x)", x.cos()),
+        ("tan(x)", x.tan()),
+        ("asin(x)", x.asin()),
+        ("acos(x)", x.acos()),
+        ("atan(x)", x.atan()),
+        ("sinh(x)", x.sinh()),
+        ("cosh(x)", x.cosh()),
+        ("tanh(x)", x.tanh()),
+        ("exp(x)", x.exp()),
+        ("ln(x)", x.ln()),
+        ("log10(x)", x.log10()),
+        ("sqrt(x)", x.sqrt()),
+        ("abs(-x)", x),
+        ("min(x, 1)", x),
+        ("max(x, 1)", 1.0),
+        ("min(max(0, x), 0.5)", 0.5),
+        (" sin ( x )\n\t+ 1 ", x.sin() + 1.0),
+    ] {
+        let found = function(text).eval(x);
+        assert!((found - value).abs() <= 2.0 * f64::EPSILON * value.abs(), "{text}: {found} instead of {value}");
+    }
+}
+
+#[test]
+fn each_variable_goes_by_its_own_name_only() {
+    for (variable, name) in [(Variable::X, "x"), (Variable::T, "t"), (Variable::S, "s")] {
+        for other in ["x", "t", "s"] {
+            let read = Expression::parse(other, variable);
+            assert_eq!(read.is_ok(), other == name, "{other} as a function of {name}");
+        }
+    }
+}
+
+#[test]
+fn whole_powers_have_exact_derivatives_at_zero() {
+    for (text, derivatives) in [
+        ("x^0", [1.0, 0.0, 0.0]),
+        ("x^1", [0.0, 1.0, 0.0]),
+        ("x^2", [0.0, 0.0, 2.0]),
+        ("x^3", [0.0, 0.0, 0.0]),
+        ("(x-2)^3", [-8.0, 12.0, -12.0]),
+        ("(x^2)^1", [0.0, 0.0, 2.0]),
+        ("x*(x-1)^2", [0.0, 1.0, -4.0]),
+        ("sqrt(0)*x", [0.0, 0.0, 0.0]),
+    ] {
+        assert_eq!(function(text).derivatives(0.0), derivatives, "{text}");
+    }
+}
+
+#[test]
+fn derivatives_agree_with_finite_differences() {
+    for text in [
+        "x^3 - 2*x",
+        "x^x",
+        "x^2.5",
+        "x^-1.5",
+        "2^x",
+        "(1+x)^(1-x)",
+        "-x^2",
+        "1/(1+x^2)",
+        "sin(3*x)*exp(-x)",
+        "tan(x)",
+        "asin(x/2)",
+        "acos(x/2)",
+        "atan(5*x)",
+        "sinh(2*x)",
+        "cosh(x^2)",
+        "tanh(3*x)",
+        "ln(1+x)",
+        "log10(2+x)",
+        "sqrt(x + x^2)",
+        "abs(x-2)",
+        "min(x^2, sin(x))",
+        "max(x^2, sin(x))",
+        "20*cos(5*pi*x/2)",
+        "exp(-x)/sqrt(1+x)",
+    ] {
+        let f = function(text);
+        for x in [0.2, 0.45, 0.8] {
+            // Central differences: the error is a sixth and a twelfth of the next derivatives, times the step squared.
+            let h = 1e-4;
+            let (minus, middle, plus) = (f.eval(x - h), f.eval(x), f.eval(x + h));
+            let expected = [middle, (plus - minus) / (2.0 * h), (plus - 2.0 * middle + minus) / (h * h)];
+            let scale = expected.iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+            for (order, slack) in [4.0 * f64::EPSILON, 1e-5, 1e-5].into_iter().enumerate() {
+                let found = f.derivatives(x)[order];
+                let error = (found - expected[order]).abs();
+                assert!(error <= slack * scale, "{text}, x = {x}, order {order}: {found} and {}", expected[order]);
+            }
+        }
+    }
+}
+
+#[test]
+fn steep_functions_keep_finite_derivatives() {
+    let [value, first, second] = function("tanh(1000*x)").derivatives(1.0);
+    assert_eq!([value, first.abs(), second.abs()], [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn minimum_and_maximum_keep_nan() {
+    for text in ["min(ln(-1), x)", "min(x, ln(-1))", "max(ln(-1), x)", "max(x, ln(-1))"] {
+        assert!(function(text).eval(0.5).is_nan(), "{text}");
+    }
+}
+
+#[test]
+fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
+    for (text, offset, pieces) in [
+        ("", 0, &["an empty text", "allowed is a number, x, pi, e, a function or `(`"][..]),
+        ("  ", 2, &["an empty text"]),
+        ("x +", 3, &["found the end", "allowed is a number"]),
+        ("x $ 2", 2, &["found `$`", "operators + - * / ^"]),
+        ("2x", 1, &["found `x`", "a product needs its *"]),
+        ("2(x)", 1, &["found `(`", "a product needs its *"]),
+        ("2e", 1, &["found `e`", "a product needs its *"]),
+        ("1.2.3", 3, &["found `.3`"]),
+        (".", 0, &["found `.`"]),
+        ("x**2", 1, &["found `**`", "a power is written ^"]),
+        ("1 − x", 2, &["found `−`", "a minus is written -"]),
+        ("π*x", 0, &["found `π`", "write pi"]),
+        ("(x", 2, &["found the end", "`)`, which closes the bracket at byte 0"]),
+        ("sin(x", 5, &["found the end", "closes the bracket at byte 3"]),
+        ("sin(x]", 5, &["found `]`", "closes the bracket at byte 3"]),
+        ("x)", 1, &["found `)`", "no bracket is open"]),
+        ("(x, 1)", 2, &["found `,`", "no function is being called"]),
+        ("()", 1, &["found `)`", "a number"]),
+        ("sin x", 4, &["found `x`", "`(` after the function `sin`"]),
+        ("sin()", 4, &["found `)`"]),
+        ("sin(x, 1)", 0, &["found 2 argument(s) of `sin`", "allowed is 1"]),
+        ("1+max(x)", 2, &["found 1 argument(s) of `max`", "allowed is 2"]),
+        ("min(1,2,3)", 0, &["found 3 argument(s) of `min`", "allowed is 2"]),
+        ("x(2)", 1, &["found `(`"]),
+        ("1 + sine(x)", 4, &["unknown name `sine`, did you mean `sin`?", "allowed is x pi e sin cos"]),
+        ("Sqrt(x)", 0, &["unknown name `Sqrt`, did you mean `sqrt`?"]),
+        ("x*t", 2, &["unknown name `t`; allowed is x pi e"]),
+        ("1e400", 0, &["found the number 1e400", "at most 1.797"]),
+    ] {
+        let error = Expression::parse(text, Variable::X).expect_err(text);
+        assert_eq!(error.offset, offset, "{text}");
+        says(&error.to_string(), pieces);
+    }
+}
+
+#[test]
+fn the_caret_stands_below_the_mistake() {
+    assert_eq!(refusal("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
+    let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
+    let lines: Vec<String> = refusal(&long).lines().map(str::to_owned).collect();
+    assert_eq!(lines.len(), 3);
+    assert!(lines.iter().all(|line| line.chars().count() < 120), "{lines:?}");
+    let column = lines[2].find('^').expect("a caret");
+    assert!(lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"), "{lines:?}");
+}
+
+#[test]
+fn deep_nesting_is_an_error_and_not_a_crash() {
+    let many = 1_000_000;
+    for text in [
+        format!("{}x{}", "(".repeat(many), ")".repeat(many)),
+        format!("{}x{}", "sin(".repeat(many), ")".repeat(many)),
+        format!("{}x", "-".repeat(many)),
+        format!("x{}", "+x".repeat(many)),
+        format!("x{}", "^x".repeat(many)),
+        "(".repeat(many),
+    ] {
+        says(&refusal(&text), &["operations inside one another", "allowed is 256"]);
+    }
+    // Wide is not deep.
+    let block = format!("(x{})", "+x".repeat(200));
+    let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
+    assert_eq!(sum.eval(1.0), 201.0 * 41.0);
+    assert_eq!(function(&format!("0{}", "+1".repeat(10_000))).eval(0.0), 10_000.0);
+}
+
+#[test]
+fn a_function_that_is_not_finite_is_refused_at_the_place() {
+    for (text, order, pieces) in [
+        ("1/x", 0, &["the value is inf at x = 0;", "finite value on all of [0, 1]"][..]),
+        ("ln(x)", 0, &["the value is -inf at x = 0"]),
+        ("1/(3*x-1)", 0, &["the value is ", " at x = 0.3333333333333333"]),
+        ("sqrt(x-0.1)", 0, &["the value is NaN at x = 0;"]),
+        ("exp(1000*x)", 0, &["the value is inf at x = 0.7"]),
+        ("sqrt(x)", 1, &["the first derivative is inf at x = 0"]),
+        ("x^1.5", 2, &["the second derivative is inf at x = 0"]),
+        ("1/0", 0, &["the value is inf at x = 0"]),
+    ] {
+        says(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
+    }
+    assert_eq!(function("sqrt(x)").check_finite(0), Ok(()));
+    assert_eq!(function("x^1.5").check_finite(1), Ok(()));
+    assert_eq!(function("x^3").check_finite(2), Ok(()));
+    let late = Expression::parse("1/(2-t)", Variable::T).expect("a function");
+    assert_eq!(late.check_finite(2), Ok(()));
+    says(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
+}
+
+#[test]
+fn an_expression_shows_the_text_it_was_read_from() {
+    assert_eq!(function(" 0.01*x * (x-2)").to_string(), " 0.01*x * (x-2)");
+}
+
+/// Texts that are more often nearly right than arbitrary characters are.
+fn nearly_right() -> impl Strategy<Value = String> {
+    let pieces = ["x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^", " ", "ä"];
+    prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40).prop_map(|pieces| pieces.concat())
+}
+
+/// Reads, and uses whatever comes back.
+fn digest(text: &str) {
+    match Expression::parse(text, Variable::X) {
+        Ok(f) => {
+            assert_eq!(f.to_string(), text);
+            let _ = (f.eval(0.5), f.derivatives(0.5));
+        }
+        Err(error) => {
+            assert!(text.is_char_boundary(error.offset), "{text:?}: byte {}", error.offset);
+            assert_eq!(error.to_string().lines().count(), 3, "{error}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_refused_without_a_panic(text in any::<String>()) {
+        digest(&text);
+    }
+
+    #[test]
+    fn any_nearly_right_text_is_read_or_refused_without_a_panic(text in nearly_right()) {
+        digest(&text);
+    }
+
+    #[test]
+    fn polynomials_have_the_derivatives_of_their_coefficients(c in prop::array::uniform4(-9i32..9), x in -2.0..2.0) {
+        let [c0, c1, c2, c3] = c;
+        let [value, first, second] = function(&format!("{c0} + {c1}*x + {c2}*x^2 + {c3}*x^3")).derivatives(x);
+        let c = c.map(f64::from);
+        // Sums of four terms, each below 9 * 2^3 * 6 and rounded a few times.
+        let slack = 16.0 * f64::EPSILON * 432.0;
+        prop_assert!((value - (c[0] + x * (c[1] + x * (c[2] + x * c[3])))).abs() <= slack);
+        prop_assert!((first - (c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]))).abs() <= slack);
+        prop_assert!((second - (2.0 * c[2] + 6.0 * x * c[3])).abs() <= slack);
+    }
+}

@@ -5,4 +5,7 @@ pub mod fit;
 pub mod verdict;
 pub mod plots;
 pub mod expression;
+pub mod document;
+pub mod scene;
 mod nearest;
+mod shared_tables;

@@ -1,6 +1,7 @@
 //! Everything that a user can write: functions, scenes, study files, and what is said when they are wrong.
 
 mod expression;
+mod scene;
 
 /// Asserts that a message holds each of these pieces, in this order.
 #[track_caller]

@@ -7,5 +7,7 @@ pub mod plots;
 pub mod expression;
 pub mod document;
 pub mod scene;
+pub mod study_file;
+
 mod nearest;
 mod shared_tables;

@@ -2,6 +2,8 @@
 
 mod expression;
 mod scene;
+mod study_file;
+mod unreadable;
 
 /// Asserts that a message holds each of these pieces, in this order.
 #[track_caller]

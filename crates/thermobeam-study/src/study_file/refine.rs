@@ -1,0 +1,227 @@
+//! The table `[refine]`: which meshes and time steps a study runs through.
+
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::scheme::Scheme;
+use thermobeam::solve::Settings;
+
+use crate::document::{Field, InputError, Section};
+use crate::expression::{Expression, Variable};
+use crate::shared_tables as tables;
+
+/// What is refined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// The mesh.
+    Space,
+    /// The time step.
+    Time,
+    /// Both.
+    Both,
+}
+
+impl Axis {
+    /// All axes.
+    pub const ALL: [Axis; 3] = [Axis::Space, Axis::Time, Axis::Both];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Axis::Space => "space",
+            Axis::Time => "time",
+            Axis::Both => "both",
+        }
+    }
+}
+
+/// A random displacement of the interior nodes, the same on every machine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Perturbation {
+    /// Each node of the uniform mesh moves by up to `amount * h / 2`; 0 <= amount < 1.
+    pub amount: f64,
+    /// Which displacement.
+    pub seed: u64,
+}
+
+impl Perturbation {
+    /// Where node `i` of `elements` goes, the ends staying where they are.
+    fn displaced(&self, i: usize, elements: usize) -> f64 {
+        let n = elements as f64;
+        if i == 0 || i == elements {
+            return i as f64 / n;
+        }
+        // Every level gets numbers of its own: nested displacements would not be random.
+        let random = splitmix64(splitmix64(self.seed ^ splitmix64(elements as u64)).wrapping_add(i as u64));
+        // The upper 53 bits as a number in [-1, 1).
+        let unit = (random >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        (i as f64 + 0.5 * self.amount * unit) / n
+    }
+}
+
+/// One output of the generator SplitMix64 (Steele, Lea and Flood 2014) from the state `state`.
+fn splitmix64(state: u64) -> u64 {
+    let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// What is refined and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refine {
+    /// What is refined.
+    pub axis: Axis,
+    /// Is the error of the other axis removed exactly? Never with [`Axis::Both`].
+    pub isolate: bool,
+    /// Elements, increasing; one number where only time is refined.
+    pub elements: Vec<usize>,
+    /// Time steps, increasing; one number where only space is refined.
+    pub steps: Vec<usize>,
+    /// With [`Axis::Both`]: all combinations of elements and steps, instead of pairs.
+    pub grid: bool,
+    /// Final time.
+    pub t_end: f64,
+    /// Mesh map, a function of s.
+    pub map: Option<Expression>,
+    /// Random displacement of the nodes, before the map.
+    pub perturbation: Option<Perturbation>,
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// How each step is solved.
+    pub settings: Settings,
+}
+
+impl Refine {
+    /// The runs as (elements, steps), coarse to fine.
+    pub fn cases(&self) -> Vec<(usize, usize)> {
+        if self.axis == Axis::Both && !self.grid {
+            return self.elements.iter().copied().zip(self.steps.iter().copied()).collect();
+        }
+        // Where one axis is fixed, its list has one member.
+        self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
+    }
+
+    /// The mesh of that many elements, displaced and mapped as the study says.
+    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        mesh(elements, self.map.as_ref(), self.perturbation)
+    }
+
+    /// The time step, of which there are `steps`.
+    pub fn dt(&self, steps: usize) -> f64 {
+        self.t_end / steps as f64
+    }
+}
+
+fn mesh(elements: usize, map: Option<&Expression>, perturbation: Option<Perturbation>) -> Result<Mesh, MeshError> {
+    Mesh::mapped(elements, |s| {
+        let index = (s * elements as f64).round() as usize;
+        let s = perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
+        map.map_or(s, |map| map.eval(s))
+    })
+}
+
+/// The table `[refine]`.
+pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
+    let section = root.require("refine", "a table with axis, elements, steps and t_end")?.section()?;
+    let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed"];
+    section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
+    let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
+    let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
+    let positive = "a finite number > 0";
+    let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
+    let refine = Refine {
+        axis,
+        isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
+        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=tables::MAX_STEPS))?,
+        grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
+        t_end: section.require("t_end", positive)?.number_where(positive, |t_end| t_end > 0.0)?,
+        perturbation: perturbation(&section)?,
+        map: map(&section, &elements, perturbation(&section)?)?,
+        elements,
+        scheme: tables::scheme(&section)?,
+        settings: tables::settings(&section)?,
+    };
+    if axis == Axis::Both && !refine.grid && refine.elements.len() != refine.steps.len() {
+        let found = format!("{} numbers of steps for {} of elements", refine.steps.len(), refine.elements.len());
+        return Err(section.refuse("steps", found, "lists of the same length, or grid = true for all combinations"));
+    }
+    Ok(refine)
+}
+
+/// A key that may be true only where `possible`.
+fn flag(section: &Section<'_>, key: &str, possible: bool, allowed: &str) -> Result<bool, InputError> {
+    let Some(field) = section.get(key) else { return Ok(false) };
+    let value = field.boolean()?;
+    if value && !possible { Err(field.refuse_as_written(allowed)) } else { Ok(value) }
+}
+
+/// An increasing list where the key is refined, else one number.
+fn levels(
+    section: &Section<'_>,
+    key: &str,
+    axis: Axis,
+    refined: bool,
+    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
+    let what = if refined { "a list of increasing whole numbers >= 1" } else { "a single whole number >= 1" };
+    let allowed = format!("{what}, because axis = \"{}\"", axis.name());
+    let field = section.require(key, &allowed)?;
+    if !refined {
+        let single = if field.is_list() { Err(field.refuse_as_written(allowed)) } else { read(&field) };
+        return Ok(vec![single?]);
+    }
+    let mut levels: Vec<usize> = Vec::new();
+    for item in field.items(&allowed)? {
+        let level = read(&item)?;
+        match levels.last() {
+            Some(&before) if level <= before => {
+                return Err(item.refuse_as_written(format!("a whole number > {before}, the level before")));
+            }
+            _ => levels.push(level),
+        }
+    }
+    if levels.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(levels) }
+}
+
+fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {
+    let seed = section.get("seed");
+    let Some(field) = section.get("perturb") else {
+        return match seed {
+            Some(seed) => Err(seed.refuse(format!("{} without perturb", seed.as_written()), "perturb beside it")),
+            None => Ok(None),
+        };
+    };
+    let amount = field.number_where("a number >= 0 and < 1", |amount| (0.0..1.0).contains(&amount))?;
+    let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
+    Ok(Some(Perturbation { amount, seed }))
+}
+
+/// The mesh map, tried out on every level.
+fn map(
+    section: &Section<'_>,
+    elements: &[usize],
+    perturbation: Option<Perturbation>,
+) -> Result<Option<Expression>, InputError> {
+    let Some(field) = section.get("map") else { return Ok(None) };
+    let map = field.expression(Variable::S)?;
+    field.finite(&map, 1.0, 0)?;
+    for &elements in elements {
+        tables::checked_mesh(mesh(elements, Some(&map), perturbation), &field)?;
+    }
+    Ok(Some(map))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::splitmix64;
+
+    #[test]
+    fn splitmix64_gives_the_published_numbers() {
+        // The first outputs for the seed 1234567, as the author's C code prints them.
+        let outputs = [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
+        let mut state = 1_234_567u64;
+        for output in outputs {
+            assert_eq!(splitmix64(state), output);
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        }
+    }
+}

@@ -1,13 +1,13 @@
 //! Convergence studies for the `thermobeam` solver.
 
 pub mod calibration;
-pub mod fit;
-pub mod verdict;
-pub mod plots;
-pub mod expression;
 pub mod document;
+pub mod expression;
+pub mod fit;
+pub mod plots;
 pub mod scene;
 pub mod study_file;
+pub mod verdict;
 
 mod nearest;
 mod shared_tables;

@@ -10,4 +10,6 @@ pub mod study_file;
 pub mod verdict;
 
 mod nearest;
+pub mod outcome;
 mod shared_tables;
+pub mod study;

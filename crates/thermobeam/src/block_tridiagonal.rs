@@ -187,7 +187,7 @@ mod tests {
             let expected = dense.lu().solve(&right).unwrap();
             let mut factor = Factor::<f64, 3>::new(N);
             factor.factorize(0, 0.0, &blocks).unwrap();
-            let mut x = vec![[0.0; 3]; N + 2];
+            let mut x = [[0.0; 3]; N + 2];
             let mut y = [0.0; 3];
             for node in 1..=N {
                 let r = std::array::from_fn(|k| right[3 * node - 3 + k]);

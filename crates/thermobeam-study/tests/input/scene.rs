@@ -67,7 +67,10 @@ fn every_key_arrives() {
     assert_eq!(sources, ["x", "2*x", "3*x", "4*x", "20*(1-x)"].map(Some));
     assert_eq!(scene.mesh.nodes(), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
     assert_eq!((scene.steps, scene.scheme), (8, MIDPOINT));
-    assert_eq!(scene.settings, Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 7 });
+    assert_eq!(
+        scene.settings,
+        Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 7, ..Settings::default() }
+    );
 }
 
 #[test]

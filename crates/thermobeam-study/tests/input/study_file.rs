@@ -73,7 +73,10 @@ fn the_contracts_example_is_a_study() {
     assert_eq!(spec.exact.u[0].t.source(), "cos(3*t) + 0.2*t");
     assert_eq!(spec.refine.cases(), [(8, 20), (16, 20), (32, 20), (64, 20)]);
     assert_eq!((spec.refine.axis, spec.refine.isolate, spec.refine.scheme), (Axis::Space, true, MIDPOINT));
-    assert_eq!(spec.refine.settings, Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 9 });
+    assert_eq!(
+        spec.refine.settings,
+        Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 9, ..Settings::default() }
+    );
     let control = spec.control.as_ref().expect("a control");
     assert_eq!(control.changed, ["zeta", "g2"]);
     let (beam, obstacles) = spec.solver_coefficients();

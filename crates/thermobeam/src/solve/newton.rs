@@ -228,10 +228,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         control.state = Progress::Iterating;
         let m = control.m;
         // NaN on the first step: there is no factorisation yet, and the comparison then renews.
-        if !(self.kept_contraction(k, m) <= RENEWAL) {
-            if let Err(failure) = self.factorize(k, m) {
-                self.conclude(k, Err(failure), report);
-            }
+        if !(self.kept_contraction(k, m) <= RENEWAL)
+            && let Err(failure) = self.factorize(k, m)
+        {
+            self.conclude(k, Err(failure), report);
         }
     }
 

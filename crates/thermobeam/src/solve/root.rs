@@ -34,9 +34,9 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 return Ok(());
             }
             if f < 0.0 {
-                low = m
+                low = m;
             } else {
-                high = m
+                high = m;
             }
             m -= f / self.derivative(k);
             if !(low < m && m < high) {

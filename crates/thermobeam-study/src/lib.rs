@@ -13,3 +13,6 @@ mod nearest;
 pub mod outcome;
 mod shared_tables;
 pub mod study;
+pub mod design;
+pub mod exact;
+mod quadrature;

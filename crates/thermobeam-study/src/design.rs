@@ -15,7 +15,7 @@ use crate::exact::sources::{BoundaryLoads, Sources, nodal};
 use crate::study::CaseFailure;
 use crate::study_file::{Axis, ConvergenceSpec, Product};
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Obstacles;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Level;
@@ -57,30 +57,69 @@ impl Defect {
     }
 }
 
-/// Runs one case and returns the errors in the order of [`crate::study_file::Norm::ALL`], each the maximum over n = 1..N.
-///
-/// A maximum keeps NaN: an error that is not a number at one time is not a number at all.
-///
-/// # Errors
-/// [`CaseFailure`] with the solver's own words.
-pub fn run(spec: &ConvergenceSpec, elements: usize, steps: usize, defect: Option<Defect>) -> Result<[f64; 8], CaseFailure> {
-    let mut case = DesignCase::new(spec, elements, steps, defect)?;
-    let mut worst = [0.0_f64; 8];
-    for n in 1..=steps {
-        let errors = case.step(n)?;
-        for (worst, error) in worst.iter_mut().zip(errors) {
-            *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
-        }
+/// What solver and sources of a run disagree in; nothing in an honest one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disagreement {
+    /// The solver's coefficients.
+    pub beam: Beam,
+    /// The solver's obstacles.
+    pub obstacles: Option<Obstacles>,
+    /// A mistake in the sources.
+    pub defect: Option<Defect>,
+}
+
+/// Space vectors and error meter of one mesh: what several runs on it share.
+pub struct Prepared<'a> {
+    spec: &'a ConvergenceSpec,
+    mesh: Mesh,
+    sources: Sources,
+    meter: ErrorMeter,
+}
+
+impl<'a> Prepared<'a> {
+    /// Computes the space vectors of the study's design.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the study's map makes no mesh of so many elements.
+    pub fn new(spec: &'a ConvergenceSpec, elements: usize) -> Result<Self, CaseFailure> {
+        let mesh = spec.refine.mesh(elements)?;
+        let time_isolated = spec.refine.isolate && spec.refine.axis == Axis::Time;
+        let sources = if time_isolated {
+            Sources::discrete(&spec.exact, &spec.beam, &mesh)
+        } else {
+            Sources::strong(&spec.exact, &spec.beam, &mesh)
+        };
+        let meter = ErrorMeter::new(&spec.exact, &mesh, time_isolated);
+        Ok(Self { spec, mesh, sources, meter })
     }
-    Ok(worst)
+
+    /// Runs so many steps and returns the errors in the order of [`crate::study_file::Norm::ALL`], each the maximum over
+    /// n = 1..N.
+    ///
+    /// A maximum keeps NaN: an error that is not a number at one time is not a number at all.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] with the solver's own words.
+    pub fn run(&mut self, steps: usize, disagreement: Disagreement) -> Result<[f64; 8], CaseFailure> {
+        self.meter.lift(&self.mesh, disagreement.beam.theta_a);
+        let mut case = DesignCase::new(self, steps, disagreement)?;
+        let mut worst = [0.0_f64; 8];
+        for n in 1..=steps {
+            let errors = case.step(n)?;
+            for (worst, error) in worst.iter_mut().zip(errors) {
+                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+            }
+        }
+        Ok(worst)
+    }
 }
 
 struct DesignCase<'a> {
     spec: &'a ConvergenceSpec,
     dt: f64,
     defect: Option<Defect>,
-    sources: Sources,
-    meter: ErrorMeter,
+    sources: &'a Sources,
+    meter: &'a mut ErrorMeter,
     simulation: Simulation,
     level: Level,
     /// Factors at t_{n-1} and t_n, and those of the sources.
@@ -90,33 +129,16 @@ struct DesignCase<'a> {
 }
 
 impl<'a> DesignCase<'a> {
-    fn new(
-        spec: &'a ConvergenceSpec,
-        elements: usize,
-        steps: usize,
-        defect: Option<Defect>,
-    ) -> Result<Self, CaseFailure> {
-        let mesh = spec.refine.mesh(elements)?;
-        let time_isolated = spec.refine.isolate && spec.refine.axis == Axis::Time;
-        let (beam, obstacles) = spec.solver_coefficients();
-        let boundary = match defect {
-            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
-            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
-            _ => BoundaryLoads::Both,
-        };
-        let sources = if time_isolated {
-            Sources::discrete(&spec.exact, &spec.beam, &mesh)
-        } else {
-            Sources::strong(&spec.exact, &spec.beam, &mesh, boundary)
-        };
-        let meter = ErrorMeter::new(&spec.exact, &mesh, beam.theta_a, time_isolated);
+    fn new(prepared: &'a mut Prepared<'_>, steps: usize, disagreement: Disagreement) -> Result<Self, CaseFailure> {
+        let Prepared { spec, mesh, sources, meter } = prepared;
+        let Disagreement { beam, obstacles, defect } = disagreement;
         let mut old = Factors::default();
         old.at(&spec.exact, 0.0);
-        let initial = initial(spec, &mesh, &old, beam.theta_a);
+        let initial = initial(spec, mesh, &old, beam.theta_a);
         let dt = spec.refine.dt(steps);
         let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
-        let level = Level::new(elements + 1);
-        let simulation = Simulation::new(Problem { beam, obstacles, mesh, initial }, stepping)?;
+        let level = Level::new(mesh.nodes().len());
+        let simulation = Simulation::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
         let (new, source) = (old.clone(), old.clone());
         Ok(Self { spec, dt, defect, sources, meter, simulation, level, old, new, source })
     }
@@ -131,7 +153,12 @@ impl<'a> DesignCase<'a> {
             self.exact_factors(n)
         };
         if let Some(load) = self.simulation.load_mut() {
-            self.sources.fill(&self.source, n_value, force, load);
+            let loads = match self.defect {
+                Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
+                Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
+                _ => BoundaryLoads::Both,
+            };
+            self.sources.fill(&self.source, n_value, force, loads, load);
         }
         self.simulation.advance()?;
         self.simulation.observe(&mut self.level);
@@ -158,8 +185,7 @@ impl<'a> DesignCase<'a> {
         }
         let [old, new] = [&self.old, &self.new].map(|factors| &factors.u.value);
         let (n_old, n_new) = (self.sources.axial_force(old), self.sources.axial_force(new));
-        let n_value =
-            if self.defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
+        let n_value = if self.defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
         let (u_old, u_new) = (self.sources.tip(old), self.sources.tip(new));
         let force = self.spec.obstacles.map_or(0.0, |obstacles| self.contact(&obstacles, scheme.contact, u_new, u_old));
         (n_value, force)

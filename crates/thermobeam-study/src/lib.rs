@@ -9,10 +9,10 @@ pub mod scene;
 pub mod study_file;
 pub mod verdict;
 
-mod nearest;
-pub mod outcome;
-mod shared_tables;
-pub mod study;
 pub mod design;
 pub mod exact;
+mod nearest;
+pub mod outcome;
 mod quadrature;
+mod shared_tables;
+pub mod study;

@@ -41,6 +41,7 @@ use crate::shared_tables as tables;
 
 pub use control::Control;
 pub use expectation::{Expectation, Norm};
+pub(crate) use header::header;
 pub use header::{CONVERGENCE, StudyHeader, Tier};
 pub use manufactured::{Manufactured, Product};
 pub use refine::{Axis, Perturbation, Refine};
@@ -86,7 +87,7 @@ impl ConvergenceSpec {
     }
 
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let StudyHeader { id, claim, tier, kind } = header::header(root)?;
+        let StudyHeader { id, claim, tier, kind } = header(root)?;
         if kind != CONVERGENCE {
             let study = root.require("study", "a table")?.section()?;
             return Err(study.refuse("kind", format!("\"{kind}\""), format!("\"{CONVERGENCE}\" for this reader")));

@@ -72,25 +72,37 @@ pub struct Sources {
     gram: Vec<f64>,
     /// X_j(1).
     tip: Vec<f64>,
-    boundary: BoundaryLoads,
+    boundary: Boundary,
+}
+
+/// Values at x = 1 that the boundary loads are made of; zero where the space vectors hold them already.
+#[derive(Debug, Clone, Default)]
+struct Boundary {
+    /// X_j'(1).
+    u_slope: Vec<f64>,
+    /// Y_k(1).
+    phi: Vec<f64>,
+    /// Y_k'(1).
+    phi_slope: Vec<f64>,
 }
 
 /// The space integrals of one product: (X, N_i), (X', N_i), and the weak second derivative.
 struct Vectors {
     value: Vec<f64>,
     slope: Vec<f64>,
-    /// `-(X'', N_i) + X'(1) δ_in`, which is `(X', N_i')`.
+    /// `-(X'', N_i)`, which lacks `X'(1) δ_in` to be `(X', N_i')`.
     curvature: Vec<f64>,
-    /// Without the boundary term.
-    interior_curvature: Vec<f64>,
+    /// X(1), and what the boundary loads still need of it.
     tip: f64,
+    boundary_value: f64,
+    boundary_slope: f64,
 }
 
 impl Vectors {
     fn strong(product: &Product, mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
         let zeros = vec![0.0; nodes.len()];
-        let (mut value, mut slope, mut interior) = (zeros.clone(), zeros.clone(), zeros);
+        let (mut value, mut slope, mut curvature) = (zeros.clone(), zeros.clone(), zeros);
         for (i, ends) in nodes.windows(2).enumerate() {
             let h = ends[1] - ends[0];
             for (s, weight) in GAUSS {
@@ -99,26 +111,27 @@ impl Vectors {
                     let weight = weight * h * hat;
                     value[node] += weight * x;
                     slope[node] += weight * x1;
-                    interior[node] -= weight * x2;
+                    curvature[node] -= weight * x2;
                 }
             }
         }
         let [tip, tip_slope, _] = product.x.derivatives(1.0);
-        let mut curvature = interior.clone();
-        curvature[nodes.len() - 1] += tip_slope;
-        Self { value, slope, curvature, interior_curvature: interior, tip }
+        Self { value, slope, curvature, tip, boundary_value: tip, boundary_slope: tip_slope }
     }
 
     /// The same for the nodal interpolant, with the scheme's own matrices.
     fn discrete(product: &Product, matrices: &Matrices, mesh: &Mesh) -> Self {
         let nodal = nodal(product, mesh);
-        let curvature = matrices.stiffness.multiply(&nodal);
+        let tip = nodal[nodal.len() - 1];
         Self {
             value: matrices.mass.multiply(&nodal),
             slope: matrices.slope.multiply(&nodal),
-            interior_curvature: curvature.clone(),
-            curvature,
-            tip: nodal[nodal.len() - 1],
+            curvature: matrices.stiffness.multiply(&nodal),
+            tip,
+            // -C φ = Cᵀ φ - φ(1) e for P1 functions too.
+            boundary_value: tip,
+            // K u holds the derivative at the end already.
+            boundary_slope: 0.0,
         }
     }
 }
@@ -142,66 +155,60 @@ pub(crate) fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
 
 impl Sources {
     /// From the strong form.
-    pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh, boundary: BoundaryLoads) -> Self {
+    pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let vectors = |products: &[Product]| products.iter().map(|p| Vectors::strong(p, mesh)).collect::<Vec<_>>();
-        Self::assemble(exact, beam, vectors, &continuous_gram(&exact.u), boundary)
+        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u))
     }
 
     /// From the discrete matrices applied to the nodal interpolant: the space error is then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let matrices = Matrices { mass: mass(mesh), stiffness: stiffness(mesh), slope: coupling(mesh).transpose() };
-        let vectors = |products: &[Product]| {
-            products.iter().map(|p| Vectors::discrete(p, &matrices, mesh)).collect::<Vec<_>>()
-        };
+        let vectors =
+            |products: &[Product]| products.iter().map(|p| Vectors::discrete(p, &matrices, mesh)).collect::<Vec<_>>();
         let nodal: Vec<_> = exact.u.iter().map(|product| nodal(product, mesh)).collect();
         let mut gram = vec![];
         for left in &nodal {
             let image = matrices.stiffness.multiply(left);
             gram.extend(nodal.iter().map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()));
         }
-        Self::assemble(exact, beam, vectors, &gram, BoundaryLoads::Both)
+        Self::assemble(exact, beam, vectors, gram)
     }
 
     fn assemble(
         exact: &Manufactured,
         beam: &Beam,
         vectors: impl Fn(&[Product]) -> Vec<Vectors>,
-        gram: &[f64],
-        boundary: BoundaryLoads,
+        gram: Vec<f64>,
     ) -> Self {
         let mut terms = vec![];
         let mut add = |equation: usize, coefficient: Coefficient, vector: Vec<f64>| {
             terms.push(Term { equation, coefficient, vector });
         };
-        let with_stress = boundary != BoundaryLoads::WithoutStress;
-        let with_moment = boundary != BoundaryLoads::WithoutMoment;
-        let u = vectors(&exact.u);
+        let (u, phi) = (vectors(&exact.u), vectors(&exact.phi));
         let tip = u.iter().map(|vectors| vectors.tip).collect();
+        let boundary = Boundary {
+            u_slope: u.iter().map(|vectors| vectors.boundary_slope).collect(),
+            phi: phi.iter().map(|vectors| vectors.boundary_value).collect(),
+            phi_slope: phi.iter().map(|vectors| vectors.boundary_slope).collect(),
+        };
         for (j, v) in u.into_iter().enumerate() {
             add(0, Coefficient::Inertia(j), v.value);
-            add(0, Coefficient::Tension(j), if with_stress { v.curvature } else { v.interior_curvature });
+            add(0, Coefficient::Tension(j), v.curvature);
             add(1, Coefficient::Shear(j), v.slope.iter().map(|s| -s).collect());
         }
-        for (k, v) in vectors(&exact.phi).into_iter().enumerate() {
-            // (φ_x, N_i) less φ(1) at the tip, where σ(1, t) holds -φ.
-            let mut slope = v.slope.clone();
-            if with_stress {
-                slope[v.value.len() - 1] -= v.tip;
-            }
-            let curvature = if with_moment { v.curvature } else { v.interior_curvature };
-            let turn = curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect();
-            add(0, Coefficient::Turn(k), slope);
-            add(1, Coefficient::Turn(k), turn);
+        for (k, v) in phi.into_iter().enumerate() {
+            add(1, Coefficient::Turn(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
             add(1, Coefficient::TurnInertia(k), v.value);
             add(2, Coefficient::TurnRate(k), v.slope.iter().map(|s| beam.a * s).collect());
+            add(0, Coefficient::Turn(k), v.slope);
         }
         for (l, v) in vectors(&exact.theta).into_iter().enumerate() {
             add(1, Coefficient::Heat(l), v.slope.iter().map(|s| beam.a * s).collect());
             // θ's test functions vanish at both ends: no boundary load.
-            add(2, Coefficient::Heat(l), v.interior_curvature);
+            add(2, Coefficient::Heat(l), v.curvature);
             add(2, Coefficient::HeatRate(l), v.value);
         }
-        Self { beam: *beam, terms, gram: gram.to_vec(), tip, boundary }
+        Self { beam: *beam, terms, gram, tip, boundary }
     }
 
     /// N(u) of the exact solution with the factors T_j.
@@ -222,7 +229,14 @@ impl Sources {
     }
 
     /// Writes `(F_u, F_φ, F_θ)` for the given factors, axial force N and contact force.
-    pub fn fill(&self, factors: &Factors, n_value: f64, contact_force: f64, load: &mut [[f64; 3]]) {
+    pub fn fill(
+        &self,
+        factors: &Factors,
+        n_value: f64,
+        contact_force: f64,
+        loads: BoundaryLoads,
+        load: &mut [[f64; 3]],
+    ) {
         load.fill([0.0; 3]);
         for term in &self.terms {
             let coefficient = self.coefficient(term.coefficient, factors, n_value);
@@ -230,9 +244,28 @@ impl Sources {
                 load[term.equation] += coefficient * entry;
             }
         }
-        if self.boundary != BoundaryLoads::WithoutStress {
-            load[load.len() - 1][0] += contact_force;
+        let tip = load.len() - 1;
+        if loads != BoundaryLoads::WithoutStress {
+            load[tip][0] += self.tip_stress(factors, n_value) + contact_force;
         }
+        if loads != BoundaryLoads::WithoutMoment {
+            load[tip][1] += self.tip_moment(factors);
+        }
+    }
+
+    /// σ(1, t).
+    fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
+        let u = |j| self.coefficient(Coefficient::Tension(j), factors, n_value);
+        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, n_value);
+        let Boundary { u_slope, phi: phi_tip, .. } = &self.boundary;
+        let stretch: f64 = u_slope.iter().enumerate().map(|(j, slope)| slope * u(j)).sum();
+        stretch - phi_tip.iter().enumerate().map(|(k, value)| value * phi(k)).sum::<f64>()
+    }
+
+    /// φ_x(1, t) + ζ φ_xt(1, t).
+    fn tip_moment(&self, factors: &Factors) -> f64 {
+        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, 0.0);
+        self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * phi(k)).sum()
     }
 
     fn coefficient(&self, coefficient: Coefficient, factors: &Factors, n_value: f64) -> f64 {
@@ -285,7 +318,8 @@ mod tests {
         for (x, elements) in [("0.3*sin(1.3*pi*x)", 16), ("0.4*x*exp(-x)", 16), ("x^2*cos(2*x)", 24)] {
             let product = product(x);
             let mesh = Mesh::mapped(elements, |s| 0.4 * s + 0.6 * s * s).unwrap();
-            let strong = Vectors::strong(&product, &mesh).curvature;
+            let mut strong = Vectors::strong(&product, &mesh).curvature;
+            *strong.last_mut().unwrap() += Vectors::strong(&product, &mesh).boundary_slope;
             // (X', N_i') on each element is an exact difference of X: no quadrature, no second derivative.
             let nodes = mesh.nodes();
             let flux: Vec<f64> =
@@ -302,7 +336,7 @@ mod tests {
         let exact = Manufactured { u: vec![product("sin(pi*x)"), product("x^2")], ..Manufactured::default() };
         let beam = Beam { beta: 0.5, rho: 2.0, ..Beam::default() };
         let mesh = Mesh::uniform(4).unwrap();
-        let sources = Sources::strong(&exact, &beam, &mesh, BoundaryLoads::Both);
+        let sources = Sources::strong(&exact, &beam, &mesh);
         // ∫ (3 π cos πx + 2·2x)² = 9π²/2 + 24π ∫ x cos πx + 16/3, and ∫ x cos πx = -2/π².
         let pi = std::f64::consts::PI;
         let square = 4.5 * pi * pi - 48.0 / pi + 16.0 / 3.0;

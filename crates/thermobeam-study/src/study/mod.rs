@@ -4,9 +4,12 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod controls;
+pub mod convergence;
+
 use crate::document::InputError;
 use crate::outcome::Outcome;
-use crate::study_file::StudyHeader;
+use crate::study_file::{CONVERGENCE, StudyHeader};
 use std::path::Path;
 
 /// One computation of a study.
@@ -80,6 +83,10 @@ pub trait Study: Send + Sync {
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
-    let _header = StudyHeader::read(path)?;
-    unreachable!("kinds are registered below")
+    let header = StudyHeader::read(path)?;
+    match header.kind.as_str() {
+        CONVERGENCE => Ok(Box::new(convergence::Convergence::read(path)?)),
+        controls::CONTROLS => Ok(Box::new(controls::Controls::read(path)?)),
+        _ => unreachable!("kinds are registered below"),
+    }
 }

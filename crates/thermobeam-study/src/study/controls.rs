@@ -1,0 +1,231 @@
+//! Negative controls: the solver, or the sources, are wrong on purpose, and a study must turn to fail.
+//!
+//! A check that cannot fail proves nothing. Each coefficient of the solver in turn is off from the one that the sources
+//! were derived with, by a relative amount; each [`Defect`] in turn is planted in the sources. The matrix (control x
+//! study) is printed, and no control may go unseen by all studies. Without a control every study must pass, or its
+//! failures would say nothing.
+//!
+//! ```toml
+//! [controls]
+//! relative = 1e-4
+//! studies = ["theorem-3.4-space.toml"]    # files beside this one
+//! elements = [64, 128, 256]               # optional: levels in place of the studies' own
+//! ```
+
+use crate::design::{Defect, Disagreement, Prepared};
+use crate::document::{self, InputError, Section};
+use crate::outcome::{Check, Outcome, Table};
+use crate::shared_tables as tables;
+use crate::study::convergence::step;
+use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
+use crate::verdict::{Level, Verdict, judge};
+use std::path::Path;
+use thermobeam::parameters::{Beam, Obstacles};
+
+/// Name of the kind.
+pub const CONTROLS: &str = "controls";
+
+/// A study of this kind.
+pub struct Controls {
+    header: StudyHeader,
+    relative: f64,
+    studies: Vec<ConvergenceSpec>,
+}
+
+/// What is wrong in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fault {
+    None,
+    Coefficient(&'static str),
+    Defect(Defect),
+}
+
+impl Fault {
+    fn all() -> Vec<Self> {
+        let coefficients = tables::BEAM_KEYS.iter().chain(&tables::OBSTACLE_KEYS).map(|key| Fault::Coefficient(key));
+        [Fault::None].into_iter().chain(coefficients).chain(Defect::ALL.map(Fault::Defect)).collect()
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Fault::None => "none",
+            Fault::Coefficient(key) => key,
+            Fault::Defect(defect) => defect.name(),
+        }
+    }
+
+    /// The disagreement it makes; `None` where the study does not have the coefficient, or has it zero.
+    fn plant(self, spec: &ConvergenceSpec, relative: f64) -> Option<Disagreement> {
+        let (beam, obstacles) = (spec.beam, spec.obstacles);
+        match self {
+            Fault::None => Some(Disagreement { beam, obstacles, defect: None }),
+            Fault::Defect(defect) => Some(Disagreement { beam, obstacles, defect: Some(defect) }),
+            Fault::Coefficient(key) => {
+                let (beam, obstacles) = perturbed(beam, obstacles, key, relative)?;
+                Some(Disagreement { beam, obstacles, defect: None })
+            }
+        }
+    }
+}
+
+/// The coefficients with one of them off by a relative amount; `None` where it is not there, or zero.
+fn perturbed(
+    mut beam: Beam,
+    mut obstacles: Option<Obstacles>,
+    key: &'static str,
+    relative: f64,
+) -> Option<(Beam, Option<Obstacles>)> {
+    let of_obstacles = obstacles.as_mut().and_then(|obstacles| tables::obstacle_coefficient(obstacles, key));
+    let coefficient = tables::beam_coefficient(&mut beam, key).or(of_obstacles)?;
+    if *coefficient == 0.0 {
+        return None;
+    }
+    *coefficient *= 1.0 + relative;
+    Some((beam, obstacles))
+}
+
+impl Controls {
+    /// Reads a study file of this kind, and the studies that it names.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place of the mistake.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let text = document::read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        document::parse(&text, &path.display().to_string(), |root| Self::from_document(root, folder))
+    }
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "controls"])?;
+        let section = root.require("controls", "a table with relative and studies")?.section()?;
+        section.allow(&["relative", "studies", "elements"])?;
+        let allowed = "a number between 0 and 1";
+        let relative = section.require("relative", allowed)?.number_where(allowed, |r| r > 0.0 && r < 1.0)?;
+        let allowed = "a list of at least one study file beside this one";
+        let files = section.require("studies", allowed)?.items(allowed)?;
+        let levels = match section.get("elements") {
+            Some(field) => field
+                .items("a list of numbers of elements")?
+                .iter()
+                .map(tables::elements)
+                .collect::<Result<Vec<_>, _>>()?,
+            None => vec![],
+        };
+        let mut studies = vec![];
+        for file in files {
+            let mut spec = ConvergenceSpec::read(folder.join(file.text()?))?;
+            if !levels.is_empty() {
+                spec.refine.elements.clone_from(&levels);
+            }
+            studies.push(spec);
+        }
+        Ok(Self { header: header(root)?, relative, studies })
+    }
+
+    /// Study and level of each case.
+    fn levels(&self) -> Vec<(&ConvergenceSpec, usize, usize)> {
+        self.studies
+            .iter()
+            .flat_map(|spec| spec.refine.cases().into_iter().map(move |(n, steps)| (spec, n, steps)))
+            .collect()
+    }
+
+    /// The verdict on one study under one fault: the worst over its norms; `None` where the fault cannot be planted.
+    fn verdict(
+        &self,
+        spec: &ConvergenceSpec,
+        fault: Fault,
+        results: &[Result<Measured, CaseFailure>],
+    ) -> Option<Verdict> {
+        fault.plant(spec, self.relative)?;
+        let of_study: Vec<_> =
+            self.levels().into_iter().zip(results).filter(|((of, ..), _)| of.id == spec.id).collect();
+        Some(Verdict::worst(spec.expect.iter().map(|expectation| {
+            let levels: Vec<Level> = of_study
+                .iter()
+                .map(|&((_, elements, steps), result)| {
+                    let key = key(fault, expectation.norm);
+                    Level {
+                        step: step(spec, elements, steps),
+                        error: result.as_ref().map_or(f64::NAN, |m| m.value(&key)),
+                    }
+                })
+                .collect();
+            judge(&levels, expectation.order, expectation.tolerance).verdict
+        })))
+    }
+}
+
+fn key(fault: Fault, norm: Norm) -> String {
+    format!("{} | {}", fault.name(), norm.name())
+}
+
+impl Study for Controls {
+    fn header(&self) -> &StudyHeader {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case> {
+        let faults = Fault::all().len() as f64;
+        let case = |(spec, n, steps): (&ConvergenceSpec, usize, usize)| Case {
+            label: format!("{}, n = {n}, {steps} steps", spec.id),
+            cost: n as f64 * (steps as f64 * faults + 50.0),
+        };
+        self.levels().into_iter().map(case).collect()
+    }
+
+    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
+        let (spec, elements, steps) = self.levels()[index];
+        let mut prepared = Prepared::new(spec, elements)?;
+        let mut measured = Measured::default();
+        for fault in Fault::all() {
+            let Some(disagreement) = fault.plant(spec, self.relative) else { continue };
+            // A wrong run that breaks down has been noticed; only the honest one has to come to its end.
+            let errors = match prepared.run(steps, disagreement) {
+                Ok(errors) => errors,
+                Err(failure) if fault == Fault::None => return Err(failure),
+                Err(_) => [f64::NAN; 8],
+            };
+            for (norm, error) in Norm::ALL.into_iter().zip(errors) {
+                measured.push(key(fault, norm), error);
+            }
+        }
+        Ok(measured)
+    }
+
+    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
+        let mut checks = vec![];
+        let mut rows = vec![];
+        for fault in Fault::all() {
+            let verdicts: Vec<_> = self.studies.iter().map(|spec| self.verdict(spec, fault, results)).collect();
+            let seen = verdicts.iter().filter(|verdict| **verdict == Some(Verdict::Fail)).count();
+            if fault == Fault::None {
+                let passing = verdicts.iter().all(|verdict| *verdict == Some(Verdict::Pass));
+                let passed = verdicts.iter().filter(|verdict| **verdict == Some(Verdict::Pass)).count();
+                checks.push(Check::that(
+                    passing,
+                    "without a fault every study passes",
+                    format!("{passed} of {} pass", verdicts.len()),
+                ));
+            } else {
+                let claim = format!("{} is seen", fault.name());
+                checks.push(Check::that(seen > 0, claim, format!("{seen} of {} studies fail", verdicts.len())));
+            }
+            let cell = |verdict: Option<Verdict>| verdict.map_or("not there", Verdict::name).to_owned();
+            rows.push([vec![fault.name().to_owned()], verdicts.into_iter().map(cell).collect()].concat());
+        }
+        let unseen = checks.iter().filter(|check| check.verdict != Verdict::Pass).count();
+        let summary =
+            format!("{} controls, coefficients off by {:e}: {unseen} unseen", checks.len() - 1, self.relative);
+        let mut outcome = Outcome::new(summary, vec![], checks);
+        let mut head = vec!["fault".to_owned()];
+        head.extend(self.studies.iter().map(|spec| spec.id.clone()));
+        outcome.tables.push(Table {
+            title: "Verdict of each study under each fault (`fail` is what is wanted)".to_owned(),
+            head,
+            rows,
+        });
+        outcome
+    }
+}

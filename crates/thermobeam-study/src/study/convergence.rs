@@ -1,0 +1,211 @@
+//! Convergence studies: a manufactured solution, levels of refinement, orders expected.
+//!
+//! Three shapes, by what `[refine]` says: one axis, a path on which both are refined together (h = dt), or the full grid
+//! of (h, dt), to which `e² = (C_h h^p)² + (C_t dt^q)²` is fitted. The step of a level is 1/n, the mean mesh width, or dt.
+
+mod figures;
+mod grid;
+
+use crate::design::{Disagreement, Prepared};
+use crate::document::InputError;
+use crate::outcome::{LevelErrors, Outcome, Quantity, Table};
+use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Norm, StudyHeader};
+use crate::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
+use std::path::Path;
+
+/// Relative change of an error that the baseline tolerates: the solver's tolerance and the instructions of another
+/// machine move errors by less, a change of the scheme by more.
+const ERROR_TOLERANCE: f64 = 1e-4;
+
+/// A convergence study, ready to run.
+pub struct Convergence {
+    header: StudyHeader,
+    spec: ConvergenceSpec,
+}
+
+impl Convergence {
+    /// Reads a study file of this kind.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place of the mistake.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        Ok(Self::new(ConvergenceSpec::read(path)?))
+    }
+
+    /// The study of a specification.
+    pub fn new(spec: ConvergenceSpec) -> Self {
+        let header = StudyHeader {
+            id: spec.id.clone(),
+            claim: spec.claim.clone(),
+            tier: spec.tier,
+            kind: CONVERGENCE.to_owned(),
+        };
+        Self { header, spec }
+    }
+
+    /// Errors of each level in each norm; NaN where the case failed, so that it cannot pass.
+    fn levels(&self, results: &[Result<Measured, CaseFailure>]) -> Vec<LevelErrors> {
+        let cases = self.spec.refine.cases();
+        cases
+            .iter()
+            .zip(results)
+            .map(|(&(elements, steps), result)| {
+                let error = |norm: Norm| result.as_ref().map_or(f64::NAN, |measured| measured.value(norm.name()));
+                let errors = Norm::ALL.map(|norm| (norm.name().to_owned(), error(norm))).to_vec();
+                LevelErrors { elements, steps, errors }
+            })
+            .collect()
+    }
+
+    /// Judges the errors of one norm over the levels.
+    fn judge(&self, levels: &[LevelErrors], expectation: &Expectation) -> RateVerdict {
+        let Expectation { norm, order, tolerance } = *expectation;
+        let points: Vec<Level> = levels
+            .iter()
+            .map(|level| Level { step: step(&self.spec, level.elements, level.steps), error: level.error(norm.name()) })
+            .collect();
+        match Judge::new(tolerance) {
+            Ok(judge) => judge.judge(&points, order),
+            // Refused by the reader of study files already; whoever builds a specification by hand is told here.
+            Err(error) => RateVerdict {
+                order,
+                tolerance,
+                pairwise: vec![],
+                fitted: None,
+                interval: None,
+                extrapolated: None,
+                used: 0..0,
+                verdict: Verdict::Inconclusive,
+                kind: Reason::ToleranceTooWide,
+                reason: error.to_string(),
+            },
+        }
+    }
+}
+
+/// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.
+pub(crate) fn step(spec: &ConvergenceSpec, elements: usize, steps: usize) -> f64 {
+    match spec.refine.axis {
+        Axis::Space | Axis::Both => 1.0 / elements as f64,
+        Axis::Time => spec.refine.dt(steps),
+    }
+}
+
+impl LevelErrors {
+    /// The error in the norm of that name; NaN where there is none.
+    pub fn error(&self, norm: &str) -> f64 {
+        self.errors.iter().find(|(name, _)| name == norm).map_or(f64::NAN, |(_, error)| *error)
+    }
+}
+
+impl Study for Convergence {
+    fn header(&self) -> &StudyHeader {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case> {
+        let label = |(n, steps): &(usize, usize)| format!("n = {n}, {steps} steps");
+        let case = |case: &(usize, usize)| Case { label: label(case), cost: case.0 as f64 * (case.1 as f64 + 50.0) };
+        self.spec.refine.cases().iter().map(case).collect()
+    }
+
+    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
+        let (elements, steps) = self.spec.refine.cases()[index];
+        let (beam, obstacles) = self.spec.solver_coefficients();
+        let errors = Prepared::new(&self.spec, elements)?.run(steps, Disagreement { beam, obstacles, defect: None })?;
+        let mut measured = Measured::default();
+        for (norm, error) in Norm::ALL.into_iter().zip(errors) {
+            measured.push(norm.name(), error);
+        }
+        Ok(measured)
+    }
+
+    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
+        let levels = self.levels(results);
+        let failures: Vec<String> = self
+            .cases()
+            .iter()
+            .zip(results)
+            .filter_map(|(case, result)| {
+                result.as_ref().err().map(|failure| format!("{}: {}", case.label, failure.reason))
+            })
+            .collect();
+        let mut outcome =
+            if self.spec.refine.grid { grid::conclude(&self.spec, &levels) } else { self.conclude_path(&levels) };
+        if !failures.is_empty() {
+            outcome.verdict = Verdict::Fail;
+            outcome.summary = format!(
+                "{}; {} of {} cases failed: {}",
+                outcome.summary,
+                failures.len(),
+                results.len(),
+                failures.join("; ")
+            );
+        }
+        outcome.tables.push(error_table(&levels));
+        outcome.quantities.extend(guarded_errors(&levels));
+        outcome.levels = levels;
+        outcome
+    }
+}
+
+impl Convergence {
+    fn conclude_path(&self, levels: &[LevelErrors]) -> Outcome {
+        let rates: Vec<(String, RateVerdict)> =
+            self.spec.expect.iter().map(|e| (e.norm.name().to_owned(), self.judge(levels, e))).collect();
+        let mut outcome = Outcome::new(summary(&rates), rates, vec![]);
+        for (norm, rate) in &outcome.rates {
+            if let Some(fitted) = rate.fitted {
+                let name = format!("rate {norm}");
+                outcome.quantities.push(Quantity { name, value: fitted, tolerance: ERROR_TOLERANCE });
+            }
+        }
+        outcome.figures.push(figures::rates(&self.spec, levels, &outcome.rates, |level| {
+            step(&self.spec, level.elements, level.steps)
+        }));
+        outcome
+    }
+}
+
+/// The worst rate in a sentence.
+fn summary(rates: &[(String, RateVerdict)]) -> String {
+    let worst = Verdict::worst(rates.iter().map(|(_, rate)| rate.verdict));
+    let list: Vec<String> = rates
+        .iter()
+        .filter(|(_, rate)| worst == Verdict::Pass || rate.verdict != Verdict::Pass)
+        .map(|(norm, rate)| {
+            let found = rate.fitted.map_or("no rate".to_owned(), |fitted| format!("{fitted:.4}"));
+            if worst == Verdict::Pass {
+                format!("{norm} {found} (order {})", rate.order)
+            } else {
+                format!("{norm} {found} (order {}): {}", rate.order, rate.reason)
+            }
+        })
+        .collect();
+    list.join("; ")
+}
+
+fn error_table(levels: &[LevelErrors]) -> Table {
+    let mut head = vec!["n".to_owned(), "steps".to_owned()];
+    head.extend(Norm::ALL.map(|norm| norm.name().to_owned()));
+    let row = |level: &LevelErrors| {
+        let mut row = vec![level.elements.to_string(), level.steps.to_string()];
+        row.extend(level.errors.iter().map(|(_, error)| format!("{error:.3e}")));
+        row
+    };
+    Table { title: "Errors, maximum over all time levels".to_owned(), head, rows: levels.iter().map(row).collect() }
+}
+
+fn guarded_errors(levels: &[LevelErrors]) -> Vec<Quantity> {
+    levels
+        .iter()
+        .flat_map(|level| {
+            level.errors.iter().map(|(norm, value)| Quantity {
+                name: format!("error {norm}, n = {}, {} steps", level.elements, level.steps),
+                value: *value,
+                tolerance: ERROR_TOLERANCE,
+            })
+        })
+        .collect()
+}

@@ -39,9 +39,7 @@
 use crate::fit::Level;
 use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, Verdict};
 
-mod random;
-
-use random::SplitMix;
+use crate::random::SplitMix;
 
 /// Tolerance that is calibrated.
 pub const TOLERANCE: f64 = 0.05;
@@ -247,7 +245,7 @@ impl Sample {
         let claim = if turn.is_multiple_of(2) { 1.0 } else { 2.0 };
         let p = claim + OFFSETS[turn / 2 % OFFSETS.len()];
         let count = FEWEST_LEVELS + random.below(LEVEL_COUNTS);
-        let steps = random.steps(count);
+        let steps = steps(random, count);
         let constant = 10.0_f64.powf(random.within([-3.0, 3.0]));
         let c = random.within(family.pollution);
         let r = random.within(family.exponent);
@@ -282,4 +280,16 @@ impl Sample {
         }
         tally
     }
+}
+
+/// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in [1.4, 2.5] each time.
+fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
+    let fixed = [Some(2.0), Some(2.0), Some(1.5), Some(3.0), None][random.below(5)];
+    let mut step = 1.0;
+    let mut next = || {
+        let here = step;
+        step /= fixed.unwrap_or_else(|| random.within([1.4, 2.5]));
+        here
+    };
+    (0..count).map(|_| next()).collect()
 }

@@ -14,5 +14,7 @@ pub mod exact;
 mod nearest;
 pub mod outcome;
 mod quadrature;
+mod random;
 mod shared_tables;
+pub mod simulate;
 pub mod study;

@@ -6,6 +6,7 @@
 
 pub mod controls;
 pub mod convergence;
+pub mod energy;
 
 use crate::document::InputError;
 use crate::outcome::Outcome;
@@ -87,6 +88,7 @@ pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
     match header.kind.as_str() {
         CONVERGENCE => Ok(Box::new(convergence::Convergence::read(path)?)),
         controls::CONTROLS => Ok(Box::new(controls::Controls::read(path)?)),
+        energy::ENERGY => Ok(Box::new(energy::EnergyDecay::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }
 }

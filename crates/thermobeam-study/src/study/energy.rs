@@ -1,0 +1,250 @@
+//! Proposition 3.1: the energy never rises; and, sharper, its balance closes to round-off in every step.
+//!
+//! ```toml
+//! [energy]
+//! scenes = ["scenes/paper-1-beta-0.toml"]       # files beside this one
+//! schemes = ["euler-crank-nicolson", "midpoint"]
+//! elements = 50                                 # of the mesh, graded or uniform as below
+//! map = "s"                                     # optional
+//! dt = 1e-3
+//! steps = 1000
+//! random = 16                                   # beams with random coefficients and random smooth data
+//! seed = 1
+//! tolerance = 1e-12                             # of the balance's residual, in units of the initial energy
+//! ```
+
+mod random;
+
+use crate::document::{self, InputError, Section};
+use crate::expression::Variable;
+use crate::outcome::{Check, Figure, Outcome, Table};
+use crate::plots;
+use crate::scene::Scene;
+use crate::shared_tables as tables;
+use crate::simulate;
+use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study_file::{StudyHeader, header};
+use std::path::Path;
+use thermobeam::energy::Energy;
+use thermobeam::mesh::Mesh;
+use thermobeam::scheme::{SCHEMES, Scheme};
+use thermobeam::simulation::{Problem, Simulation, Stepping};
+use thermobeam::solve::Settings;
+
+/// Name of the kind.
+pub const ENERGY: &str = "energy";
+
+/// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
+const SOLVED: f64 = 1e-14;
+/// Points of a curve in a figure.
+const POINTS: usize = 400;
+
+/// A study of this kind.
+pub struct EnergyDecay {
+    header: StudyHeader,
+    scenes: Vec<Scene>,
+    schemes: Vec<Scheme>,
+    mesh: Mesh,
+    dt: f64,
+    steps: usize,
+    random: usize,
+    seed: u64,
+    tolerance: f64,
+}
+
+impl EnergyDecay {
+    /// Reads a study file of this kind, and the scenes that it names.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place of the mistake.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let text = document::read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        document::parse(&text, &path.display().to_string(), |root| Self::from_document(root, folder))
+    }
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "energy"])?;
+        let section = root.require("energy", "a table with scenes, schemes, elements, dt and steps")?.section()?;
+        section.allow(&["scenes", "schemes", "elements", "map", "dt", "steps", "random", "seed", "tolerance"])?;
+        let list = "a list of scene files beside this one";
+        let scenes = section.require("scenes", list)?.items(list)?;
+        let names = SCHEMES.map(|scheme| (scheme.name, scheme));
+        let list = "a list of at least one scheme";
+        let schemes = section.require("schemes", list)?.items(list)?;
+        let map = section.get("map").map(|field| field.expression(Variable::S)).transpose()?;
+        let elements = section.require("elements", "a number of elements")?;
+        let mesh = Mesh::mapped(tables::elements(&elements)?, |s| map.as_ref().map_or(s, |map| map.eval(s)));
+        let positive = "a finite number > 0";
+        let count =
+            |key: &str, least: usize| section.get(key).map_or(Ok(0), |field| field.count(least..=tables::MAX_STEPS));
+        Ok(Self {
+            header: header(root)?,
+            scenes: scenes.iter().map(|file| Scene::read(folder.join(file.text()?))).collect::<Result<_, _>>()?,
+            schemes: schemes.iter().map(|scheme| scheme.choice(&names)).collect::<Result<_, _>>()?,
+            mesh: tables::checked_mesh(mesh, &elements)?,
+            dt: section.require("dt", positive)?.number_where(positive, |dt| dt > 0.0)?,
+            steps: section.require("steps", "a number of steps")?.count(1..=tables::MAX_STEPS)?,
+            random: count("random", 0)?,
+            seed: count("seed", 0)? as u64,
+            tolerance: section.require("tolerance", positive)?.number_where(positive, |t| t > 0.0)?,
+        })
+    }
+
+    /// Name, problem and scheme of a case.
+    fn problem(&self, index: usize) -> (String, Problem, Scheme) {
+        let scheme = self.schemes[index % self.schemes.len()];
+        let index = index / self.schemes.len();
+        let (name, problem) = match self.scenes.get(index) {
+            Some(scene) => {
+                let scene = Scene { mesh: self.mesh.clone(), ..scene.clone() };
+                (scene.name.clone(), simulate::problem(&scene))
+            }
+            None => {
+                let number = (index - self.scenes.len()) as u64;
+                (format!("random-{number}"), random::problem(&self.mesh, self.seed + number))
+            }
+        };
+        (format!("{name}, {}", scheme.name), problem, scheme)
+    }
+}
+
+impl Study for EnergyDecay {
+    fn header(&self) -> &StudyHeader {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case> {
+        let count = (self.scenes.len() + self.random) * self.schemes.len();
+        let cost = self.mesh.elements() as f64 * self.steps as f64;
+        (0..count).map(|index| Case { label: self.problem(index).0, cost }).collect()
+    }
+
+    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
+        let (_, problem, scheme) = self.problem(index);
+        let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+        let mut simulation = Simulation::new(problem, Stepping { scheme, settings, dt: self.dt, loaded: false })?;
+        let mut old = simulation.level();
+        let mut new = old.clone();
+        let scale = scale(&simulation.energy(&old));
+        let (mut energy, mut residuals) = (vec![], vec![]);
+        let (mut increase, mut residual) = (f64::NEG_INFINITY, 0.0_f64);
+        let every = self.steps.div_ceil(POINTS);
+        let mut peak = 0.0_f64;
+        for step in 1..=self.steps {
+            simulation.advance()?;
+            simulation.observe(&mut new);
+            let balance = simulation.balance(&old, &new);
+            let relative = balance.residual.abs() / scale;
+            increase = keep_nan(increase, balance.change / scale);
+            residual = keep_nan(residual, relative);
+            peak = keep_nan(peak, relative);
+            if step % every == 0 {
+                energy.push((simulation.t(), simulation.energy(&new).total()));
+                residuals.push((simulation.t(), peak));
+                peak = 0.0;
+            }
+            std::mem::swap(&mut old, &mut new);
+        }
+        let values = vec![
+            ("scale".to_owned(), scale),
+            ("largest increase".to_owned(), increase),
+            ("largest residual".to_owned(), residual),
+        ];
+        Ok(Measured { values, series: vec![("energy".to_owned(), energy), ("residual".to_owned(), residuals)] })
+    }
+
+    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
+        let cases = self.cases();
+        let mut checks = vec![];
+        let mut rows = vec![];
+        let (mut worst_increase, mut worst_residual) = (f64::NEG_INFINITY, 0.0);
+        for (case, result) in cases.iter().zip(results) {
+            let name = &case.label;
+            match result {
+                Ok(measured) => {
+                    let (increase, residual) = (measured.value("largest increase"), measured.value("largest residual"));
+                    worst_increase = keep_nan(worst_increase, increase);
+                    worst_residual = keep_nan(worst_residual, residual);
+                    let evidence =
+                        format!("largest increase {increase:.1e}, residual {residual:.1e} of the initial energy");
+                    let holds = increase <= self.tolerance && residual <= self.tolerance;
+                    checks.push(Check::that(
+                        holds,
+                        format!("{name}: the energy falls and its balance closes"),
+                        evidence,
+                    ));
+                    rows.push(vec![
+                        name.clone(),
+                        format!("{:.4e}", measured.value("scale")),
+                        format!("{increase:.1e}"),
+                        format!("{residual:.1e}"),
+                    ]);
+                }
+                Err(failure) => checks.push(Check::that(false, format!("{name}: runs to its end"), &failure.reason)),
+            }
+        }
+        let summary = format!(
+            "{} runs: largest increase of the energy {worst_increase:.1e}, largest residual of the balance {worst_residual:.1e} of the initial energy",
+            results.len()
+        );
+        let mut outcome = Outcome::new(summary, vec![], checks);
+        let head = ["run", "initial energy", "largest increase", "largest residual"].map(str::to_owned).to_vec();
+        outcome.tables.push(Table {
+            title: "Balance over all steps, in units of the initial energy".to_owned(),
+            head,
+            rows,
+        });
+        outcome.figures = self.figures(&cases, results);
+        outcome
+    }
+}
+
+impl EnergyDecay {
+    fn figures(&self, cases: &[Case], results: &[Result<Measured, CaseFailure>]) -> Vec<Figure> {
+        // The scenes by the first scheme: random beams and further schemes would only crowd the picture.
+        let shown = self.scenes.len() * self.schemes.len();
+        let series = |name: &str| {
+            cases[..shown]
+                .iter()
+                .zip(results)
+                .step_by(self.schemes.len())
+                .filter_map(|(case, result)| {
+                    let measured = result.as_ref().ok()?;
+                    let label = case.label.split(',').next().unwrap_or_default().to_owned();
+                    Some(plots::Series { label, points: measured.curve(name).to_vec() })
+                })
+                .collect::<Vec<_>>()
+        };
+        let figure = |what: &str, caption: &str, y, series| Figure {
+            file: format!("{}-{what}.svg", self.header.id),
+            caption: caption.to_owned(),
+            svg: plots::history(&plots::History { y, series, ..plots::History::default() }),
+        };
+        vec![
+            figure(
+                "energy",
+                "The energy never rises.",
+                plots::Axis::linear("energy E (dimensionless)"),
+                series("energy"),
+            ),
+            figure(
+                "balance",
+                "Residual of the energy balance, largest in each group of steps, in units of the initial energy.",
+                plots::Axis::log("residual / initial energy"),
+                series("residual"),
+            ),
+        ]
+    }
+}
+
+/// The size of an energy: its terms without their signs.
+fn scale(energy: &Energy) -> f64 {
+    let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
+    kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs()
+}
+
+/// The larger of two, NaN if one is: f64::max would drop it.
+fn keep_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}

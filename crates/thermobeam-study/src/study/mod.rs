@@ -4,6 +4,7 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod calibration;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
@@ -89,6 +90,7 @@ pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
         CONVERGENCE => Ok(Box::new(convergence::Convergence::read(path)?)),
         controls::CONTROLS => Ok(Box::new(controls::Controls::read(path)?)),
         energy::ENERGY => Ok(Box::new(energy::EnergyDecay::read(path)?)),
+        calibration::CALIBRATION => Ok(Box::new(calibration::RuleCalibration::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }
 }

@@ -249,6 +249,7 @@ fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     for ((lifted, theta), x) in level.theta.iter_mut().zip(theta.iter()).zip(nodes) {
         *lifted = theta - theta_a * (1.0 - x);
     }
+    level.contact_force = problem.obstacles.map_or(0.0, |obstacles| obstacles.force(u[last]));
     Ok(level)
 }
 

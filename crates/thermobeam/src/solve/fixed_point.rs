@@ -19,6 +19,10 @@ use crate::solve::newton::Case;
 use crate::solve::{Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
+/// Past this ratio of the last two increments the iteration counts as diverging. In a cycle, between a side of an obstacle
+/// and the other say, the ratio is one up to round-off.
+const STALLED: f64 = 1.0 - 1e-6;
+
 /// The stepper.
 pub(crate) struct FixedPoint {
     case: Case,
@@ -103,7 +107,7 @@ impl FixedPoint {
         }
         let iterations = self.settings.max_iterations;
         // NaN (one iteration only) says nothing about divergence.
-        if contraction >= 1.0 {
+        if contraction >= STALLED {
             Err(StepFailure::Diverged { iterations, increment, contraction })
         } else {
             Err(StepFailure::IterationLimit { iterations, increment, contraction })

@@ -72,6 +72,8 @@ pub(super) struct Control {
     /// ‖δV_x‖ of the last pass.
     increment_slope: f64,
     pub(super) tip: Tip,
+    /// The contact force of the step that led to the old level.
+    force: f64,
     pub(super) iterations: usize,
     /// Bound on the next increment.
     pub(super) increment: f64,
@@ -183,15 +185,15 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// Does one step of every case that has not failed before; the report of each case, or why it failed.
     ///
-    /// A case that fails keeps its last level; the others are not touched by it.
+    /// A case that fails keeps its last level; the others are not touched by it. A case alone may try again.
     pub(crate) fn advance(&mut self, report: &mut [Result<StepReport, StepFailure>]) {
         for k in 0..T::WIDTH {
-            if self.controls[k].state != Progress::Failed {
-                self.start(k, report);
+            if T::WIDTH == 1 || self.controls[k].state != Progress::Failed {
+                self.start(k);
             }
         }
         let mut first = true;
-        for _ in 0..KEPT_PASSES {
+        for _ in 0..KEPT_PASSES.min(self.settings.max_iterations) {
             if !self.any(Progress::Iterating) {
                 break;
             }
@@ -215,7 +217,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     }
 
     /// m from the extrapolated force, and a factorisation fit for it.
-    fn start(&mut self, k: usize, report: &mut [Result<StepReport, StepFailure>]) {
+    fn start(&mut self, k: usize) {
         let beam = self.cases[k].beam;
         let weights = self.weights();
         let control = &mut self.controls[k];
@@ -228,10 +230,9 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         control.state = Progress::Iterating;
         let m = control.m;
         // NaN on the first step: there is no factorisation yet, and the comparison then renews.
-        if !(self.kept_contraction(k, m) <= RENEWAL)
-            && let Err(failure) = self.factorize(k, m)
-        {
-            self.conclude(k, Err(failure), report);
+        if !(self.kept_contraction(k, m) <= RENEWAL) && self.factorize(k, m).is_err() {
+            // The prediction may lie below the buckling force where the solution does not.
+            self.controls[k].state = Progress::Hesitating;
         }
     }
 
@@ -407,9 +408,11 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         self.controls[k].state = if outcome.is_ok() { Progress::Accepted } else { Progress::Failed };
         if let Err(failure) = outcome {
             report[k] = Err(failure);
-            let mut level = Level::new(self.old.len());
-            self.read(k, &mut level);
-            self.frozen[k] = Some(level);
+            if T::WIDTH > 1 {
+                let mut level = Level::new(self.old.len());
+                self.read(k, &mut level);
+                self.frozen[k] = Some(level);
+            }
         }
     }
 
@@ -420,6 +423,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 continue;
             }
             control.slope_squared = control.new_slope_squared;
+            control.force = control.tip.force;
             let [n1, n2, _] = control.forces;
             control.forces = [self.cases[k].beam.axial_force(control.slope_squared), n1, n2];
             report[k] =
@@ -453,7 +457,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             level.v[i] = velocity[0].lane(k);
             level.w[i] = velocity[1].lane(k);
         }
-        level.contact_force = self.controls[k].tip.force;
+        level.contact_force = self.controls[k].force;
     }
 
     /// The work done so far, all cases together.
@@ -489,6 +493,7 @@ impl Control {
             new_slope_squared: f64::NAN,
             increment_slope: f64::NAN,
             tip: Tip { u, force, stiffness: 0.0 },
+            force,
             iterations: 0,
             increment: f64::NAN,
             state: Progress::Iterating,

@@ -16,7 +16,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let mut high = f64::INFINITY;
         let mut m = n0;
         let mut previous = f64::NAN;
-        for _ in 0..self.settings.max_iterations {
+        for _ in self.controls[k].iterations..self.settings.max_iterations {
             self.controls[k].m = m;
             self.factorize(k, m)?;
             self.pass(Progress::Searching, false);

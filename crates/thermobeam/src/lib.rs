@@ -4,6 +4,7 @@ pub mod assembly;
 mod block_tridiagonal;
 mod bracket;
 pub mod contact;
+pub mod contraction;
 pub mod energy;
 pub mod equilibrium;
 pub mod error;

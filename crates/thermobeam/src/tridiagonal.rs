@@ -58,6 +58,11 @@ impl TridiagonalFactor {
             x[i] = x[i] * self.inverse[i] - self.multiplier[i + 1] * x[i + 1];
         }
     }
+
+    /// Entry (last, last) of the matrix's inverse: the last pivot is its reciprocal.
+    pub fn last_of_inverse(&self, last: usize) -> f64 {
+        self.inverse[last]
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,42 @@
+//! Different ways to the solution of a step lead to the same one.
+
+use crate::scenes::{EXPERIMENTS, paper, relative_difference, schemes_and_meshes, simulate, stepping};
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Settings, Solver, Start};
+
+/// Runs all experiments twice, side by side, and compares every nodal value at every step.
+#[track_caller]
+fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
+    let mut worst = 0.0_f64;
+    for experiment in EXPERIMENTS {
+        for (scheme, mesh) in schemes_and_meshes(20) {
+            let problem = paper(mesh, experiment);
+            let mut pair =
+                [one, other].map(|settings| simulate(&problem, Stepping { scheme, settings, ..stepping(dt) }));
+            for step in 1..=steps {
+                for simulation in &mut pair {
+                    simulation.advance().unwrap_or_else(|error| panic!("{experiment:?} {}: {error}", scheme.name));
+                }
+                let [one, other] = pair.each_mut().map(|simulation| simulation.level());
+                let difference = relative_difference(&one, &other);
+                worst = worst.max(difference);
+                assert!(difference <= allowed, "{experiment:?} {} step {step}: {difference:e}", scheme.name);
+            }
+        }
+    }
+}
+
+fn tight() -> Settings {
+    Settings { tolerance: 1e-13, ..Settings::default() }
+}
+
+#[test]
+fn newton_and_the_fixed_point_agree() {
+    agree(tight(), Settings { solver: Solver::FixedPoint, ..tight() }, 1e-3, 1000, 1e-10);
+}
+
+#[test]
+fn the_start_of_the_iteration_does_not_change_the_answer() {
+    agree(tight(), Settings { start: Start::Previous, ..tight() }, 1e-3, 1000, 1e-10);
+    agree(tight(), Settings { start: Start::Previous, ..tight() }, 2e-2, 200, 1e-10);
+}

@@ -1,0 +1,66 @@
+//! The energy balance closes to round-off, step by step.
+
+use crate::scenes::{EXPERIMENTS, larger, paper, schemes_and_meshes, simulate, stepping};
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Level, Settings, Start};
+
+/// Over 1000 steps of every experiment, both schemes, both meshes: the largest residual over the initial energy.
+fn largest_residual(tolerance: f64, dt: f64) -> f64 {
+    let mut worst = 0.0;
+    for experiment in EXPERIMENTS {
+        for (scheme, mesh) in schemes_and_meshes(100) {
+            let settings = Settings { tolerance, ..Settings::default() };
+            let mut simulation = simulate(&paper(mesh, experiment), Stepping { scheme, settings, ..stepping(dt) });
+            let mut old = simulation.level();
+            let mut new = Level::new(101);
+            let initial = simulation.energy(&old).total();
+            let mut of_run = 0.0;
+            for step in 1..=1000 {
+                simulation.advance().unwrap();
+                simulation.observe(&mut new);
+                let balance = simulation.balance(&old, &new);
+                of_run = larger(of_run, balance.residual.abs() / initial.abs());
+                let rounding = 1e-12 * initial.abs();
+                assert!(balance.change <= rounding, "{experiment:?} {}: {balance:?} at {step}", scheme.name);
+                assert!(balance.contact >= -rounding, "{experiment:?} {}: {balance:?} at {step}", scheme.name);
+                std::mem::swap(&mut old, &mut new);
+            }
+            worst = larger(worst, of_run);
+        }
+    }
+    worst
+}
+
+#[test]
+fn the_energy_falls_and_its_balance_closes_to_round_off() {
+    for dt in [1e-4, 1e-3] {
+        let residual = largest_residual(1e-13, dt);
+        assert!(residual <= 1e-12, "{residual:e} with dt = {dt}");
+    }
+}
+
+#[test]
+fn the_default_tolerance_is_enough_for_the_balance() {
+    assert!(Settings::default().tolerance == 1e-10 && Settings::default().start == Start::Extrapolated);
+    for dt in [1e-4, 1e-3] {
+        let residual = largest_residual(Settings::default().tolerance, dt);
+        assert!(residual <= 1e-12, "{residual:e} with dt = {dt}");
+    }
+}
+
+#[test]
+fn the_change_of_energy_is_the_difference_of_the_energies() {
+    for experiment in EXPERIMENTS {
+        for (scheme, mesh) in schemes_and_meshes(30) {
+            let mut simulation = simulate(&paper(mesh, experiment), Stepping { scheme, ..stepping(1e-3) });
+            for _ in 0..200 {
+                let old = simulation.level();
+                simulation.advance().unwrap();
+                let new = simulation.level();
+                let (before, after) = (simulation.energy(&old).total(), simulation.energy(&new).total());
+                let difference = simulation.balance(&old, &new).change - (after - before);
+                assert!(difference.abs() <= 1e-12 * before.abs().max(1.0), "{difference:e}");
+            }
+        }
+    }
+}

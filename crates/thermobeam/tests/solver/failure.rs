@@ -1,0 +1,176 @@
+//! Failure is a value: typed, with step and time, and the simulation stands where it stood.
+
+use crate::scenes::{paper, simulate, stepping, uniform};
+use thermobeam::error::{SetupError, StepError, StepFailure};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::SCHEMES;
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::{Settings, Solver};
+
+fn everywhere() -> impl Iterator<Item = Stepping> {
+    SCHEMES.into_iter().flat_map(|scheme| {
+        Solver::ALL.map(|solver| {
+            let settings = Settings { solver, ..Settings::default() };
+            Stepping { scheme, settings, loaded: true, ..stepping(1e-3) }
+        })
+    })
+}
+
+#[test]
+fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
+    for stepping in everywhere() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for component in 0..3 {
+                for node in [1, 5, 10] {
+                    // A temperature is given at the tip: there is no equation that a load could enter.
+                    if (component, node) == (2, 10) {
+                        continue;
+                    }
+                    let mut simulation = simulate(&paper(uniform(10), (-0.5, 20.0)), stepping);
+                    let mut undisturbed = simulate(&paper(uniform(10), (-0.5, 20.0)), stepping);
+                    for _ in 0..3 {
+                        simulation.load_mut().unwrap().fill([0.1; 3]);
+                        undisturbed.load_mut().unwrap().fill([0.1; 3]);
+                        simulation.advance().unwrap();
+                        undisturbed.advance().unwrap();
+                    }
+                    let before = simulation.level();
+                    simulation.load_mut().unwrap()[node][component] = bad;
+                    for _ in 0..2 {
+                        let error = simulation.advance().unwrap_err();
+                        let StepError { step, t, failure } = error;
+                        assert_eq!((step, t), (4, 4.0 * stepping.dt));
+                        assert!(matches!(failure, StepFailure::NonFinite { .. }), "{stepping:?} {bad}: {failure:?}");
+                        assert_eq!((simulation.step(), simulation.t()), (3, 3.0 * stepping.dt));
+                        assert_eq!(simulation.level(), before, "{stepping:?} {bad} {component} {node}");
+                    }
+                    simulation.load_mut().unwrap().fill([0.1; 3]);
+                    undisturbed.load_mut().unwrap().fill([0.1; 3]);
+                    simulation.advance().unwrap();
+                    undisturbed.advance().unwrap();
+                    let difference = crate::scenes::relative_difference(&simulation.level(), &undisturbed.level());
+                    assert!(difference <= 1e-9, "{stepping:?}: {difference:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_contact_force_of_the_start_is_that_of_the_initial_tip() {
+    for stepping in everywhere() {
+        let mut problem = paper(uniform(10), (0.0, 0.0));
+        problem.initial.u = problem.mesh.nodes().iter().map(|x| 0.12 * x).collect();
+        let expected = problem.obstacles.unwrap().force(problem.initial.u[10]);
+        assert!(expected > 19.0);
+        assert_eq!(simulate(&problem, stepping).level().contact_force, expected, "{stepping:?}");
+    }
+}
+
+#[test]
+fn too_few_iterations_are_reported() {
+    for stepping in everywhere() {
+        for max_iterations in [1, 2, 3] {
+            let settings = Settings { tolerance: 1e-300, max_iterations, ..stepping.settings };
+            let mut problem = paper(uniform(10), (0.0, 0.0));
+            problem.beam.rho = 1e4;
+            let mut simulation = simulate(&problem, Stepping { settings, ..stepping });
+            let error = simulation.advance().unwrap_err();
+            let (StepFailure::IterationLimit { iterations, increment, .. }
+            | StepFailure::Diverged { iterations, increment, .. }) = error.failure
+            else {
+                panic!("{stepping:?}: {error}")
+            };
+            assert_eq!(iterations, max_iterations, "{stepping:?}");
+            assert!(increment > 0.0, "{error}");
+        }
+    }
+}
+
+#[test]
+fn a_lost_pivot_is_reported_by_both_solvers() {
+    for stepping in everywhere() {
+        let stepping = Stepping { dt: 1.0, ..stepping };
+        let mut simulation = simulate(&paper(uniform(10), (-3.0, 0.0)), stepping);
+        let error = simulation.advance().unwrap_err();
+        let StepFailure::Indefinite { node, pivot, n_value } = error.failure else { panic!("{error}") };
+        assert!((1..=10).contains(&node) && pivot <= 0.0 && n_value < -2.9, "{error}");
+        assert_eq!(simulation.advance().unwrap_err(), error, "the same failure again");
+    }
+}
+
+#[track_caller]
+fn refused(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
+    let (mut problem, mut stepping) = (paper(uniform(4), (0.0, 20.0)), stepping(1e-3));
+    change(&mut problem, &mut stepping);
+    match Simulation::new(problem, stepping) {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error,
+    }
+}
+
+#[test]
+fn data_that_break_a_boundary_condition_are_refused() {
+    type Field = fn(&mut Initial) -> &mut Vec<f64>;
+    let fields: [(&str, Field, usize, f64); 6] = [
+        ("u", |i| &mut i.u, 0, 0.0),
+        ("u_t", |i| &mut i.u_t, 0, 0.0),
+        ("phi", |i| &mut i.phi, 0, 0.0),
+        ("phi_t", |i| &mut i.phi_t, 0, 0.0),
+        ("theta", |i| &mut i.theta, 0, 20.0),
+        ("theta", |i| &mut i.theta, 4, 0.0),
+    ];
+    for (name, of, node, boundary) in fields {
+        let x = node as f64 / 4.0;
+        let error = refused(|problem, _| of(&mut problem.initial)[node] = boundary + 1e-9);
+        assert_eq!(error, SetupError::Boundary { field: name, x, found: boundary + 1e-9, allowed: boundary });
+        let error = refused(|problem, _| of(&mut problem.initial)[node] = f64::INFINITY);
+        assert_eq!(error, SetupError::NotFinite { field: name, node, found: f64::INFINITY });
+        let error = refused(|problem, _| of(&mut problem.initial).push(0.0));
+        assert_eq!(error, SetupError::Length { field: name, found: 6, expected: 5 });
+    }
+    let error = refused(|problem, _| problem.initial.phi[2] = f64::NAN);
+    assert!(matches!(error, SetupError::NotFinite { field: "phi", node: 2, found } if found.is_nan()));
+}
+
+#[test]
+fn settings_that_stop_nothing_are_refused() {
+    for dt in [0.0, -1.0, f64::INFINITY] {
+        assert_eq!(refused(|_, stepping| stepping.dt = dt), SetupError::TimeStep { found: dt });
+    }
+    assert!(matches!(refused(|_, stepping| stepping.dt = f64::NAN), SetupError::TimeStep { .. }));
+    for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
+        let error = refused(|_, stepping| stepping.settings.tolerance = tolerance);
+        assert!(matches!(error, SetupError::Setting { name: "tolerance", .. }), "{error}");
+    }
+    let error = refused(|_, stepping| stepping.settings.max_iterations = 0);
+    assert!(matches!(error, SetupError::Setting { name: "max_iterations", .. }), "{error}");
+}
+
+#[test]
+fn coefficients_out_of_range_are_refused_by_name() {
+    type Change = fn(&mut Beam, &mut Obstacles);
+    let changes: [(&str, Change); 9] = [
+        ("zeta", |beam, _| beam.zeta = -1.0),
+        ("a", |beam, _| beam.a = f64::NAN),
+        ("rho", |beam, _| beam.rho = -1e-9),
+        ("beta", |beam, _| beam.beta = f64::INFINITY),
+        ("theta_a", |beam, _| beam.theta_a = f64::NAN),
+        ("epsilon", |_, obstacles| obstacles.epsilon = 0.0),
+        ("epsilon", |_, obstacles| obstacles.epsilon = f64::NAN),
+        ("g1", |_, obstacles| obstacles.g1 = 1e-9),
+        ("g2", |_, obstacles| obstacles.g2 = -1e-9),
+    ];
+    for (name, change) in changes {
+        let error = refused(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
+        assert!(matches!(&error, SetupError::Parameter(parameter) if parameter.name == name), "{error}");
+    }
+}
+
+#[test]
+fn nodes_that_are_no_mesh_are_refused() {
+    for nodes in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.6, 0.6, 1.0], vec![0.0, f64::NAN, 1.0]] {
+        assert!(matches!(Mesh::from_nodes(nodes).map_err(SetupError::from), Err(SetupError::Mesh(_))));
+    }
+}

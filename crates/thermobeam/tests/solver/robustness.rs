@@ -1,0 +1,113 @@
+//! Newton's method converges on the paper's data whatever the compliance, the step and the stiffness.
+
+use crate::scenes::{graded, larger, paper, simulate, stepping, uniform};
+use thermobeam::error::StepFailure;
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::SCHEMES;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Level, Settings, Start};
+
+const BETAS: [f64; 4] = [-0.8, -0.5, 0.0, 5.0];
+
+/// The paper's data with another ρ and ε.
+fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem {
+    let problem = paper(mesh, experiment);
+    let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
+    Problem { beam: Beam { rho, ..problem.beam }, obstacles, ..problem }
+}
+
+/// Runs 50 steps; the most iterations that a step took and the worst balance, relative to the largest energy met.
+fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
+    let mut simulation = simulate(problem, stepping);
+    let mut old = simulation.level();
+    let mut new = Level::new(old.u.len());
+    let scale = simulation.energy(&old).total().abs();
+    let (mut most, mut worst) = (0, 0.0);
+    for _ in 0..50 {
+        let report = simulation.advance().unwrap_or_else(|error| {
+            panic!("{:?} {:?} dt = {:e}: {error}", problem.beam, problem.obstacles, stepping.dt);
+        });
+        simulation.observe(&mut new);
+        most = most.max(report.iterations);
+        worst = larger(worst, simulation.balance(&old, &new).residual.abs() / scale);
+        std::mem::swap(&mut old, &mut new);
+    }
+    (most, worst)
+}
+
+#[test]
+fn newton_converges_for_every_compliance_step_force_and_stiffness() {
+    let (mut most, mut worst) = (0, 0.0);
+    for mesh in [uniform(30), graded(30)] {
+        for beta in BETAS {
+            for rho in [0.0, 1.0, 1e4] {
+                for log_epsilon in [-8, -6, -4, -3, -2, 0] {
+                    for log_dt in -6..=0 {
+                        for theta_a in [0.0, 20.0] {
+                            let (epsilon, dt) = (10f64.powi(log_epsilon), 10f64.powi(log_dt));
+                            let problem = scene(mesh.clone(), (beta, theta_a), rho, epsilon);
+                            let settings = Settings { start: Start::Previous, ..Settings::default() };
+                            let (iterations, balance) = run(&problem, Stepping { settings, ..stepping(dt) });
+                            most = most.max(iterations);
+                            worst = larger(worst, balance);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(most <= 20, "a step took {most} iterations");
+    assert!(worst <= 1e-11, "the balance of a step is open by {worst:e}");
+}
+
+#[test]
+fn both_schemes_converge_from_the_extrapolated_start() {
+    for scheme in SCHEMES {
+        for beta in BETAS {
+            for rho in [1.0, 1e4] {
+                for epsilon in [1e-8, 1e-3] {
+                    for log_dt in -5..=0 {
+                        let problem = scene(graded(30), (beta, 20.0), rho, epsilon);
+                        let (iterations, _) = run(&problem, Stepping { scheme, ..stepping(10f64.powi(log_dt)) });
+                        assert!(iterations <= 30, "{} {beta} {rho} {epsilon:e}: {iterations}", scheme.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn beyond_the_buckling_force_a_large_step_is_refused_and_a_smaller_one_is_not() {
+    for mesh in [uniform(30), graded(30)] {
+        let problem = paper(mesh, (-0.8, 0.0));
+        run(&problem, stepping(1.0));
+        let mut simulation = simulate(&problem, stepping(10.0));
+        let before = simulation.level();
+        let error = simulation.advance().unwrap_err();
+        assert_eq!((error.step, error.t), (1, 10.0));
+        let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else { panic!("{error}") };
+        assert!(pivot <= 0.0 && (-0.8..-0.79).contains(&n_value), "{error}");
+        assert_eq!(simulation.level(), before);
+    }
+}
+
+#[test]
+fn a_bad_prediction_of_the_axial_force_is_no_reason_to_refuse_a_step() {
+    let mut done = 0;
+    for dt in [2.0, 4.0, 6.0] {
+        for rho in [1.0, 100.0, 1e4] {
+            let problem = scene(uniform(30), (-0.8, 0.0), rho, 1e-3);
+            let outcome = |start| {
+                let settings = Settings { start, ..Settings::default() };
+                let mut simulation = simulate(&problem, Stepping { settings, ..stepping(dt) });
+                (0..100).map_while(|_| simulation.advance().ok()).count()
+            };
+            let (rough, extrapolated) = (outcome(Start::Previous), outcome(Start::Extrapolated));
+            assert_eq!(extrapolated, rough, "dt = {dt}, rho = {rho}");
+            done += rough;
+        }
+    }
+    assert!(done > 300, "{done}");
+}

@@ -1,0 +1,114 @@
+//! The paper's experiments, the meshes they run on, and what the laws ask of a run.
+
+use std::f64::consts::PI;
+use thermobeam::mesh::Mesh;
+use thermobeam::norms::TheoremSquares;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::{EULER_CRANK_NICOLSON, Scheme};
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::{Level, Settings};
+
+/// (β, θ_A) of the paper's seven experiments: (5.3) with a cold end, (5.5) with a hot one, and the buckled beam.
+pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
+    [(-0.5, 0.0), (0.0, 0.0), (5.0, 0.0), (-0.5, 20.0), (0.0, 20.0), (5.0, 20.0), (-0.8, 0.0)];
+
+/// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) where θ_A = 20.
+pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
+    let on_nodes = |f: &dyn Fn(f64) -> f64| mesh.nodes().iter().map(|&x| f(x)).collect::<Vec<_>>();
+    let initial = Initial {
+        u: on_nodes(&|x| 0.01 * x * (x - 2.0)),
+        u_t: on_nodes(&|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
+        phi: on_nodes(&|_| 0.0),
+        phi_t: on_nodes(&|_| 0.0),
+        theta: on_nodes(&|x| if theta_a == 0.0 { (PI * x).sin() } else { theta_a * (2.5 * PI * x).cos() }),
+    };
+    Problem { beam: Beam { beta, theta_a, ..Beam::default() }, obstacles: Some(Obstacles::default()), mesh, initial }
+}
+
+pub(crate) fn uniform(elements: usize) -> Mesh {
+    Mesh::uniform(elements).unwrap()
+}
+
+/// Finest at both ends: the largest element is 4.4 times the smallest.
+pub(crate) fn graded(elements: usize) -> Mesh {
+    Mesh::mapped(elements, |s| s - 0.1 * (2.0 * PI * s).sin()).unwrap()
+}
+
+/// The paper's scheme and default settings.
+pub(crate) fn stepping(dt: f64) -> Stepping {
+    Stepping { scheme: EULER_CRANK_NICOLSON, settings: Settings::default(), dt, loaded: false }
+}
+
+#[track_caller]
+pub(crate) fn simulate(problem: &Problem, stepping: Stepping) -> Simulation {
+    Simulation::new(problem.clone(), stepping).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Does so many steps, each of which must succeed.
+#[track_caller]
+pub(crate) fn advance(simulation: &mut Simulation, steps: usize) {
+    for _ in 0..steps {
+        simulation.advance().unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+/// A problem that starts from a level of another run.
+pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
+    let theta_a = problem.beam.theta_a;
+    let theta = level.theta.iter().zip(problem.mesh.nodes()).map(|(theta, x)| theta + theta_a * (1.0 - x)).collect();
+    let initial =
+        Initial { u: level.u.clone(), u_t: level.v.clone(), phi: level.phi.clone(), phi_t: level.w.clone(), theta };
+    Problem { initial, ..problem.clone() }
+}
+
+/// Distance of two levels in the norm of Theorem 3.4's left-hand side.
+pub(crate) fn distance(mesh: &Mesh, a: &Level, b: &Level) -> f64 {
+    let lengths: Vec<f64> = mesh.lengths().collect();
+    let minus = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(p, q)| p - q).collect::<Vec<_>>();
+    let squares = TheoremSquares::of(
+        &lengths,
+        &minus(&a.v, &b.v),
+        &minus(&a.u, &b.u),
+        &minus(&a.w, &b.w),
+        &minus(&a.phi, &b.phi),
+        &minus(&a.theta, &b.theta),
+    );
+    squares.norm()
+}
+
+/// The fields of a level with their names.
+pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
+    [("u", &level.u), ("v", &level.v), ("phi", &level.phi), ("w", &level.w), ("theta", &level.theta)]
+}
+
+/// Largest difference of any nodal value, relative to the largest value of its field in `b`; NaN stays.
+pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
+    let mut worst = 0.0;
+    for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {
+        let scale = largest(b.iter().copied()).max(1e-3);
+        worst = larger(worst, largest(a.iter().zip(b).map(|(a, b)| (a - b) / scale)));
+    }
+    worst
+}
+
+/// The largest magnitude; NaN if there is one.
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |sofar, value| larger(sofar, value.abs()))
+}
+
+/// The larger of two numbers; NaN if either is.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
+/// Slope between the last two of (dt, error) in log-log.
+pub(crate) fn last_rate(errors: &[(f64, f64)]) -> f64 {
+    let [.., (dt0, e0), (dt1, e1)] = errors else { panic!("a rate needs two levels") };
+    (e0 / e1).ln() / (dt0 / dt1).ln()
+}
+
+/// Both schemes and both kinds of mesh.
+pub(crate) fn schemes_and_meshes(elements: usize) -> impl Iterator<Item = (Scheme, Mesh)> {
+    let meshes = [uniform(elements), graded(elements)];
+    thermobeam::scheme::SCHEMES.into_iter().flat_map(move |scheme| meshes.clone().map(|mesh| (scheme, mesh)))
+}

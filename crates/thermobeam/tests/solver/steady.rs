@@ -1,0 +1,38 @@
+//! With a hot clamped end the beam ends in its steady state, known in closed form.
+
+use crate::scenes::{advance, paper, simulate, stepping, uniform};
+use thermobeam::equilibrium::{Contact, equilibria};
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::Settings;
+
+/// Errors of u(1), φ(1) and the contact force in the steady state of a run with so many elements.
+fn errors(beta: f64, contact: Contact, elements: usize) -> [f64; 3] {
+    let problem = paper(uniform(elements), (beta, 20.0));
+    let states = equilibria(&problem.beam, problem.obstacles.as_ref()).unwrap();
+    let [state] = states.as_slice() else { panic!("{states:?}") };
+    assert_eq!(state.contact, contact);
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let mut simulation = simulate(&problem, Stepping { settings, ..stepping(0.05) });
+    // Backward Euler damps every mode; the slowest heat mode alone needs t = 3 for its 13 digits.
+    advance(&mut simulation, 4000);
+    let level = simulation.level();
+    let motion = level.v.iter().chain(&level.w).chain(&level.theta).fold(0.0, |sum: f64, value| sum + value.abs());
+    assert!(motion <= 1e-10, "beta = {beta}: still moving, {motion:e}");
+    [level.u[elements] - state.u_tip, level.phi[elements] - state.phi_tip, level.contact_force - state.contact_force]
+}
+
+#[test]
+fn a_hot_end_drives_the_beam_to_its_steady_state_at_second_order_in_h() {
+    for (beta, contact) in [(-0.5, Contact::Upper), (0.0, Contact::Upper), (5.0, Contact::Free)] {
+        let [coarse, fine] = [16, 32].map(|elements| errors(beta, contact, elements));
+        for (k, (coarse, fine)) in coarse.into_iter().zip(fine).enumerate() {
+            if k == 2 && contact == Contact::Free {
+                assert_eq!((coarse, fine), (0.0, 0.0));
+                continue;
+            }
+            let rate = (coarse / fine).log2();
+            assert!((rate - 2.0).abs() <= 0.05, "beta = {beta}, quantity {k}: {coarse:e} {fine:e}, rate {rate}");
+        }
+        assert!(fine[0].abs() <= 1e-4 && fine[1].abs() <= 1e-4, "beta = {beta}: {fine:?}");
+    }
+}

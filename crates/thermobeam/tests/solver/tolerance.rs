@@ -1,0 +1,47 @@
+//! The tolerance bounds how far an accepted step is from the solution of its equations.
+
+use crate::scenes::{EXPERIMENTS, distance, from_level, larger, paper, schemes_and_meshes, simulate, stepping};
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Settings, Solver, Start};
+
+/// Over the first steps of every experiment: the largest distance of a step to the same step solved to round-off.
+fn largest_distance(settings: Settings, dt: f64, steps: usize) -> f64 {
+    let exactly = Settings { tolerance: 1e-14, start: Start::Previous, ..Settings::default() };
+    let mut worst = 0.0;
+    for experiment in EXPERIMENTS {
+        for (scheme, mesh) in schemes_and_meshes(20) {
+            let problem = paper(mesh, experiment);
+            let mut simulation = simulate(&problem, Stepping { scheme, settings, ..stepping(dt) });
+            for _ in 0..steps {
+                let old = simulation.level();
+                let report = simulation.advance().unwrap();
+                assert!(report.increment <= settings.tolerance, "{report:?}");
+                let mut same =
+                    simulate(&from_level(&problem, &old), Stepping { scheme, settings: exactly, ..stepping(dt) });
+                same.advance().unwrap();
+                worst = larger(worst, distance(&problem.mesh, &simulation.level(), &same.level()));
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn an_accepted_step_is_within_the_tolerance_of_its_solution() {
+    for solver in Solver::ALL {
+        for (dt, tolerance) in [(2e-3, 1e-2), (2e-3, 1e-4), (2e-3, 1e-6), (2e-3, 1e-8), (2e-3, 1e-10), (1e-4, 1e-6)] {
+            let distance = largest_distance(Settings { solver, tolerance, ..Settings::default() }, dt, 200);
+            assert!(distance <= tolerance, "{solver:?} with dt = {dt}: {distance:e} for {tolerance:e}");
+        }
+    }
+}
+
+#[test]
+fn newtons_bound_holds_for_large_steps_and_rough_starts() {
+    for start in [Start::Previous, Start::Extrapolated] {
+        for (dt, tolerance) in [(0.02, 1e-2), (0.02, 1e-5), (0.5, 1e-2), (0.5, 1e-8)] {
+            let distance = largest_distance(Settings { tolerance, start, ..Settings::default() }, dt, 50);
+            assert!(distance <= tolerance, "{start:?} with dt = {dt}: {distance:e} for {tolerance:e}");
+        }
+    }
+}

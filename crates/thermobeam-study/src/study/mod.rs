@@ -8,6 +8,7 @@ pub mod calibration;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
+pub mod fixed_point;
 
 use crate::document::InputError;
 use crate::outcome::Outcome;
@@ -91,6 +92,7 @@ pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
         controls::CONTROLS => Ok(Box::new(controls::Controls::read(path)?)),
         energy::ENERGY => Ok(Box::new(energy::EnergyDecay::read(path)?)),
         calibration::CALIBRATION => Ok(Box::new(calibration::RuleCalibration::read(path)?)),
+        fixed_point::FIXED_POINT => Ok(Box::new(fixed_point::FixedPoint::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }
 }

@@ -241,7 +241,7 @@ impl FixedPoint {
     }
 
     pub(crate) fn read(&self, level: &mut Level) {
-        level.clone_from(&self.old);
+        level.copy_from(&self.old);
     }
 
     pub(crate) fn work(&self) -> Work {

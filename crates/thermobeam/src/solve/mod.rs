@@ -103,4 +103,15 @@ impl Level {
         let zeros = || vec![0.0; nodes];
         Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
     }
+    /// Takes over the values of a level with as many nodes.
+    ///
+    /// The derived `clone_from` would allocate five new vectors, in every step that is observed.
+    pub(crate) fn copy_from(&mut self, other: &Level) {
+        self.u.clone_from(&other.u);
+        self.v.clone_from(&other.v);
+        self.phi.clone_from(&other.phi);
+        self.w.clone_from(&other.w);
+        self.theta.clone_from(&other.theta);
+        self.contact_force = other.contact_force;
+    }
 }

@@ -446,7 +446,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// Copies the present level of case k; its last good one if it has failed.
     pub(crate) fn read(&self, k: usize, level: &mut Level) {
         if let Some(frozen) = &self.frozen[k] {
-            level.clone_from(frozen);
+            level.copy_from(frozen);
             return;
         }
         let velocity = if self.velocity[0].is_empty() { &self.ring[1] } else { &self.velocity[0] };

@@ -1,0 +1,79 @@
+//! The time loop allocates nothing: all memory is taken when the simulation is set up.
+
+use std::f64::consts::PI;
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::SCHEMES;
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::{Settings, Solver};
+
+/// The paper's beam thrown against its upper obstacle, heated or not.
+fn thrown(heated: bool) -> Problem {
+    let mesh = Mesh::uniform(20).unwrap();
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut beam = Beam::default();
+    for (i, &x) in mesh.nodes().iter().enumerate() {
+        initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
+        if heated {
+            initial.theta[i] = (PI * x).sin();
+        }
+    }
+    if !heated {
+        beam.a = 0.0;
+    }
+    Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial }
+}
+
+/// Allocations of 500 steps, observed and balanced, and how many of them ended in contact.
+fn allocations(mut simulation: Simulation) -> (u64, usize) {
+    let mut levels = [simulation.level(), simulation.level()];
+    let mut touching = 0;
+    let info = allocation_counter::measure(|| {
+        for _ in 0..500 {
+            if let Some(load) = simulation.load_mut() {
+                load[1][2] = 1.0;
+            }
+            simulation.advance().unwrap();
+            let [old, new] = &mut levels;
+            simulation.observe(new);
+            let energy = simulation.energy(new).total() + simulation.balance(old, new).residual;
+            assert!(energy.is_finite());
+            touching += usize::from(new.contact_force != 0.0);
+            levels.swap(0, 1);
+        }
+    });
+    (info.count_total, touching)
+}
+
+#[test]
+fn the_time_loop_allocates_nothing() {
+    for scheme in SCHEMES {
+        for solver in Solver::ALL {
+            for heated in [false, true] {
+                let settings = Settings { solver, ..Settings::default() };
+                let stepping = Stepping { scheme, settings, dt: 1e-3, loaded: false };
+                let simulation = Simulation::new(thrown(heated), stepping).unwrap();
+                let (count, touching) = allocations(simulation);
+                assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
+                assert!(touching > 10, "the obstacle is meant to be met: {touching} steps");
+            }
+        }
+    }
+}
+
+#[test]
+fn loads_cost_memory_only_when_first_asked_for() {
+    for solver in Solver::ALL {
+        let settings = Settings { solver, ..Settings::default() };
+        let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: true };
+        let mut simulation = Simulation::new(thrown(true), stepping).unwrap();
+        simulation.load_mut();
+        assert_eq!(allocations(simulation).0, 0, "{solver:?}");
+    }
+}
+
+#[test]
+fn the_counter_counts() {
+    let info = allocation_counter::measure(|| drop(std::hint::black_box(vec![0u8; 100])));
+    assert_eq!(info.count_total, 1);
+}

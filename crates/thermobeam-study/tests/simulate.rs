@@ -1,0 +1,140 @@
+//! Laws of running a scene.
+
+use thermobeam::error::StepFailure;
+use thermobeam::solve::Solver;
+use thermobeam_study::scene::Scene;
+use thermobeam_study::simulate::{MOST_ROWS, Recording, Run, Simulator, figures};
+
+/// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
+fn thrown(dt: &str, more: &str) -> Scene {
+    let text = format!(
+        "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
+         [mesh]\nelements = 20\n[time]\nt_end = 1\ndt = {dt}\n{more}"
+    );
+    Scene::parse(&text, "thrown.toml").unwrap()
+}
+
+fn run(scene: &Scene, recording: Recording) -> Run {
+    Simulator::new(scene).unwrap().run(recording, &mut |_| ())
+}
+
+#[test]
+fn recording_changes_nothing_but_the_record() {
+    let scene = thrown("1e-3", "");
+    let (plain, recorded) = (run(&scene, Recording::Summary), run(&scene, Recording::History));
+    assert_eq!(plain.record, None);
+    let record = recorded.record.clone().unwrap();
+    assert_eq!(Run { record: None, wall: plain.wall, ..recorded.clone() }, plain);
+
+    assert_eq!((record.rows.len(), record.steps_per_row), (1001, 1));
+    assert_eq!([record.rows[0].sample, record.rows[1000].sample], [plain.first, plain.last]);
+    let tips = record.rows.iter().map(|row| row.sample.u_tip);
+    assert_eq!(tips.clone().fold(f64::INFINITY, f64::min), plain.extremes.u_tip_min);
+    assert_eq!(tips.fold(f64::NEG_INFINITY, f64::max), plain.extremes.u_tip_max);
+    let worst = record.rows.iter().map(|row| row.dissipation.residual.abs()).fold(0.0, f64::max);
+    assert_eq!(worst, plain.energy.largest_balance_residual);
+    assert_eq!(record.rows.iter().filter(|row| row.sample.contact_force != 0.0).count(), plain.contact_steps);
+}
+
+#[test]
+fn the_steps_are_told_one_by_one() {
+    let mut told = Vec::new();
+    Simulator::new(&thrown("0.1", "")).unwrap().run(Recording::Summary, &mut |step| told.push(step));
+    assert_eq!(told, (1..=10).collect::<Vec<_>>());
+}
+
+#[test]
+fn both_schemes_keep_their_balance_and_lose_energy() {
+    for scheme in ["euler-crank-nicolson", "midpoint"] {
+        for solver in Solver::ALL {
+            let scene =
+                thrown("1e-3", &format!("scheme = \"{scheme}\"\nsolver = \"{}\"\ntolerance = 1e-13", solver.name()));
+            let run = run(&scene, Recording::Summary);
+            assert_eq!((run.steps, &run.failure), (1000, &None), "{scheme} {solver:?}");
+            assert!(run.energy.largest_increase < 0.0, "{scheme} {solver:?}: {}", run.energy.largest_increase);
+            assert!(run.energy.largest_balance_residual < 2e-12, "{scheme} {solver:?}: {:?}", run.energy);
+            assert_eq!([run.energy.initial, run.energy.last], [run.first.energy, run.last.energy]);
+            assert!(run.contact_steps > 100);
+        }
+    }
+}
+
+#[test]
+fn a_long_history_is_thinned_and_loses_no_energy() {
+    let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 2\n[time]\nt_end = 500.001\ndt = 1e-3";
+    let scene = Scene::parse(text, "long.toml").unwrap();
+    let run = run(&scene, Recording::History);
+    let record = run.record.unwrap();
+    assert_eq!((scene.steps, record.steps_per_row), (500_001, 3));
+    assert_eq!(record.rows.len(), 1 + 500_001 / 3);
+    assert!(record.rows.len() <= MOST_ROWS + 1);
+    assert_eq!(record.rows.last().unwrap().sample, run.last);
+    assert_eq!(record.frames.times.last(), Some(&run.last.t));
+    assert!(record.frames.times.len() <= 442);
+    let lost: f64 = record.rows.iter().map(|row| row.dissipation.change).sum();
+    assert!((lost - (run.energy.last - run.energy.initial)).abs() < 1e-12);
+}
+
+#[test]
+fn what_could_be_done_before_a_failure_is_kept() {
+    let scene = thrown("1e-2", "solver = \"fixed-point\"");
+    let run = run(&scene, Recording::History);
+    let failure = run.failure.as_ref().expect("the contact force lags too far behind");
+    assert!(matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0), "{failure}");
+    assert!(run.steps > 0 && run.steps + 1 == failure.step);
+    assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
+    let record = run.record.as_ref().unwrap();
+    assert_eq!(record.rows.len(), run.steps + 1);
+    assert_eq!(record.rows.last().unwrap().sample, run.last);
+    assert_eq!(record.csv().lines().count(), run.steps + 2);
+    assert_eq!(figures(&scene, &run).len(), 5);
+}
+
+#[test]
+fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
+    let scene = thrown("0.1", "solver = \"fixed-point\"\nmax_iterations = 1");
+    let run = run(&scene, Recording::History);
+    assert_eq!((run.steps, run.iterations.total), (0, 0));
+    assert_eq!(run.first, run.last);
+    assert!(run.energy.largest_increase.is_nan());
+    assert_eq!(run.record.as_ref().map(|record| (record.rows.len(), record.frames.times.len())), Some((1, 1)));
+    assert_eq!(figures(&scene, &run).len(), 5);
+}
+
+#[test]
+fn the_temperature_is_the_physical_one_on_any_mesh() {
+    for mesh in ["elements = 7", "elements = 8", "nodes = [0, 0.3, 1]"] {
+        let text = format!(
+            "[beam]\na = 0\ntheta_a = 20\n[initial]\ntheta = \"20*(1-x)\"\n[mesh]\n{mesh}\n[time]\nt_end = 1\ndt = 0.1"
+        );
+        let run = run(&Scene::parse(&text, "steady.toml").unwrap(), Recording::Summary);
+        assert!((run.first.theta_mid - 10.0).abs() < 1e-14 && (run.last.theta_mid - 10.0).abs() < 1e-14, "{mesh}");
+        assert!(!run.is_heated || run.work.passes > 0);
+    }
+}
+
+#[test]
+fn boundary_values_that_the_scene_accepts_do_not_trouble_the_solver() {
+    let scene = "[initial]\ntheta = \"sin(1000*pi*x)\"\nu = \"1e6*sin(x)\"\n[time]\nt_end = 0.01\ndt = 0.01";
+    let scene = Scene::parse(scene, "wild.toml").unwrap();
+    assert!(Simulator::new(&scene).is_ok());
+}
+
+#[test]
+fn every_bit_of_the_history_can_be_read_back() {
+    let run = run(&thrown("1e-2", ""), Recording::History);
+    let record = run.record.unwrap();
+    let csv = record.csv();
+    let mut lines = csv.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').collect();
+    assert_eq!(names[..8], ["t", "u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "contact_force", "energy"]);
+    assert_eq!(names[8..], ["energy_change", "viscous", "thermal", "inertial", "contact_gap", "residual"]);
+    for (line, row) in lines.zip(&record.rows) {
+        let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
+        let (s, d) = (row.sample, row.dissipation);
+        assert_eq!(values[..4], [s.t, s.u_tip, s.phi_tip, s.u_t_tip]);
+        assert_eq!(values[4..8], [s.phi_t_tip, s.theta_mid, s.contact_force, s.energy]);
+        assert_eq!(values[8..], [d.change, d.viscous, d.thermal, d.inertial, d.contact_gap, d.residual]);
+        assert!(values.iter().all(|value| value.is_finite()));
+    }
+}

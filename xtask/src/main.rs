@@ -1,3 +1,36 @@
-//! `cargo xtask`: the commands of the project.
+//! `cargo xtask <command>`: the commands of the project.
+//!
+//! This file only dispatches. A command is a file of its own, with its `Arguments` and a function `run` from them to an
+//! [`exit::Outcome`].
 
-fn main() {}
+mod equilibria;
+mod exit;
+mod output;
+mod progress;
+mod run;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Simulate the beam between its obstacles, and verify the scheme that does.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", after_help = exit::HELP)]
+struct Xtask {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Equilibria(equilibria::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Xtask::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Equilibria(arguments) => equilibria::run(&arguments),
+    };
+    exit::code(outcome)
+}

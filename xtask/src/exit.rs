@@ -1,0 +1,51 @@
+//! How a command ends: the exit status is part of the interface.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::ExitCode;
+
+use crate::output;
+
+/// For the end of `--help`.
+pub(crate) const HELP: &str = "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used.";
+
+/// A command that had usable input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// Exit status 0.
+    Pass,
+    /// Exit status 1; what failed has been said.
+    Fail,
+}
+
+/// Input that cannot be read or makes no sense, or a place that cannot be written to: exit status 2.
+#[derive(Debug)]
+pub(crate) struct Unusable(String);
+
+impl Unusable {
+    /// An error that does not name the file it is about.
+    pub(crate) fn file(path: &Path, error: &dyn Error) -> Self {
+        Self(format!("{}: {error}", path.display()))
+    }
+}
+
+impl<E: Error> From<E> for Unusable {
+    fn from(error: E) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// What a command returns.
+pub(crate) type Outcome = Result<Verdict, Unusable>;
+
+/// Says what is unusable, and turns the outcome into the exit status.
+pub(crate) fn code(outcome: Outcome) -> ExitCode {
+    match outcome {
+        Ok(Verdict::Pass) => ExitCode::SUCCESS,
+        Ok(Verdict::Fail) => ExitCode::from(1),
+        Err(Unusable(message)) => {
+            output::complain(&message);
+            ExitCode::from(2)
+        }
+    }
+}

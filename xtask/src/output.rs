@@ -1,0 +1,36 @@
+//! Standard output and error, which may be closed at any time.
+
+use std::io::{self, ErrorKind, Write};
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+/// How results are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    #[default]
+    Text,
+    /// For programs: one JSON object
+    Json,
+}
+
+/// Prints to standard output. A reader who has seen enough, such as `head`, is no error.
+pub(crate) fn print(text: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        outcome => outcome,
+    }
+}
+
+/// Prints one JSON object; a number that is not finite becomes `null`, for JSON has none.
+pub(crate) fn print_json(object: &impl Serialize) -> io::Result<()> {
+    print(&(serde_json::to_string_pretty(object)? + "\n"))
+}
+
+/// Prints an error to standard error.
+pub(crate) fn complain(message: &str) {
+    // Where standard error is closed there is nobody left to tell.
+    let _ = writeln!(io::stderr(), "error: {message}");
+}

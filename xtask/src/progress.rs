@@ -1,0 +1,20 @@
+//! The progress bar, on a terminal only.
+
+use std::fmt::Write;
+
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+
+const TEMPLATE: &str = "{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left";
+
+/// A bar on standard error for so many steps; hidden with `quiet`, or where standard error is not a terminal.
+pub(crate) fn bar(name: &str, steps: usize, quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let rate = |state: &ProgressState, text: &mut dyn Write| {
+        // Writing to the bar's line cannot fail.
+        let _ = write!(text, "{:.0} steps/s", state.per_sec());
+    };
+    let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(steps as u64).with_style(style.with_key("rate", rate)).with_prefix(name.to_owned())
+}

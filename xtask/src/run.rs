@@ -1,0 +1,72 @@
+//! `run SCENE`: simulates one scene.
+
+mod json;
+mod summary;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use thermobeam_study::atomic;
+use thermobeam_study::scene::Scene;
+use thermobeam_study::simulate::{Recording, Run, Simulator, figures};
+
+use crate::exit::{Outcome, Unusable, Verdict};
+use crate::output::{self, Format};
+use crate::progress;
+
+/// Simulate one scene
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The scene file, such as studies/scenes/paper-1-beta-0.toml
+    scene: PathBuf,
+    /// How the result is printed
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Show no progress bar
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let scene = Scene::read(&arguments.scene)?;
+    let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let recording = match &arguments.out {
+        Some(folder) => {
+            atomic::prepare_folder(folder)?;
+            Recording::History
+        }
+        None => Recording::Summary,
+    };
+    let bar = progress::bar(&scene.name, scene.steps, arguments.quiet);
+    let run = simulator.run(recording, &mut |step| bar.set_position(step as u64));
+    bar.finish_and_clear();
+    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
+    match arguments.format {
+        Format::Text => output::print(&summary::summary(&scene, &run, &written))?,
+        Format::Json => output::print_json(&json::object(&scene, &run))?,
+    }
+    Ok(match &run.failure {
+        None => Verdict::Pass,
+        Some(failure) => {
+            output::complain(&format!("{}: {failure}", arguments.scene.display()));
+            Verdict::Fail
+        }
+    })
+}
+
+/// Writes the history and the pictures; returns their paths.
+fn write_files(folder: &Path, scene: &Scene, run: &Run) -> io::Result<Vec<PathBuf>> {
+    let history = run.record.iter().map(|record| ("history.csv", record.csv()));
+    let mut written = Vec::new();
+    for (name, content) in history.chain(figures(scene, run)) {
+        let path = folder.join(name);
+        atomic::write(&path, content)?;
+        written.push(path);
+    }
+    Ok(written)
+}

@@ -103,6 +103,7 @@ impl Level {
         let zeros = || vec![0.0; nodes];
         Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
     }
+
     /// Takes over the values of a level with as many nodes.
     ///
     /// The derived `clone_from` would allocate five new vectors, in every step that is observed.

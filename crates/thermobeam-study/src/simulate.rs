@@ -14,7 +14,7 @@
 //! let scene = Scene::parse(text, "swing.toml")?;
 //! let run = Simulator::new(&scene)?.run(Recording::Summary, &mut |_| ());
 //! assert_eq!((run.steps, run.failure), (100, None));
-//! assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-14);
+//! assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

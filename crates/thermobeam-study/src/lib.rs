@@ -2,21 +2,19 @@
 
 pub mod atomic;
 pub mod calibration;
+pub mod design;
 pub mod document;
+pub mod exact;
 pub mod expression;
 pub mod fit;
-pub mod plots;
-pub mod scene;
-pub mod simulate;
-pub mod study_file;
-pub mod verdict;
-
-pub mod design;
-pub mod exact;
 mod nearest;
 pub mod outcome;
+pub mod plots;
 mod quadrature;
 mod random;
+pub mod scene;
 mod shared_tables;
 pub mod simulate;
 pub mod study;
+pub mod study_file;
+pub mod verdict;

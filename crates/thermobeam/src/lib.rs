@@ -6,6 +6,7 @@ mod bracket;
 pub mod contact;
 pub mod contraction;
 pub mod energy;
+pub mod ensemble;
 pub mod equilibrium;
 pub mod error;
 pub mod kirchhoff;

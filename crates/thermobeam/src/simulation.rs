@@ -88,8 +88,7 @@ impl Simulation {
     /// [`SetupError`] for coefficients out of range, initial data that are not finite, of the wrong length, or that
     /// break a boundary condition, and for a dt, tolerance or iteration limit that is not positive.
     pub fn new(mut problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
-        check_settings(&problem, &stepping)?;
-        let level = initial_level(&mut problem)?;
+        let level = prepare(&mut problem, &stepping)?;
         let lengths: Vec<f64> = problem.mesh.lengths().collect();
         let case = Case { beam: problem.beam, obstacles: problem.obstacles, dt: stepping.dt, lengths: lengths.clone() };
         let stepper = choose(case, &stepping, &level)?;
@@ -192,6 +191,12 @@ impl Simulation {
     pub fn is_heated(&self) -> bool {
         !matches!(self.stepper, Stepper::Cold(_))
     }
+}
+
+/// Checks a problem and its stepping, sets the boundary values exactly, and gives the level at t = 0.
+pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<Level, SetupError> {
+    check_settings(problem, stepping)?;
+    initial_level(problem)
 }
 
 fn choose(case: Case, stepping: &Stepping, level: &Level) -> Result<Stepper, SetupError> {

@@ -151,7 +151,7 @@ impl Dense {
         let sides: &[Side] =
             if self.obstacles.is_some() { &[Side::Between, Side::Above, Side::Below] } else { &[Side::Between] };
         let step = Step { dense: self, scheme, dt, old, load };
-        sides.iter().find_map(|&side| step.solve(side).filter(|new| self.side(new.u[self.n - 1]) == side))
+        sides.iter().find_map(|&side| step.solve(side))
     }
 
     fn side(&self, tip: f64) -> Side {
@@ -185,17 +185,28 @@ struct Step<'a> {
 
 impl Step<'_> {
     fn solve(&self, side: Side) -> Option<State> {
+        self.starts(side).into_iter().find_map(|tip| self.solve_from(tip, side))
+    }
+
+    /// Tips on the side to start from: the discrete gradient is so bent that Newton's method needs a start near the root,
+    /// or on the one side of it from which it cannot overshoot.
+    fn starts(&self, side: Side) -> Vec<f64> {
+        let old = self.old.u[self.dense.n - 1];
+        let Some(o) = self.dense.obstacles else { return vec![old] };
+        let depths = [0.1 * o.epsilon, o.epsilon, 1e-3, 1e-2, 0.1, 1.0];
+        match side {
+            Side::Between if self.dense.side(old) == side => vec![old],
+            Side::Between if old > o.g2 => vec![o.g2, 0.5 * (o.g1 + o.g2), o.g1],
+            Side::Between => vec![o.g1, 0.5 * (o.g1 + o.g2), o.g2],
+            Side::Above => depths.map(|depth| o.g2 + depth).to_vec(),
+            Side::Below => depths.map(|depth| o.g1 - depth).to_vec(),
+        }
+    }
+
+    fn solve_from(&self, tip: f64, side: Side) -> Option<State> {
         let n = self.dense.n;
         let mut y = self.old.stack();
-        // A start on the side, away from u0(1).
-        if let Some(o) = self.dense.obstacles {
-            y[n - 1] = match side {
-                Side::Between if self.dense.side(y[n - 1]) == side => y[n - 1],
-                Side::Between => 0.5 * (o.g1 + o.g2),
-                Side::Above => o.g2 + 0.1 * o.epsilon,
-                Side::Below => o.g1 - 0.1 * o.epsilon,
-            };
-        }
+        y[n - 1] = tip;
         let mut last = f64::INFINITY;
         for _ in 0..100 {
             let (residual, jacobian) = self.system(&y, side);
@@ -204,7 +215,7 @@ impl Step<'_> {
             let size = correction.amax() / y.amax();
             // To the end: until the corrections are round-off and stop shrinking.
             if size <= 1e-12 && !(size < 0.5 * last) {
-                return Some(State::unstack(&y, n));
+                return Some(State::unstack(&y, n)).filter(|new| self.dense.side(new.u[n - 1]) == side);
             }
             last = size;
         }

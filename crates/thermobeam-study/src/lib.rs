@@ -1,11 +1,13 @@
 //! Convergence studies for the `thermobeam` solver.
 
+pub mod atomic;
 pub mod calibration;
 pub mod document;
 pub mod expression;
 pub mod fit;
 pub mod plots;
 pub mod scene;
+pub mod shelf;
 pub mod study_file;
 pub mod verdict;
 

@@ -2,10 +2,12 @@
 
 pub mod atomic;
 pub mod calibration;
+pub mod contract;
 pub mod document;
 pub mod expression;
 pub mod fit;
 pub mod plots;
+pub mod runner;
 pub mod scene;
 pub mod shelf;
 pub mod study_file;

@@ -7,6 +7,7 @@ pub mod document;
 pub mod expression;
 pub mod fit;
 pub mod plots;
+pub mod record;
 pub mod runner;
 pub mod scene;
 pub mod shelf;

@@ -1,6 +1,7 @@
 //! Convergence studies for the `thermobeam` solver.
 
 pub mod atomic;
+pub mod baseline;
 pub mod calibration;
 pub mod contract;
 pub mod document;

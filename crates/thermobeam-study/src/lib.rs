@@ -3,12 +3,15 @@
 pub mod atomic;
 pub mod baseline;
 pub mod calibration;
+pub mod columns;
 pub mod contract;
 pub mod document;
 pub mod expression;
 pub mod fit;
+pub mod junit;
 pub mod plots;
 pub mod record;
+pub mod report;
 pub mod runner;
 pub mod scene;
 pub mod shelf;

@@ -10,6 +10,7 @@ pub mod expression;
 pub mod fit;
 pub mod junit;
 pub mod plots;
+pub mod provenance;
 pub mod record;
 pub mod report;
 pub mod runner;
@@ -17,6 +18,7 @@ pub mod scene;
 pub mod shelf;
 pub mod study_file;
 pub mod verdict;
+pub mod verification;
 
 mod nearest;
 pub mod outcome;

@@ -41,14 +41,14 @@ fn study(id: &str, kind: &str) -> String {
 fn an_unknown_kind_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", &study("a", "nonsense"))]);
     for arguments in [&["verify"][..], &["verify", "--bless"], &["study", "studies/a.toml"], &["list"]] {
-        unusable(&root, arguments, "a.toml:5:8: study.kind: found \"nonsense\"; allowed is ");
+        unusable(&root, arguments, "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; allowed is ");
     }
 }
 
 #[test]
 fn a_study_file_that_is_none_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", "[study]\nid = \"A b\"\n")]);
-    unusable(&root, &["verify"], "a.toml:2:6: study.id: found \"A b\"");
+    unusable(&root, &["verify"], "a.toml:2:6: study.id: found the text \"A b\"");
     unusable(&root, &["study", "missing.toml"], "missing.toml: cannot be read");
 }
 

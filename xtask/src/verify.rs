@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
 
-use thermobeam_study::report::{key_numbers, sentence};
+use thermobeam_study::report::{can_be_blessed, key_numbers, sentence};
 use thermobeam_study::runner::Finished;
 use thermobeam_study::study;
 use thermobeam_study::study_file::Tier;
@@ -79,7 +79,7 @@ fn text(found: &Verification, request: &Request, quiet: bool) -> String {
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
         Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
-        None if !found.changes.is_empty() => {
+        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
             text += &format!("if that is meant: {} --bless\n", request.scope.command());
         }
         None => {}

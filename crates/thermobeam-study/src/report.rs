@@ -18,7 +18,7 @@ use crate::verdict::Verdict;
 use markdown::{cell, text};
 
 pub use tables::tables;
-pub use words::{key_numbers, sentence};
+pub use words::{can_be_blessed, key_numbers, sentence};
 
 /// What is reported on.
 #[derive(Debug, Clone, Copy)]
@@ -94,11 +94,13 @@ impl Findings<'_> {
         }
         let row = |change: &Change| vec![cell(&change.study), cell(&change.name), cell(&change.movement.to_string())];
         let rows = self.changes.iter().map(row).collect();
-        format!(
-            "\n## Moved from the baseline\n\n{}\nIf it is meant: `{} --bless`.\n",
-            markdown::table(&["study", "quantity", "change"], rows),
-            self.command
-        )
+        let table = markdown::table(&["study", "quantity", "change"], rows);
+        let bless = if can_be_blessed(self.finished) {
+            format!("\nIf it is meant: `{} --bless`.\n", self.command)
+        } else {
+            String::new()
+        };
+        format!("\n## Moved from the baseline\n\n{table}{bless}")
     }
 
     /// Errors in long form, one a line.

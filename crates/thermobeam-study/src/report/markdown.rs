@@ -17,11 +17,13 @@ fn escape(raw: &str, in_table: bool) -> String {
     let has_code = raw.matches('`').count().is_multiple_of(2);
     let mut in_code = false;
     let mut escaped = String::with_capacity(raw.len());
-    for c in raw.chars() {
+    let mut rest = raw.chars().peekable();
+    while let Some(c) = rest.next() {
         let c = if c.is_control() { ' ' } else { c };
+        let opens_a_tag = c == '<' && rest.peek().is_some_and(|next| next.is_alphabetic() || "/!?".contains(*next));
         if c == '`' && has_code {
             in_code = !in_code;
-        } else if (c == '|' && in_table) || (!in_code && matches!(c, '\\' | '<' | '*' | '`')) {
+        } else if (c == '|' && in_table) || (!in_code && (opens_a_tag || matches!(c, '\\' | '*' | '`'))) {
             escaped.push('\\');
         }
         escaped.push(c);
@@ -63,7 +65,8 @@ mod tests {
     fn text_stays_what_it_says() {
         for (raw, written) in [
             ("a | b", "a \\| b"),
-            ("`a|b` < c", "`a\\|b` \\< c"),
+            ("`a|b` < c", "`a\\|b` < c"),
+            ("1<2, a<b, </i>", "1<2, a\\<b, \\</i>"),
             ("3*t and 2*t", "3\\*t and 2\\*t"),
             ("`3*t`", "`3*t`"),
             ("one ` only *", "one \\` only \\*"),

@@ -42,13 +42,19 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     }
 }
 
+/// Whether a blessing is worth a hint: it is refused where a study does not pass.
+pub fn can_be_blessed(finished: &[Finished]) -> bool {
+    finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
+}
+
 /// The numbers to read first: the rate that decides against its order, and how many of all parts pass.
 pub fn key_numbers(outcome: &Outcome) -> String {
     let mut parts = Vec::new();
     // The last of the worst would do as well; the first is the one that the study names first.
     let worst = outcome.rates.iter().rev().max_by_key(|(_, rate)| rate.verdict);
     if let Some((norm, rate)) = worst {
-        parts.push(format!("{norm} {}, order {}", rate_text(rate.fitted), rate.order));
+        let fitted = rate.fitted.map_or_else(|| "has no rate".to_owned(), |fitted| rate_text(Some(fitted)));
+        parts.push(format!("{norm} {fitted}, order {}", rate.order));
     }
     let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
     parts.extend(passed(rates, "rates"));

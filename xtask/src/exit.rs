@@ -49,3 +49,11 @@ pub(crate) fn code(outcome: Outcome) -> ExitCode {
         }
     }
 }
+
+/// The same for a command that knows its exit status: whatever error it returns is input that cannot be used.
+pub(crate) fn status(result: Result<ExitCode, Box<dyn Error>>) -> ExitCode {
+    result.unwrap_or_else(|error| {
+        output::complain(&error.to_string());
+        ExitCode::from(2)
+    })
+}

@@ -1,13 +1,20 @@
 //! `cargo xtask <command>`: the commands of the project.
 //!
-//! This file only dispatches. A command is a file of its own, with its `Arguments` and a function `run` from them to an
-//! [`exit::Outcome`].
+//! This file only dispatches. A command is a file of its own, with its `Arguments` and a function from them to the exit
+//! status.
 
 mod equilibria;
 mod exit;
+mod github;
+mod list;
 mod output;
 mod progress;
 mod run;
+mod screen;
+mod selection;
+mod study;
+mod verify;
+mod workspace;
 
 use std::process::ExitCode;
 
@@ -15,7 +22,7 @@ use clap::{Parser, Subcommand};
 
 /// Simulate the beam between its obstacles, and verify the scheme that does.
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask", bin_name = "cargo xtask", after_help = exit::HELP)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, after_help = exit::HELP)]
 struct Xtask {
     #[command(subcommand)]
     command: Command,
@@ -23,14 +30,19 @@ struct Xtask {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Verify(verify::Arguments),
+    Study(study::Arguments),
+    List(list::Arguments),
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
 }
 
 fn main() -> ExitCode {
-    let outcome = match Xtask::parse().command {
-        Command::Run(arguments) => run::run(&arguments),
-        Command::Equilibria(arguments) => equilibria::run(&arguments),
-    };
-    exit::code(outcome)
+    match Xtask::parse().command {
+        Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
+        Command::Study(arguments) => exit::status(study::study(&arguments)),
+        Command::List(arguments) => exit::status(list::list(&arguments)),
+        Command::Run(arguments) => exit::code(run::run(&arguments)),
+        Command::Equilibria(arguments) => exit::code(equilibria::run(&arguments)),
+    }
 }

@@ -1,25 +1,28 @@
-//! Files that are there whole or not at all.
+//! Files that are there as a whole or not at all.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::process;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes `bytes` to `path`: to a new file beside it, which then takes its name.
+/// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
-/// A reader sees the old content or the new one, and a run that is stopped half-way leaves no half-written file under
-/// the name. The folder must exist.
+/// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
 ///
 /// # Errors
-/// That of the operating system, `path` named in front of it; nothing stays behind.
+/// What the file system says, the file named in front; the old file is then untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
     let beside = name_beside(path)?;
-    let outcome = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    outcome.map_err(|error| {
-        // The first error is the one to tell; where even the file beside could not be made there is nothing to remove.
+    let written = write_through(&beside, bytes.as_ref()).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        // The first error is the one to tell; that the rest cannot be cleared away follows from it.
         let _ = fs::remove_file(&beside);
-        naming(path, &error)
-    })
+    }
+    written
 }
 
 /// Makes the folder, with those above it, and proves that files can be written to it.
@@ -27,82 +30,61 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 /// # Errors
 /// That of the operating system, `folder` named in front of it.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
-    fs::create_dir_all(folder).map_err(|error| naming(folder, &error))?;
+    let naming = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", folder.display()));
+    fs::create_dir_all(folder).map_err(naming)?;
     let probe = name_beside(&folder.join("probe"))?;
-    fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(|error| naming(folder, &error))
+    fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
 }
 
-/// A name in the same folder that no other process or thread uses.
+/// Writes a file and waits until it is on the disk.
+pub(crate) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create_new(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// A name in the same folder that no other thread or process uses.
 fn name_beside(path: &Path) -> io::Result<PathBuf> {
-    static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let Some(name) = path.file_name() else {
-        return Err(naming(path, &io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file")));
-    };
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "a folder, not a file"))?;
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    let name = format!(".{}.{}-{count}.tmp", name.to_string_lossy(), std::process::id());
-    Ok(path.with_file_name(name))
-}
-
-fn naming(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+    let mut beside = std::ffi::OsString::from(".");
+    beside.push(name);
+    beside.push(format!(".{}-{count}", process::id()));
+    Ok(path.with_file_name(beside))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A folder of this test alone, removed at its end.
-    struct Folder(PathBuf);
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            let path = std::env::temp_dir().join(format!("thermobeam-atomic-{name}-{}", std::process::id()));
-            fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        fn names(&self) -> Vec<String> {
-            let entries = fs::read_dir(&self.0).unwrap();
-            entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
-    }
-
     #[test]
-    fn the_new_content_replaces_the_old_and_nothing_else_is_left() {
-        let folder = Folder::new("replace");
-        let path = folder.0.join("a.txt");
-        write(&path, "old").unwrap();
+    fn the_new_bytes_replace_the_old_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/er/file.txt");
+        write(&path, "old, and longer").unwrap();
         write(&path, "new").unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
-        assert_eq!(folder.names(), ["a.txt"]);
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
     }
 
     #[test]
-    fn a_failure_names_the_path_and_leaves_nothing() {
-        let folder = Folder::new("failure");
-        // A folder of that name is in the way of the last step.
-        let path = folder.0.join("taken");
-        fs::create_dir_all(path.join("inside")).unwrap();
-        let message = write(&path, "x").unwrap_err().to_string();
-        assert!(message.contains("taken"), "{message}");
-        assert_eq!(folder.names(), ["taken"]);
-        assert!(write(Path::new("/"), "x").is_err());
+    fn a_failed_write_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let taken = folder.path().join("taken");
+        fs::create_dir_all(taken.join("full")).unwrap();
+        assert!(write(&taken, "bytes").is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]
     fn a_folder_is_made_with_those_above_it_and_stays_empty() {
-        let folder = Folder::new("folder");
-        let deep = folder.0.join("a/b");
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("a/b");
         prepare_folder(&deep).unwrap();
         assert_eq!(fs::read_dir(&deep).unwrap().count(), 0);
-        fs::write(folder.0.join("file"), "").unwrap();
-        let message = prepare_folder(&folder.0.join("file")).unwrap_err().to_string();
+        fs::write(folder.path().join("file"), "").unwrap();
+        let message = prepare_folder(&folder.path().join("file")).unwrap_err().to_string();
         assert!(message.contains("file"), "{message}");
     }
 }

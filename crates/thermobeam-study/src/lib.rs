@@ -1,20 +1,30 @@
 //! Convergence studies for the `thermobeam` solver.
 
 pub mod atomic;
+pub mod baseline;
 pub mod calibration;
+pub mod columns;
+pub mod contract;
 pub mod design;
 pub mod document;
 pub mod exact;
 pub mod expression;
 pub mod fit;
+pub mod junit;
 mod nearest;
 pub mod outcome;
 pub mod plots;
+pub mod provenance;
 mod quadrature;
 mod random;
+pub mod record;
+pub mod report;
+pub mod runner;
 pub mod scene;
 mod shared_tables;
+pub mod shelf;
 pub mod simulate;
 pub mod study;
 pub mod study_file;
 pub mod verdict;
+pub mod verification;

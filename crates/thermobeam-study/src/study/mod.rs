@@ -10,10 +10,10 @@ pub mod convergence;
 pub mod energy;
 pub mod fixed_point;
 
-use crate::document::InputError;
+use crate::document::{self, InputError, Section};
 use crate::outcome::Outcome;
 use crate::study_file::{CONVERGENCE, StudyHeader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// One computation of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,18 +81,60 @@ pub trait Study: Send + Sync {
     fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome;
 }
 
+/// Reader of the study files of one kind.
+type Reader = fn(&Path) -> Result<Box<dyn Study>, InputError>;
+
+/// The kinds of study, by the name that `[study] kind` has for them.
+const KINDS: &[(&str, Reader)] = &[
+    (CONVERGENCE, |path| Ok(Box::new(convergence::Convergence::read(path)?))),
+    (controls::CONTROLS, |path| Ok(Box::new(controls::Controls::read(path)?))),
+    (energy::ENERGY, |path| Ok(Box::new(energy::EnergyDecay::read(path)?))),
+    (fixed_point::FIXED_POINT, |path| Ok(Box::new(fixed_point::FixedPoint::read(path)?))),
+    (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
+];
+
 /// Reads a study file of any kind.
 ///
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
-    let header = StudyHeader::read(path)?;
-    match header.kind.as_str() {
-        CONVERGENCE => Ok(Box::new(convergence::Convergence::read(path)?)),
-        controls::CONTROLS => Ok(Box::new(controls::Controls::read(path)?)),
-        energy::ENERGY => Ok(Box::new(energy::EnergyDecay::read(path)?)),
-        calibration::CALIBRATION => Ok(Box::new(calibration::RuleCalibration::read(path)?)),
-        fixed_point::FIXED_POINT => Ok(Box::new(fixed_point::FixedPoint::read(path)?)),
-        _ => unreachable!("kinds are registered below"),
+    let kind = StudyHeader::read(path)?.kind;
+    reader(path, &kind)?(path)
+}
+
+/// Reads the headers of study files, each of any kind.
+///
+/// # Errors
+/// [`InputError`]; also where the kind is not known and where two studies have one id.
+pub fn headers(paths: &[PathBuf]) -> Result<Vec<StudyHeader>, InputError> {
+    let mut headers: Vec<StudyHeader> = Vec::new();
+    for path in paths {
+        let header = StudyHeader::read(path)?;
+        reader(path, &header.kind)?;
+        if let Some(i) = headers.iter().position(|earlier| earlier.id == header.id) {
+            let found = format!("\"{}\", which {} has too", header.id, paths[i].display());
+            return Err(refuse(path, "id", &found, "an id for each study of its own"));
+        }
+        headers.push(header);
     }
+    Ok(headers)
+}
+
+/// The reader for a kind.
+fn reader(path: &Path, kind: &str) -> Result<Reader, InputError> {
+    let known = KINDS.iter().find(|(name, _)| *name == kind);
+    known.map(|(_, reader)| *reader).ok_or_else(|| {
+        let names: Vec<String> = KINDS.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        refuse(path, "kind", &format!("\"{kind}\""), &names.join(", "))
+    })
+}
+
+/// The complaint about a key of `[study]`, with its line.
+fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
+    let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
+        let study = root.require("study", "a table")?.section()?;
+        Ok(study.refuse(key, found, allowed))
+    };
+    let text = document::read_text(path);
+    text.and_then(|text| document::parse(&text, &path.display().to_string(), complain)).unwrap_or_else(|error| error)
 }

@@ -1,0 +1,72 @@
+//! The tables of one study, as plain text: the same ones for report and terminal.
+
+use crate::outcome::{Check, LevelErrors, Outcome, Table};
+use crate::record::{committed_rate, error_text, rate_text};
+use crate::runner::{FailedCase, Finished};
+use crate::verdict::RateVerdict;
+
+/// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
+pub fn tables(Finished { outcome, failed_cases, .. }: &Finished) -> Vec<Table> {
+    let common = [rates(outcome), checks(&outcome.checks), errors(&outcome.levels)];
+    let own = outcome.tables.iter().cloned();
+    let all = common.into_iter().chain(own).chain([failures(failed_cases)]);
+    all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
+}
+
+fn table<const N: usize>(title: &str, head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> Table {
+    Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows: rows.map(Vec::from).collect() }
+}
+
+fn rates(outcome: &Outcome) -> Table {
+    let decimals = |rate: f64| format!("{:.3}", committed_rate(rate));
+    let row = |(norm, rate): &(String, RateVerdict)| {
+        let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| decimals(*rate)).collect();
+        let interval = rate.interval.map(|[low, high]| format!("{} to {}", decimals(low), decimals(high)));
+        [
+            norm.clone(),
+            rate.order.to_string(),
+            rate_text(rate.fitted),
+            interval.unwrap_or_else(|| "-".to_owned()),
+            rate_text(rate.extrapolated),
+            pairwise.join(", "),
+            rate.verdict.name().to_owned(),
+            rate.reason.clone(),
+        ]
+    };
+    let head = ["norm", "order", "fitted", "95 % interval", "extrapolated", "pairwise", "verdict", "reason"];
+    table("Rates", head, outcome.rates.iter().map(row))
+}
+
+fn checks(checks: &[Check]) -> Table {
+    let row = |check: &Check| [check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
+    table("Checks", ["claim", "verdict", "evidence"], checks.iter().map(row))
+}
+
+/// One row for each level, one column for each norm.
+fn errors(levels: &[LevelErrors]) -> Table {
+    let mut norms: Vec<&String> = Vec::new();
+    for (norm, _) in levels.iter().flat_map(|level| &level.errors) {
+        if !norms.contains(&norm) {
+            norms.push(norm);
+        }
+    }
+    let row = |level: &LevelErrors| {
+        let error = |norm: &&String| {
+            let found = level.errors.iter().find(|(name, _)| name == *norm);
+            found.map_or_else(|| "-".to_owned(), |(_, error)| error_text(*error))
+        };
+        let counts = [level.elements.to_string(), level.steps.to_string()];
+        counts.into_iter().chain(norms.iter().map(error)).collect()
+    };
+    let head = ["elements", "steps"].into_iter().chain(norms.iter().map(|norm| norm.as_str()));
+    Table {
+        title: "Errors".to_owned(),
+        head: head.map(str::to_owned).collect(),
+        rows: levels.iter().map(row).collect(),
+    }
+}
+
+fn failures(failed: &[FailedCase]) -> Table {
+    let row = |failed: &FailedCase| [failed.label.clone(), failed.reason.clone()];
+    table("Cases without a result", ["case", "reason"], failed.iter().map(row))
+}

@@ -1,0 +1,64 @@
+//! Panics turned into words.
+
+use std::cell::{Cell, RefCell};
+use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+use std::sync::Once;
+
+thread_local! {
+    static WATCHED: Cell<bool> = const { Cell::new(false) };
+    static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// What `compute` returns, or why it panicked: the message, with file and line.
+///
+/// Nothing is printed for a panic in here; panics elsewhere are reported as before.
+pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
+    install_hook();
+    let before = WATCHED.replace(true);
+    // What a panic leaves half done lives inside `compute` and goes with it: studies are shared as `&self` only.
+    let result = panic::catch_unwind(AssertUnwindSafe(compute));
+    WATCHED.set(before);
+    result.map_err(|_| LAST.take().unwrap_or_else(|| "panicked".to_owned()))
+}
+
+/// Puts a hook before the current one that keeps the words of watched panics.
+fn install_hook() {
+    static INSTALL: Once = Once::new();
+    INSTALL.call_once(|| {
+        let previous = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if WATCHED.get() {
+                LAST.set(Some(words(info)));
+            } else {
+                previous(info);
+            }
+        }));
+    });
+}
+
+fn words(info: &PanicHookInfo<'_>) -> String {
+    let payload = info.payload();
+    let message = payload.downcast_ref::<&str>().copied();
+    let message = message.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
+    match info.location() {
+        Some(place) => format!("panicked at {}:{}: {message}", file_name(place.file()), place.line()),
+        None => format!("panicked: {message}"),
+    }
+}
+
+/// The name without its folders, which may be those of one machine and would stand in committed reports.
+fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::caught;
+
+    #[test]
+    fn a_panic_becomes_its_message_and_place() {
+        let reason = caught(|| -> usize { panic!("pivot {} lost", 3) }).unwrap_err();
+        assert!(reason.starts_with("panicked at caught.rs:") && reason.ends_with(": pivot 3 lost"), "{reason}");
+        assert_eq!(caught(|| 7), Ok(7));
+    }
+}

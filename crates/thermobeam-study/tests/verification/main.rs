@@ -1,0 +1,9 @@
+//! From studies to reports: the runner, the baseline, the record, the shelf, with small studies that do as they are told.
+
+mod baseline;
+mod fake;
+mod record;
+mod report;
+mod runner;
+mod shelf;
+mod whole;

@@ -1,0 +1,104 @@
+//! `verify`: the main job.
+
+use std::error::Error;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::ExitCode;
+
+use thermobeam_study::report::{can_be_blessed, key_numbers, sentence};
+use thermobeam_study::runner::Finished;
+use thermobeam_study::study;
+use thermobeam_study::study_file::Tier;
+use thermobeam_study::verdict::Verdict;
+use thermobeam_study::verification::{self, Request, Scope, Verification};
+
+use crate::screen::{self, Bar};
+use crate::workspace::{self, Listed};
+use crate::{github, selection};
+
+/// Run the studies in `studies/` and write `reports/`
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Tier of studies; full holds quick
+    #[arg(long, value_parser = selection::tier_parser(), default_value = "quick")]
+    tier: Tier,
+    /// Number of threads [default: all of the machine]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Take the new numbers for the baseline; refused where a study does not pass
+    #[arg(long)]
+    bless: bool,
+    /// No progress bar, and of the table only what does not pass
+    #[arg(long)]
+    quiet: bool,
+    /// Ids or patterns of studies; their reports go to reports/local/partial/
+    #[arg(value_name = "ID")]
+    ids: Vec<String>,
+}
+
+/// Runs the studies, writes the reports, prints the table.
+pub(crate) fn verify(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+    let root = workspace::root()?;
+    let all = workspace::studies(&root)?;
+    let headers: Vec<_> = all.iter().map(|listed| &listed.header).collect();
+    let meant = selection::select(&headers, arguments.tier, &arguments.ids)?;
+    let meant = all.iter().zip(meant).filter(|(_, meant)| *meant).map(|(listed, _)| listed);
+    let studies = meant.map(|listed| study::read(&listed.path)).collect::<Result<Vec<_>, _>>()?;
+
+    let (jobs, bless) = (screen::jobs(arguments.jobs), arguments.bless);
+    let request = Request { scope: scope(arguments, &all), jobs, bless, root };
+    let bar = Bar::new(!arguments.quiet);
+    let verification = verification::verify(&studies, &request, &|progress| bar.show(progress));
+    bar.clear();
+    let verification = verification?;
+    screen::print(&text(&verification, &request, arguments.quiet))?;
+    github::announce(&verification.findings(&request.scope, &request.scope.command()))?;
+    Ok(screen::exit(verification.verdict))
+}
+
+fn scope(arguments: &Arguments, all: &[Listed]) -> Scope {
+    if arguments.ids.is_empty() {
+        Scope::Tier(arguments.tier, all.iter().map(|listed| listed.header.id.clone()).collect())
+    } else {
+        Scope::Selection(arguments.ids.clone())
+    }
+}
+
+/// The table, what moved, what became of the blessing, where the reports are, and the verdict last.
+fn text(found: &Verification, request: &Request, quiet: bool) -> String {
+    let shown = found.finished.iter().filter(|finished| !quiet || finished.outcome.verdict != Verdict::Pass);
+    let rows: Vec<Vec<String>> = shown.map(row).collect();
+    let mut text = String::new();
+    if !rows.is_empty() {
+        text += &screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
+        text += "\n";
+    }
+    for change in &found.changes {
+        text += &format!("baseline: {change}\n");
+    }
+    match &found.blessing {
+        Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
+        Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
+        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
+            text += &format!("if that is meant: {} --bless\n", request.scope.command());
+        }
+        None => {}
+    }
+    if !quiet {
+        text += &format!("report: {}\n", below(&found.reports.join("README.md"), &request.root));
+        if matches!(request.scope, Scope::Selection(_)) {
+            text += "a selection leaves the committed report as it is\n";
+        }
+    }
+    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, &found.changes))
+}
+
+fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
+    let seconds = format!("{:.2}", spent.busy.as_secs_f64());
+    vec![header.id.clone(), outcome.verdict.to_string(), seconds, key_numbers(outcome)]
+}
+
+/// A path as seen from the workspace.
+fn below(path: &Path, root: &Path) -> String {
+    path.strip_prefix(root).unwrap_or(path).display().to_string()
+}

@@ -1,0 +1,69 @@
+//! The commands as a shell sees them, in a workspace of their own.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+fn workspace(studies: &[(&str, &str)]) -> TempDir {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("Cargo.toml"), "").unwrap();
+    fs::create_dir_all(root.path().join("studies/scenes")).unwrap();
+    for (name, text) in studies {
+        fs::write(root.path().join("studies").join(name), text).unwrap();
+    }
+    root
+}
+
+fn xtask(root: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    command.args(arguments).current_dir(root).env_remove("CARGO_MANIFEST_DIR");
+    command.stdin(Stdio::null()).output().unwrap()
+}
+
+/// Unusable input: status 2, these words on standard error, nothing on standard output, nothing written.
+#[track_caller]
+fn unusable(root: &TempDir, arguments: &[&str], words: &str) {
+    let output = xtask(root.path(), arguments);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains(words), "{words} is not in {error}");
+    assert!(output.stdout.is_empty());
+    assert!(!root.path().join("reports").exists() && !root.path().join("studies/baseline.json").exists());
+}
+
+fn study(id: &str, kind: &str) -> String {
+    format!("[study]\nid = \"{id}\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"{kind}\"\n")
+}
+
+#[test]
+fn an_unknown_kind_is_refused_with_its_line() {
+    let root = workspace(&[("a.toml", &study("a", "nonsense"))]);
+    for arguments in [&["verify"][..], &["verify", "--bless"], &["study", "studies/a.toml"], &["list"]] {
+        unusable(&root, arguments, "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; allowed is ");
+    }
+}
+
+#[test]
+fn a_study_file_that_is_none_is_refused_with_its_line() {
+    let root = workspace(&[("a.toml", "[study]\nid = \"A b\"\n")]);
+    unusable(&root, &["verify"], "a.toml:2:6: study.id: found the text \"A b\"");
+    unusable(&root, &["study", "missing.toml"], "missing.toml: cannot be read");
+}
+
+#[test]
+fn where_no_study_is_meant_nothing_passes() {
+    let root = workspace(&[]);
+    unusable(&root, &["verify"], "no study in the tier quick");
+    unusable(&root, &["verify", "theorem*"], "`theorem*` matches no study");
+    unusable(&root, &["verify", "--tier", "slow"], "slow");
+    unusable(&root, &["verify", "--jobs", "0"], "--jobs");
+    unusable(&root, &["study"], "FILE");
+}
+
+#[test]
+fn outside_a_workspace_there_is_nothing_to_verify() {
+    let folder = tempfile::tempdir().unwrap();
+    unusable(&folder, &["verify"], "found no folder with Cargo.toml and studies/");
+}

@@ -5,6 +5,8 @@ pub mod document;
 pub mod expression;
 pub mod fit;
 pub mod plots;
+pub mod quadrature;
+pub mod rerun;
 pub mod scene;
 pub mod study_file;
 pub mod verdict;

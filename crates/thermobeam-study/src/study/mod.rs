@@ -4,6 +4,12 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod frequencies;
+pub mod self_convergence;
+pub mod vibration;
+
+mod ladder;
+
 use crate::document::InputError;
 use crate::outcome::Outcome;
 use crate::study_file::StudyHeader;
@@ -80,6 +86,11 @@ pub trait Study: Send + Sync {
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
-    let _header = StudyHeader::read(path)?;
-    unreachable!("kinds are registered below")
+    let header = StudyHeader::read(path)?;
+    match header.kind.as_str() {
+        frequencies::KIND => Ok(Box::new(frequencies::Frequencies::read(path)?)),
+        self_convergence::KIND => Ok(Box::new(self_convergence::SelfConvergence::read(path)?)),
+        vibration::KIND => Ok(Box::new(vibration::Vibration::read(path)?)),
+        _ => unreachable!("kinds are registered above"),
+    }
 }

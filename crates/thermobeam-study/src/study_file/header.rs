@@ -55,7 +55,7 @@ impl StudyHeader {
     }
 }
 
-pub(super) fn header(root: &Section<'_>) -> Result<StudyHeader, InputError> {
+pub(crate) fn header(root: &Section<'_>) -> Result<StudyHeader, InputError> {
     let study = root.require("study", "a table with id, claim and tier")?.section()?;
     study.allow(&["id", "claim", "tier", "kind"])?;
     let tiers = Tier::ALL.map(|tier| (tier.name(), tier));

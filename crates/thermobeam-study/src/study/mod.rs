@@ -10,6 +10,8 @@ pub mod vibration;
 
 mod ladder;
 
+pub(crate) use ladder::max_or_nan;
+
 use crate::document::InputError;
 use crate::outcome::Outcome;
 use crate::study_file::StudyHeader;

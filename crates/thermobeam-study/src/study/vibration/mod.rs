@@ -2,7 +2,7 @@
 //!
 //! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] rings by itself, and a beam started
 //! from a sum of modes stays that sum for ever. Nothing is manufactured: no load keeps the solution in place, so an
-//! error in the scheme and the same error in the sources cannot cancel. [`clock`] tells how space and time errors are
+//! error in the scheme and the same error in the sources cannot cancel. The module `clock` tells how space and time errors are
 //! had one without the other.
 
 mod clock;

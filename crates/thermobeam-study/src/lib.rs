@@ -2,6 +2,7 @@
 
 pub mod calibration;
 pub mod document;
+pub mod estimate;
 pub mod expression;
 pub mod fit;
 pub mod plots;

@@ -40,10 +40,13 @@ use crate::document::{self, InputError, Section};
 use crate::shared_tables as tables;
 
 pub use control::Control;
+pub(crate) use control::control;
+pub(crate) use expectation::expectations;
 pub use expectation::{Expectation, Norm};
 pub(crate) use header::header;
 pub use header::{CONVERGENCE, StudyHeader, Tier};
 pub use manufactured::{Manufactured, Product};
+pub(crate) use refine::refine;
 pub use refine::{Axis, Perturbation, Refine};
 
 /// A convergence study, validated.

@@ -10,7 +10,7 @@
 
 use crate::exact::Factors;
 use crate::exact::sources::nodal;
-use crate::quadrature::GAUSS;
+use crate::quadrature::RULE;
 use crate::study_file::{Manufactured, Norm, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::{TheoremSquares, l2_squared};
@@ -95,7 +95,7 @@ impl ErrorMeter {
         }
         for (i, ends) in mesh.nodes().windows(2).enumerate() {
             let h = ends[1] - ends[0];
-            for (s, weight) in GAUSS {
+            for (s, weight) in RULE {
                 let x = ends[0] + s * h;
                 let sample = |products: &[Product], field: &[Interpolation]| {
                     products.iter().zip(field).map(|(p, f)| interpolation_error(p, f, i, h, s, x)).collect()

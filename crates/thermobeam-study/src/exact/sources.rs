@@ -14,7 +14,7 @@
 //! `a θ_A` is the part of `a θ_x` that it carries.
 
 use crate::exact::Factors;
-use crate::quadrature::GAUSS;
+use crate::quadrature::RULE;
 use crate::study_file::{Manufactured, Product};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::mesh::Mesh;
@@ -105,7 +105,7 @@ impl Vectors {
         let (mut value, mut slope, mut curvature) = (zeros.clone(), zeros.clone(), zeros);
         for (i, ends) in nodes.windows(2).enumerate() {
             let h = ends[1] - ends[0];
-            for (s, weight) in GAUSS {
+            for (s, weight) in RULE {
                 let [x, x1, x2] = product.x.derivatives(ends[0] + s * h);
                 for (node, hat) in [(i, 1.0 - s), (i + 1, s)] {
                     let weight = weight * h * hat;
@@ -290,7 +290,7 @@ fn continuous_gram(products: &[Product]) -> Vec<f64> {
     let mut gram = vec![0.0; n * n];
     let h = 1.0 / PANELS as f64;
     for panel in 0..PANELS {
-        for (s, weight) in GAUSS {
+        for (s, weight) in RULE {
             let x = (panel as f64 + s) * h;
             let slopes: Vec<f64> = products.iter().map(|product| product.x.derivatives(x)[1]).collect();
             for j in 0..n {

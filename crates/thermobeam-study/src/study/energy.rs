@@ -22,7 +22,7 @@ use crate::plots;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::simulate;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, Measured, Study, max_or_nan};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 use thermobeam::energy::Energy;
@@ -136,9 +136,9 @@ impl Study for EnergyDecay {
             simulation.observe(&mut new);
             let balance = simulation.balance(&old, &new);
             let relative = balance.residual.abs() / scale;
-            increase = keep_nan(increase, balance.change / scale);
-            residual = keep_nan(residual, relative);
-            peak = keep_nan(peak, relative);
+            increase = max_or_nan(increase, balance.change / scale);
+            residual = max_or_nan(residual, relative);
+            peak = max_or_nan(peak, relative);
             if step % every == 0 {
                 energy.push((simulation.t(), simulation.energy(&new).total()));
                 residuals.push((simulation.t(), peak));
@@ -164,8 +164,8 @@ impl Study for EnergyDecay {
             match result {
                 Ok(measured) => {
                     let (increase, residual) = (measured.value("largest increase"), measured.value("largest residual"));
-                    worst_increase = keep_nan(worst_increase, increase);
-                    worst_residual = keep_nan(worst_residual, residual);
+                    worst_increase = max_or_nan(worst_increase, increase);
+                    worst_residual = max_or_nan(worst_residual, residual);
                     let evidence =
                         format!("largest increase {increase:.1e}, residual {residual:.1e} of the initial energy");
                     let holds = increase <= self.tolerance && residual <= self.tolerance;
@@ -242,9 +242,4 @@ impl EnergyDecay {
 fn scale(energy: &Energy) -> f64 {
     let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
     kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs()
-}
-
-/// The larger of two, NaN if one is: f64::max would drop it.
-fn keep_nan(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -9,6 +9,12 @@ pub mod controls;
 pub mod convergence;
 pub mod energy;
 pub mod fixed_point;
+pub mod frequencies;
+mod ladder;
+pub mod self_convergence;
+pub mod vibration;
+
+pub(crate) use ladder::max_or_nan;
 
 use crate::document::{self, InputError, Section};
 use crate::outcome::Outcome;
@@ -90,6 +96,9 @@ const KINDS: &[(&str, Reader)] = &[
     (controls::CONTROLS, |path| Ok(Box::new(controls::Controls::read(path)?))),
     (energy::ENERGY, |path| Ok(Box::new(energy::EnergyDecay::read(path)?))),
     (fixed_point::FIXED_POINT, |path| Ok(Box::new(fixed_point::FixedPoint::read(path)?))),
+    (vibration::KIND, |path| Ok(Box::new(vibration::Vibration::read(path)?))),
+    (frequencies::KIND, |path| Ok(Box::new(frequencies::Frequencies::read(path)?))),
+    (self_convergence::KIND, |path| Ok(Box::new(self_convergence::SelfConvergence::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];
 

@@ -17,7 +17,7 @@ pub struct Control {
 }
 
 /// The table `[control]`, on top of the coefficients of the sources.
-pub(super) fn control(
+pub(crate) fn control(
     root: &Section<'_>,
     beam: Beam,
     obstacles: Option<Obstacles>,

@@ -63,7 +63,7 @@ pub struct Expectation {
 }
 
 /// All tables `[[expect]]`.
-pub(super) fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
+pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
     let allowed = "at least one table [[expect]] with norm, order and tolerance";
     let field = root.require("expect", allowed)?;
     let mut expectations: Vec<Expectation> = Vec::new();

@@ -113,7 +113,7 @@ fn mesh(elements: usize, map: Option<&Expression>, perturbation: Option<Perturba
 }
 
 /// The table `[refine]`.
-pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
+pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let section = root.require("refine", "a table with axis, elements, steps and t_end")?.section()?;
     let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed"];
     section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;

@@ -3,15 +3,76 @@
 use super::Mode;
 use crate::parameters::ParameterError;
 
-/// A mode with its time factor: `u = U(x) T(t)`, `φ = Φ(x) T(t)`, an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
+/// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
-/// `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given. The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2
-/// (the mode rings), real for ζω > 2 (it creeps back), equal for ζω = 2. High modes of any damped beam creep.
+/// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (the mode rings), real for ζω > 2 (it creeps back), equal for
+/// ζω = 2. High modes of any damped beam creep. It serves the exact modes and those of a mesh alike: each with its own ω.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeFactor {
+    omega: f64,
+    zeta: f64,
+    start: (f64, f64),
+}
+
+impl TimeFactor {
+    /// T with `T(0) = position` and `T'(0) = velocity`.
+    ///
+    /// * `omega`: the frequency ω >= 0.
+    /// * `zeta`: the viscosity ζ >= 0.
+    ///
+    /// Errors: ω or ζ negative or not finite, T(0) or T'(0) not finite.
+    pub fn new(omega: f64, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
+        let refuse = |name, found, allowed| Err(ParameterError { name, found, allowed });
+        for (name, value) in [("omega", omega), ("zeta", zeta)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refuse(name, value, "a finite number >= 0");
+            }
+        }
+        for (name, value) in [("T(0)", position), ("T'(0)", velocity)] {
+            if !value.is_finite() {
+                return refuse(name, value, "a finite number");
+            }
+        }
+        Ok(Self { omega, zeta, start: (position, velocity) })
+    }
+
+    /// T at t >= 0.
+    pub fn value(&self, t: f64) -> f64 {
+        self.evolve(self.start.0, self.start.1, t)
+    }
+
+    /// T' at t >= 0.
+    pub fn slope(&self, t: f64) -> f64 {
+        // T' solves the same equation, from T'(0) and T''(0).
+        let acceleration = -self.omega.powi(2) * (self.start.0 + self.zeta * self.start.1);
+        self.evolve(self.start.1, acceleration, t)
+    }
+
+    /// The solution with the given value and slope at 0.
+    fn evolve(&self, value: f64, slope: f64, t: f64) -> f64 {
+        let omega = self.omega;
+        let gamma = 0.5 * self.zeta * omega * omega;
+        // γ² - ω², without the cancellation near critical damping.
+        let excess = (gamma - omega) * (gamma + omega);
+        if excess < 0.0 {
+            let angle = (-excess).sqrt() * t;
+            let sinc = if angle == 0.0 { 1.0 } else { angle.sin() / angle };
+            return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
+        }
+        // The slow root by Vieta: -γ + √(γ² - ω²) would lose the digits that matter for all times.
+        let slow = -omega * omega / (gamma + excess.sqrt());
+        let gap = 2.0 * excess.sqrt();
+        // (1 - e^{-gap t}) / gap, which is t at critical damping.
+        let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };
+        (slow * t).exp() * (value + (slope - slow * value) * ramp)
+    }
+}
+
+/// A mode with its time factor: `u = U(x) T(t)`, `φ = Φ(x) T(t)`, an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
     mode: Mode,
-    zeta: f64,
-    start: (f64, f64),
+    factor: TimeFactor,
 }
 
 impl DampedMode {
@@ -28,16 +89,7 @@ impl DampedMode {
     ///
     /// Errors: ζ negative or not finite, T(0) or T'(0) not finite.
     pub fn starting_from(mode: Mode, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
-        let refuse = |name, found, allowed| Err(ParameterError { name, found, allowed });
-        if !(zeta >= 0.0 && zeta.is_finite()) {
-            return refuse("zeta", zeta, "a finite number >= 0");
-        }
-        for (name, value) in [("T(0)", position), ("T'(0)", velocity)] {
-            if !value.is_finite() {
-                return refuse(name, value, "a finite number");
-            }
-        }
-        Ok(Self { mode, zeta, start: (position, velocity) })
+        Ok(Self { mode, factor: TimeFactor::new(mode.omega(), zeta, position, velocity)? })
     }
 
     /// The mode.
@@ -47,38 +99,16 @@ impl DampedMode {
 
     /// ζ.
     pub fn zeta(&self) -> f64 {
-        self.zeta
+        self.factor.zeta
     }
 
     /// T at t >= 0.
     pub fn factor(&self, t: f64) -> f64 {
-        self.evolve(self.start.0, self.start.1, t)
+        self.factor.value(t)
     }
 
     /// T' at t >= 0.
     pub fn factor_t(&self, t: f64) -> f64 {
-        // T' solves the same equation, from T'(0) and T''(0).
-        let omega_squared = self.mode.omega().powi(2);
-        let acceleration = -omega_squared * (self.start.0 + self.zeta * self.start.1);
-        self.evolve(self.start.1, acceleration, t)
-    }
-
-    /// The solution with the given value and slope at 0.
-    fn evolve(&self, value: f64, slope: f64, t: f64) -> f64 {
-        let omega = self.mode.omega();
-        let gamma = 0.5 * self.zeta * omega * omega;
-        // γ² - ω², without the cancellation near critical damping.
-        let excess = (gamma - omega) * (gamma + omega);
-        if excess < 0.0 {
-            let angle = (-excess).sqrt() * t;
-            let sinc = if angle == 0.0 { 1.0 } else { angle.sin() / angle };
-            return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
-        }
-        // The slow root by Vieta: -γ + √(γ² - ω²) would lose the digits that matter for all times.
-        let slow = -omega * omega / (gamma + excess.sqrt());
-        let gap = 2.0 * excess.sqrt();
-        // (1 - e^{-gap t}) / gap, which is t at critical damping.
-        let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };
-        (slow * t).exp() * (value + (slope - slow * value) * ramp)
+        self.factor.slope(t)
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! `T'' + ζω² T' + ω² T = 0`:
 //!
-//! see [`DampedMode`]. What remains is
+//! see [`TimeFactor`] and [`DampedMode`]. What remains is
 //!
 //! ```text
 //! U'' - Φ' = -ω² U,      Φ'' + U' - Φ = -ω² Φ,
@@ -67,7 +67,7 @@ use crate::bracket::bisect;
 use crate::stumpff::{c0, c1};
 use std::f64::consts::FRAC_PI_2;
 
-pub use damped::DampedMode;
+pub use damped::{DampedMode, TimeFactor};
 pub use discrete::{SpectrumError, discrete_frequencies};
 
 /// The `count` lowest frequencies ω, in increasing order.

@@ -1,0 +1,191 @@
+//! Errors down a ladder of refinements: what every study of rates judges, prints, draws and guards.
+
+use super::{Case, CaseFailure, Measured};
+use crate::fit::Level;
+use crate::outcome::{Check, Figure, Quantity, Table};
+use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};
+use crate::study_file::Axis;
+use crate::verdict::{RateVerdict, judge};
+
+/// Relative change of an error that the baseline lets pass: other machines round sines and logarithms differently.
+const ERROR_DRIFT: f64 = 1e-6;
+
+/// The same for a fitted rate.
+const RATE_DRIFT: f64 = 1e-4;
+
+/// Errors of one kind, one for each level, coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Family {
+    /// Name in tables, figures and verdicts.
+    pub(crate) name: String,
+    /// As measured; NaN where the case failed.
+    pub(crate) errors: Vec<f64>,
+    /// What theory says.
+    pub(crate) order: f64,
+    /// How far the rate may be from it.
+    pub(crate) tolerance: f64,
+}
+
+/// Families over the same steps.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Ladder {
+    /// What is refined.
+    pub(crate) axis: Axis,
+    /// h, dt, or h = c dt, decreasing.
+    pub(crate) steps: Vec<f64>,
+    /// The errors.
+    pub(crate) families: Vec<Family>,
+}
+
+impl Ladder {
+    fn levels(&self, family: &Family) -> Vec<Level> {
+        self.steps.iter().zip(&family.errors).map(|(&step, &error)| Level { step, error }).collect()
+    }
+
+    /// One verdict for each family.
+    pub(crate) fn judge(&self) -> Vec<(String, RateVerdict)> {
+        let verdict = |family: &Family| judge(&self.levels(family), family.order, family.tolerance);
+        self.families.iter().map(|family| (family.name.clone(), verdict(family))).collect()
+    }
+
+    /// The plot of all families, each with the line of its judged rate.
+    pub(crate) fn figure(&self, file: String, title: &str, caption: String, rates: &[(String, RateVerdict)]) -> Figure {
+        let series = self.families.iter().map(|family| {
+            let rate = rates.iter().find(|(name, _)| *name == family.name);
+            ErrorSeries {
+                label: family.name.clone(),
+                points: self.steps.iter().copied().zip(family.errors.iter().copied()).collect(),
+                order: Some(family.order),
+                fit: rate.and_then(|(_, rate)| line(&self.levels(family), rate)),
+                ..ErrorSeries::default()
+            }
+        });
+        let mut slopes: Vec<f64> = self.families.iter().map(|family| family.order).collect();
+        slopes.sort_by(f64::total_cmp);
+        slopes.dedup();
+        let labels = match self.axis {
+            Axis::Space => Convergence::in_space(),
+            Axis::Time => Convergence::in_time(),
+            Axis::Both => Convergence {
+                x_label: "mesh width h and time step dt, refined together".into(),
+                ..Convergence::in_space()
+            },
+        };
+        let figure = Convergence { title: Some(title.to_owned()), series: series.collect(), slopes, ..labels };
+        Figure { file, caption, svg: plots::convergence(&figure) }
+    }
+
+    /// The finest error and the rate of each family.
+    pub(crate) fn quantities(&self, rates: &[(String, RateVerdict)]) -> Vec<Quantity> {
+        let finest = self.families.iter().map(|family| Quantity {
+            name: format!("{}, finest error", family.name),
+            value: family.errors.last().copied().unwrap_or(f64::NAN),
+            tolerance: ERROR_DRIFT,
+        });
+        finest.chain(rate_quantities(rates)).collect()
+    }
+}
+
+/// The fitted rates, as numbers that must not move unnoticed.
+pub(crate) fn rate_quantities(rates: &[(String, RateVerdict)]) -> impl Iterator<Item = Quantity> {
+    rates.iter().map(|(name, rate)| Quantity {
+        name: format!("{name}, rate"),
+        value: rate.fitted.unwrap_or(f64::NAN),
+        tolerance: RATE_DRIFT,
+    })
+}
+
+/// The judged rate as a line through the finest level that it rests on.
+///
+/// Not least squares: the rate is the one at h → 0, and coarse levels that leave its line show how far they are from there.
+fn line(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
+    let finest = levels.get(rate.used.clone())?.last()?;
+    let rate = rate.fitted?;
+    Some(PowerLaw { rate, constant: finest.error / finest.step.powf(rate) })
+}
+
+/// Order, rate, error bar and verdict of each, in a table.
+pub(crate) fn rate_table(title: &str, rates: &[(String, RateVerdict)]) -> Table {
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
+    let row = |(name, rate): &(String, RateVerdict)| {
+        let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| format!("{rate:.3}")).collect();
+        let interval = rate.interval.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"));
+        vec![
+            name.clone(),
+            rate.order.to_string(),
+            pairwise.join(" "),
+            number(rate.fitted),
+            interval,
+            rate.verdict.to_string(),
+            rate.kind.text().to_owned(),
+        ]
+    };
+    Table {
+        title: title.to_owned(),
+        head: ["error of", "order", "pairwise rates", "rate", "95 % interval", "verdict", "because"]
+            .map(str::to_owned)
+            .into(),
+        rows: rates.iter().map(row).collect(),
+    }
+}
+
+/// Fails unless there is a result for every case.
+pub(crate) fn completion(cases: &[Case], results: &[Result<Measured, CaseFailure>]) -> Check {
+    let failures: Vec<String> = cases
+        .iter()
+        .enumerate()
+        .filter_map(|(index, case)| match results.get(index) {
+            Some(Ok(_)) => None,
+            Some(Err(failure)) => Some(format!("{}: {}", case.label, failure.reason)),
+            None => Some(format!("{}: no result", case.label)),
+        })
+        .collect();
+    let done = format!("{} of {} runs came to their end", cases.len() - failures.len(), cases.len());
+    let evidence = if failures.is_empty() { done } else { format!("{done}; {}", failures.join("; ")) };
+    Check::that(failures.is_empty() && !cases.is_empty(), "every run comes to its end", evidence)
+}
+
+/// The number of that name of a case; NaN where there is none.
+pub(crate) fn value(results: &[Result<Measured, CaseFailure>], index: usize, name: &str) -> f64 {
+    match results.get(index) {
+        Some(Ok(measured)) => measured.value(name),
+        _ => f64::NAN,
+    }
+}
+
+/// The larger of both; NaN once one of them was NaN.
+pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}
+
+/// `rate 1.000 (order 1)` for each, and how many hold.
+pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
+    let one = |(name, rate): &(String, RateVerdict)| match rate.fitted {
+        Some(fitted) => format!("{name} {fitted:.3} (order {})", rate.order),
+        None => format!("{name} {} ({})", rate.verdict, rate.kind.text()),
+    };
+    format!("rates: {}", rates.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_maximum_keeps_nan() {
+        assert_eq!([0.0, 2.0, 1.0].into_iter().fold(0.0, max_or_nan), 2.0);
+        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
+        }
+    }
+
+    #[test]
+    fn a_missing_or_failed_case_fails_the_completion() {
+        let cases = [Case { label: "n = 8".into(), cost: 1.0 }];
+        let pass = |results: &[Result<Measured, CaseFailure>]| completion(&cases, results).verdict.name();
+        assert_eq!(pass(&[Ok(Measured::default())]), "pass");
+        assert_eq!(pass(&[Err(CaseFailure { reason: "diverged".into() })]), "fail");
+        assert_eq!(pass(&[]), "fail");
+        assert_eq!(completion(&[], &[]).verdict.name(), "fail");
+    }
+}

@@ -1,0 +1,111 @@
+//! The file of a vibration study: modes, what is refined, orders.
+
+use super::Vibration;
+use crate::document::{self, Field, InputError, Section};
+use crate::shared_tables as tables;
+use crate::study_file::{Axis, Refine, control, expectations, header, refine};
+use std::path::Path;
+use thermobeam::parameters::Beam;
+
+/// A vibration as the file has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Vibrating {
+    /// From 0, the lowest frequency.
+    pub(super) index: usize,
+    /// The mode's tip displacement and velocity at t = 0.
+    pub(super) start: [f64; 2],
+}
+
+/// A temperature as the file has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cooling {
+    /// k of sin kπx.
+    pub(super) k: usize,
+    /// Its amplitude at t = 0.
+    pub(super) amplitude: f64,
+}
+
+impl Vibration {
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        Self::parse(&document::read_text(path)?, &path.display().to_string())
+    }
+
+    /// Reads a study from `text`; complaints refer to `file_name`.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
+        document::parse(text, file_name, Self::from_document)
+    }
+
+    fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+        root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
+        let beam = beam(root)?;
+        let refine = refine(root)?;
+        let modes = modes(root, &refine)?;
+        let heat = heat(root, &refine)?;
+        let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
+        Ok(Self { header: header(root)?, beam, solver, modes, heat, refine, expect: expectations(root)? })
+    }
+}
+
+/// The beam, which must be one whose modes are exact.
+fn beam(root: &Section<'_>) -> Result<Beam, InputError> {
+    let beam = tables::beam(root)?;
+    for (key, value) in [("a", beam.a), ("rho", beam.rho), ("beta", beam.beta), ("theta_a", beam.theta_a)] {
+        if value != 0.0 {
+            let allowed = "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
+            let section = root.require("beam", "a table with zeta, a = 0 and rho = 0")?.section()?;
+            return Err(section.refuse(key, format!("{value:?}"), allowed));
+        }
+    }
+    Ok(beam)
+}
+
+/// Does the study start from the modes of its mesh, of which there are only so many?
+fn most(refine: &Refine, of_mesh: usize) -> usize {
+    if refine.isolate && refine.axis == Axis::Time { of_mesh } else { usize::MAX }
+}
+
+fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<Vibrating>, InputError> {
+    let allowed = "at least one table [[mode]] with index and amplitude or velocity";
+    let most = most(refine, 2 * refine.elements[0]);
+    let read = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["index", "amplitude", "velocity"])?;
+        let index = section.require("index", "a whole number >= 1")?.count(1..=most)? - 1;
+        let amplitude = section.get("amplitude").map_or(Ok(0.0), |field| field.number())?;
+        let velocity = section.get("velocity").map_or(Ok(0.0), |field| field.number())?;
+        if amplitude == 0.0 && velocity == 0.0 {
+            return Err(section.refuse(
+                "amplitude",
+                "a mode that does not move",
+                "an amplitude or a velocity other than 0",
+            ));
+        }
+        Ok(Vibrating { index, start: [amplitude, velocity] })
+    };
+    let field = root.require("mode", allowed)?;
+    let modes = field.items(allowed)?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    if modes.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(modes) }
+}
+
+fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<Cooling>, InputError> {
+    let Some(field) = root.get("heat") else { return Ok(vec![]) };
+    let most = most(refine, refine.elements[0].saturating_sub(1).max(1));
+    let read = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["index", "amplitude"])?;
+        let allowed = "a finite number other than 0";
+        Ok(Cooling {
+            k: section.require("index", "a whole number >= 1")?.count(1..=most)?,
+            amplitude: section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?,
+        })
+    };
+    field.items("tables [[heat]] with index and amplitude")?.iter().map(read).collect()
+}

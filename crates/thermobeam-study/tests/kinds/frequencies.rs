@@ -1,0 +1,45 @@
+use crate::{changed, file, passes_but_not_without_each_case, results, text};
+use thermobeam_study::study::Study;
+use thermobeam_study::study::frequencies::Frequencies;
+use thermobeam_study::verdict::Verdict;
+
+fn study() -> Frequencies {
+    Frequencies::read(file("frequencies.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_file_passes_but_not_without_each_case() {
+    passes_but_not_without_each_case(&study());
+    let graded = text("frequencies.toml").replace("order = 2.0", "map = \"s + 0.1*sin(2*pi*s)\"\norder = 2.0");
+    passes_but_not_without_each_case(&Frequencies::parse(&graded, "graded.toml").expect("a study"));
+}
+
+#[test]
+fn each_frequency_can_fail() {
+    let study = study();
+    let sound = results(&study);
+    for mode in 1..=8 {
+        let verdict = |change: &dyn Fn(usize, f64) -> f64| {
+            study.conclude(&changed(&sound, &format!("omega-{mode}"), change)).verdict
+        };
+        assert_eq!(verdict(&|_, omega| omega), Verdict::Pass);
+        assert_eq!(verdict(&|case, omega| if case == 0 { f64::NAN } else { omega }), Verdict::Fail);
+        assert_eq!(verdict(&|case, omega| if case == 4 { omega - 1e-2 } else { omega }), Verdict::Fail, "from below");
+        // The wrong frequency to converge to.
+        assert_ne!(verdict(&|_, omega| omega + 1e-3), Verdict::Pass, "{mode}");
+    }
+}
+
+#[test]
+fn a_file_that_makes_no_sense_is_refused() {
+    for (from, to, message) in [
+        ("[16, 32", "[32, 16", "frequencies.elements"),
+        ("count = 8", "count = 17", "<= 16"),
+        ("order = 2.0", "order = -2.0", "frequencies.order"),
+        ("count = 8", "count = 8\nmap = \"s^2 - 1\"", "frequencies.map"),
+    ] {
+        let error =
+            Frequencies::parse(&text("frequencies.toml").replace(from, to), "f.toml").expect_err(to).to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}

@@ -1,0 +1,87 @@
+use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
+use thermobeam_study::study::Study;
+use thermobeam_study::study::vibration::Vibration;
+use thermobeam_study::verdict::Verdict;
+
+const FILES: [&str; 4] =
+    ["vibration-space.toml", "vibration-time.toml", "vibration-midpoint.toml", "vibration-coupled.toml"];
+
+fn study(name: &str) -> Vibration {
+    Vibration::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The study with one coefficient of the solver off.
+fn defective(name: &str, coefficient: &str) -> Vibration {
+    let text = format!("{}\n[control]\n{coefficient}\n", text(name));
+    Vibration::parse(&text, name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn refused(change: impl Fn(String) -> String, message: &str) {
+    let error = Vibration::parse(&change(text("vibration-time.toml")), "v.toml").expect_err(message).to_string();
+    assert!(error.contains(message), "{error}");
+}
+
+#[test]
+fn every_file_passes_but_not_without_each_case() {
+    FILES.iter().for_each(|name| passes_but_not_without_each_case(&study(name)));
+}
+
+#[test]
+fn a_solver_whose_zeta_is_off_by_a_thousandth_fails_wherever_one_error_is_isolated() {
+    for name in &FILES[..3] {
+        let study = defective(name, "zeta = 0.1001");
+        let outcome = study.conclude(&results(&study));
+        assert_eq!(outcome.verdict, Verdict::Fail, "{name}: {}", report(&outcome));
+    }
+}
+
+#[test]
+fn every_coefficient_that_must_be_zero_is_seen() {
+    for coefficient in ["a = 1e-4", "rho = 1e-4", "beta = 1e-4", "theta_a = 1e-4"] {
+        let study = defective("vibration-time.toml", coefficient);
+        assert_eq!(study.conclude(&results(&study)).verdict, Verdict::Fail, "{coefficient}");
+    }
+}
+
+#[test]
+fn each_norm_can_fail() {
+    let study = study("vibration-space.toml");
+    let sound = results(&study);
+    for norm in
+        ["velocity", "shear", "rotation-rate", "curvature", "temperature", "theorem-3.4", "displacement", "superclose"]
+    {
+        let verdict = |change: &dyn Fn(usize, f64) -> f64| study.conclude(&changed(&sound, norm, change)).verdict;
+        assert_eq!(verdict(&|_, error| error), Verdict::Pass);
+        assert_eq!(verdict(&|case, error| if case == 2 { f64::NAN } else { error }), Verdict::Fail, "{norm} NaN");
+        assert_eq!(verdict(&|_, error| error + 1e-3), Verdict::Fail, "{norm} levels off");
+        assert_eq!(verdict(&|case, error| error * 2f64.powi(case as i32)), Verdict::Fail, "{norm} too slow");
+        assert_eq!(verdict(&|case, error| error * 0.5f64.powi(case as i32)), Verdict::Fail, "{norm} too fast");
+        assert_ne!(
+            verdict(&|case, error| if case == 5 { 1.2 * error } else { error }),
+            Verdict::Pass,
+            "{norm} scatter"
+        );
+    }
+}
+
+#[test]
+fn the_closed_form_can_fail() {
+    let study = study("vibration-midpoint.toml");
+    let sound = results(&study);
+    for deviation in [1e-10, f64::NAN] {
+        let planted = changed(&sound, "closed form", |case, found| if case == 1 { deviation } else { found });
+        assert_eq!(study.conclude(&planted).verdict, Verdict::Fail);
+    }
+}
+
+#[test]
+fn a_file_that_makes_no_sense_is_refused_where_it_does_not() {
+    refused(|text| text.replace("a = 0.0", "a = 0.1"), "beam.a: found 0.1");
+    refused(|text| text.replace("rho = 0.0\n", ""), "beam.rho: found 1.0");
+    refused(|text| text.replace("index = 2", "index = 17"), "found 17; allowed is a whole number >= 1 and <= 16");
+    refused(|text| text.replace("amplitude = 0.1", "amplitude = 0.0"), "a mode that does not move");
+    refused(|text| text.replace("[[mode]]", "[[modes]]"), "unknown key `modes`, did you mean `mode`?");
+    refused(|text| text.replace("isolate", "isolated"), "isolated");
+    refused(|text| text.replace("zeta = 0.1", "zeta = -0.1"), "beam.zeta");
+}

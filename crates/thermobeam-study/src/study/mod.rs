@@ -4,6 +4,10 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+mod complete;
+pub mod experiment;
+mod steady;
+
 use crate::document::InputError;
 use crate::outcome::Outcome;
 use crate::study_file::StudyHeader;
@@ -80,6 +84,9 @@ pub trait Study: Send + Sync {
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
-    let _header = StudyHeader::read(path)?;
-    unreachable!("kinds are registered below")
+    let header = StudyHeader::read(path)?;
+    match header.kind.as_str() {
+        "experiment" => Ok(Box::new(experiment::Experiments::read(path)?)),
+        _ => unreachable!("kinds are registered below"),
+    }
 }

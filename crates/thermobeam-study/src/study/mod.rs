@@ -5,6 +5,7 @@
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
 mod complete;
+pub mod equilibrium;
 pub mod experiment;
 mod steady;
 
@@ -86,6 +87,7 @@ pub trait Study: Send + Sync {
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
     let header = StudyHeader::read(path)?;
     match header.kind.as_str() {
+        "equilibrium" => Ok(Box::new(equilibrium::EndStates::read(path)?)),
         "experiment" => Ok(Box::new(experiment::Experiments::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }

@@ -4,6 +4,7 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod bifurcation;
 mod complete;
 pub mod equilibrium;
 pub mod experiment;
@@ -87,6 +88,7 @@ pub trait Study: Send + Sync {
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
     let header = StudyHeader::read(path)?;
     match header.kind.as_str() {
+        "bifurcation" => Ok(Box::new(bifurcation::BifurcationStudy::read(path)?)),
         "equilibrium" => Ok(Box::new(equilibrium::EndStates::read(path)?)),
         "experiment" => Ok(Box::new(experiment::Experiments::read(path)?)),
         _ => unreachable!("kinds are registered below"),

@@ -8,6 +8,7 @@ pub mod bifurcation;
 mod complete;
 pub mod equilibrium;
 pub mod experiment;
+pub mod rigid;
 mod steady;
 
 use crate::document::InputError;
@@ -91,6 +92,7 @@ pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
         "bifurcation" => Ok(Box::new(bifurcation::BifurcationStudy::read(path)?)),
         "equilibrium" => Ok(Box::new(equilibrium::EndStates::read(path)?)),
         "experiment" => Ok(Box::new(experiment::Experiments::read(path)?)),
+        "rigid" => Ok(Box::new(rigid::RigidStudy::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }
 }

@@ -4,14 +4,20 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod bifurcation;
 pub mod calibration;
+mod complete;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
+pub mod equilibrium;
+pub mod experiment;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;
+pub mod rigid;
 pub mod self_convergence;
+mod steady;
 pub mod vibration;
 
 pub(crate) use ladder::max_or_nan;
@@ -99,6 +105,10 @@ const KINDS: &[(&str, Reader)] = &[
     (vibration::KIND, |path| Ok(Box::new(vibration::Vibration::read(path)?))),
     (frequencies::KIND, |path| Ok(Box::new(frequencies::Frequencies::read(path)?))),
     (self_convergence::KIND, |path| Ok(Box::new(self_convergence::SelfConvergence::read(path)?))),
+    ("experiment", |path| Ok(Box::new(experiment::Experiments::read(path)?))),
+    ("equilibrium", |path| Ok(Box::new(equilibrium::EndStates::read(path)?))),
+    ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
+    ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];
 

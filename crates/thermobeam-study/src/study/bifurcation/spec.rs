@@ -1,0 +1,92 @@
+//! Reading the file of a bifurcation study.
+
+use std::path::Path;
+
+use super::BifurcationStudy;
+use crate::document::{self, Field, InputError, Section};
+use crate::shared_tables as tables;
+use crate::study::steady::{listed_scenes, positive};
+use crate::study_file::StudyHeader;
+use crate::verdict::Judge;
+
+impl BifurcationStudy {
+    /// Reads a study file; the scenes that it names are relative to its folder.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and field.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        Self::parse(&document::read_text(path)?, &path.display().to_string())
+    }
+
+    /// Reads a study from `text`; complaints and the scenes' folder refer to `file_name`.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and field.
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
+        let header = StudyHeader::parse(text, file_name)?;
+        document::parse(text, file_name, |root| from_document(root, header, file_name))
+    }
+}
+
+fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<BifurcationStudy, InputError> {
+    root.allow(&["study", "diagram", "buckling", "rest"])?;
+    let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
+    diagram.allow(&["scenes", "beta", "points"])?;
+    let (meshes, judge) = buckling(root)?;
+    let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
+    rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
+    Ok(BifurcationStudy {
+        header,
+        scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, file)?,
+        grid: grid(&diagram)?,
+        meshes,
+        judge,
+        betas: ascending(&rest, "beta", 1)?,
+        elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
+        dt: positive(&rest, "dt")?,
+        speed: positive(&rest, "speed")?,
+        t_max: positive(&rest, "t_max")?,
+        distance: positive(&rest, "distance")?,
+    })
+}
+
+/// The β of the diagrams.
+fn grid(diagram: &Section<'_>) -> Result<Vec<f64>, InputError> {
+    let allowed = "a list of two numbers, ascending";
+    let field = diagram.require("beta", allowed)?;
+    let ends = numbers(&field, allowed)?;
+    let &[low, high] = ends.as_slice() else { return Err(field.refuse_as_written(allowed)) };
+    if low >= high {
+        return Err(field.refuse_as_written(allowed));
+    }
+    let points = diagram.require("points", "a whole number >= 2")?.count(2..=100_000)?;
+    let last = (points - 1) as f64;
+    Ok((0..points).map(|k| low + (high - low) * (k as f64 / last)).collect())
+}
+
+fn buckling(root: &Section<'_>) -> Result<(Vec<usize>, Judge), InputError> {
+    let section = root.require("buckling", "a table with elements and tolerance")?.section()?;
+    section.allow(&["elements", "tolerance"])?;
+    let allowed = "a list of at least three numbers of elements, ascending";
+    let field = section.require("elements", allowed)?;
+    let meshes = field.items(allowed)?.iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
+    if meshes.len() < 3 || meshes.windows(2).any(|pair| pair[0] >= pair[1]) {
+        return Err(field.refuse_as_written(allowed));
+    }
+    let tolerance = section.require("tolerance", "a number > 0 and < 0.5")?;
+    let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
+    Ok((meshes, judge))
+}
+
+fn ascending(section: &Section<'_>, key: &str, least: usize) -> Result<Vec<f64>, InputError> {
+    let allowed = "a list of numbers, ascending";
+    let field = section.require(key, allowed)?;
+    let values = numbers(&field, allowed)?;
+    let ordered = values.windows(2).all(|pair| pair[0] < pair[1]);
+    if values.len() >= least && ordered { Ok(values) } else { Err(field.refuse_as_written(allowed)) }
+}
+
+fn numbers(field: &Field<'_>, allowed: &str) -> Result<Vec<f64>, InputError> {
+    field.items(allowed)?.iter().map(Field::number).collect()
+}

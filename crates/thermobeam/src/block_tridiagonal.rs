@@ -26,28 +26,33 @@ pub(crate) struct Factor<T, const B: usize> {
     pub(crate) nodes: Vec<Node<T, B>>,
 }
 
+// Loops over arrays that are written in place: the compiler keeps them in registers, which it does not do with
+// `std::array::from_fn`.
+
 /// `matrix * vector`.
 #[inline(always)]
 pub(crate) fn times<T: Lane, const B: usize>(matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
-    std::array::from_fn(|row| {
+    let mut product = vector;
+    for row in 0..B {
         let mut sum = matrix[row][0] * vector[0];
         for column in 1..B {
             sum = matrix[row][column].mul_add(vector[column], sum);
         }
-        sum
-    })
+        product[row] = sum;
+    }
+    product
 }
 
 /// `start - matrix * vector`.
 #[inline(always)]
 pub(crate) fn minus_times<T: Lane, const B: usize>(start: [T; B], matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
-    std::array::from_fn(|row| {
-        let mut sum = start[row];
+    let mut result = start;
+    for row in 0..B {
         for column in 0..B {
-            sum = (-matrix[row][column]).mul_add(vector[column], sum);
+            result[row] = (-matrix[row][column]).mul_add(vector[column], result[row]);
         }
-        sum
-    })
+    }
+    result
 }
 
 /// `start - matrixᵀ * vector`.
@@ -57,13 +62,13 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
     matrix: &Block<T, B>,
     vector: [T; B],
 ) -> [T; B] {
-    std::array::from_fn(|row| {
-        let mut sum = start[row];
+    let mut result = start;
+    for row in 0..B {
         for column in 0..B {
-            sum = (-matrix[column][row]).mul_add(vector[column], sum);
+            result[row] = (-matrix[column][row]).mul_add(vector[column], result[row]);
         }
-        sum
-    })
+    }
+    result
 }
 
 /// Inverse of a symmetric block by Gauss-Jordan elimination on the diagonal, with the pivots met.

@@ -79,7 +79,11 @@ impl<const W: usize> Lane for Lanes<W> {
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Self(std::array::from_fn(|k| fma(self.0[k], factor.0[k], addend.0[k])))
+        let mut result = addend;
+        for k in 0..W {
+            result.0[k] = fma(self.0[k], factor.0[k], addend.0[k]);
+        }
+        result
     }
 }
 
@@ -87,7 +91,11 @@ impl<const W: usize> Add for Lanes<W> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+        let mut result = self;
+        for k in 0..W {
+            result.0[k] = self.0[k] + other.0[k];
+        }
+        result
     }
 }
 
@@ -95,7 +103,11 @@ impl<const W: usize> Sub for Lanes<W> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+        let mut result = self;
+        for k in 0..W {
+            result.0[k] = self.0[k] - other.0[k];
+        }
+        result
     }
 }
 
@@ -103,7 +115,11 @@ impl<const W: usize> Mul for Lanes<W> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
+        let mut result = self;
+        for k in 0..W {
+            result.0[k] = self.0[k] * other.0[k];
+        }
+        result
     }
 }
 
@@ -111,6 +127,10 @@ impl<const W: usize> Neg for Lanes<W> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(std::array::from_fn(|k| -self.0[k]))
+        let mut result = self;
+        for k in 0..W {
+            result.0[k] = -self.0[k];
+        }
+        result
     }
 }

@@ -154,10 +154,11 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
         let (mut pending, mut y) = ([zero; B], [zero; B]);
         for i in 1..count {
             let x = if FIRST {
-                let x = std::array::from_fn(|k| {
+                let mut x = history[0][i];
+                for k in 0..B {
                     let sum = history[1][i][k].mul_add(weights[1], history[2][i][k] * weights[2]);
-                    history[0][i][k].mul_add(weights[0], sum)
-                });
+                    x[k] = x[k].mul_add(weights[0], sum);
+                }
                 iterate[i] = x;
                 x
             } else {
@@ -166,9 +167,12 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
             let right = nodal(scalars, m, x, old[i], old_velocity[i]);
             let (to_left, to_right) = element(scalars, elements[i], &left, &right);
             if i > 1 {
-                let mut residual: [T; B] = std::array::from_fn(|k| pending[k] + to_left[k]);
-                if LOADED {
-                    residual = std::array::from_fn(|k| residual[k] - load[i - 1][k]);
+                let mut residual = to_left;
+                for k in 0..B {
+                    residual[k] = pending[k] + residual[k];
+                    if LOADED {
+                        residual[k] = residual[k] - load[i - 1][k];
+                    }
                 }
                 y = minus_times(signed(residual), &nodes[i - 1].multiplier, y);
                 middle[i - 1] = times(&nodes[i - 1].inverse, y);
@@ -177,7 +181,9 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
         }
         let tip = count - 1;
         if LOADED {
-            pending = std::array::from_fn(|k| pending[k] - load[tip][k]);
+            for k in 0..B {
+                pending[k] = pending[k] - load[tip][k];
+            }
         }
         if B == 3 {
             pending[2] = zero;
@@ -190,7 +196,9 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
 /// -R for the symmetric system, whose third row is negated.
 #[inline(always)]
 fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
-    std::array::from_fn(|k| if k == 2 { residual[k] } else { -residual[k] })
+    let mut right = residual;
+    (right[0], right[1]) = (-residual[0], -residual[1]);
+    right
 }
 
 #[inline(always)]
@@ -278,7 +286,10 @@ impl<T: Lane, const B: usize> Backward<'_, T, B> {
         let mut sums = Sums { slope_squared: zero, increment_slope_squared: zero };
         let mut delta = self.tip;
         for i in (1..count).rev() {
-            let x: [T; B] = std::array::from_fn(|k| self.active.mul_add(delta[k], iterate[i][k]));
+            let mut x = iterate[i];
+            for k in 0..B {
+                x[k] = self.active.mul_add(delta[k], x[k]);
+            }
             iterate[i] = x;
             let updated = update(self.scalars, x, old[i]);
             new[i] = updated;
@@ -301,5 +312,12 @@ impl<T: Lane, const B: usize> Backward<'_, T, B> {
 /// (u, φ, θ~) at the new level from X.
 #[inline(always)]
 fn update<T: Lane, const B: usize>(s: &Scalars<T>, x: [T; B], old: [T; B]) -> [T; B] {
-    std::array::from_fn(|k| if k == 2 { x[k] + x[k] - old[k] } else { x[k].mul_add(s.dt, old[k]) })
+    let mut new = old;
+    for k in 0..2 {
+        new[k] = x[k].mul_add(s.dt, old[k]);
+    }
+    if B == 3 {
+        new[2] = x[2] + x[2] - old[2];
+    }
+    new
 }

@@ -1,5 +1,6 @@
 //! `run SCENE`: simulates one scene.
 
+mod budget;
 mod json;
 mod summary;
 
@@ -8,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use thermobeam_study::atomic;
+use thermobeam_study::estimate::estimate;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Recording, Run, Simulator, figures};
 
@@ -26,6 +28,9 @@ pub(crate) struct Arguments {
     /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper
+    #[arg(long)]
+    estimate_error: bool,
     /// Show no progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -46,9 +51,20 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let run = simulator.run(recording, &mut |step| bar.set_position(step as u64));
     bar.finish_and_clear();
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
+    // A run that failed has nothing whose error could be estimated.
+    let wanted = arguments.estimate_error && run.failure.is_none();
+    let budget = wanted.then(|| estimate(&scene)).transpose().map_err(|error| format!("error budget: {error}"));
+    let known = budget.as_ref().ok().and_then(Option::as_ref);
     match arguments.format {
-        Format::Text => output::print(&summary::summary(&scene, &run, &written))?,
-        Format::Json => output::print_json(&json::object(&scene, &run))?,
+        Format::Text => {
+            let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
+            output::print(&format!("{}{budget}", summary::summary(&scene, &run, &written)))?;
+        }
+        Format::Json => output::print_json(&json::object(&scene, &run, known))?,
+    }
+    if let Err(reason) = budget {
+        output::complain(&format!("{}: {reason}", arguments.scene.display()));
+        return Ok(Verdict::Fail);
     }
     Ok(match &run.failure {
         None => Verdict::Pass,

@@ -2,8 +2,11 @@
 
 use serde::Serialize;
 use thermobeam::error::{StepError, StepFailure};
+use thermobeam_study::estimate::Budget;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::Run;
+
+use super::budget::{self, ErrorBudget};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Object<'a> {
@@ -25,6 +28,8 @@ pub(super) struct Object<'a> {
     heated: bool,
     contact_steps: usize,
     work: Work,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_budget: Option<ErrorBudget>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
 }
@@ -87,7 +92,7 @@ enum Numbers {
 }
 
 /// The object that `run --format json` prints.
-pub(super) fn object<'a>(scene: &'a Scene, run: &Run) -> Object<'a> {
+pub(super) fn object<'a>(scene: &'a Scene, run: &Run, budget: Option<&Budget>) -> Object<'a> {
     let last = &run.last;
     Object {
         scene: &scene.name,
@@ -118,6 +123,7 @@ pub(super) fn object<'a>(scene: &'a Scene, run: &Run) -> Object<'a> {
         heated: run.is_heated,
         contact_steps: run.contact_steps,
         work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
+        error_budget: budget.map(budget::object),
         failure: run.failure.as_ref().map(failure),
     }
 }

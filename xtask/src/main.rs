@@ -3,6 +3,7 @@
 //! This file only dispatches. A command is a file of its own, with its `Arguments` and a function from them to the exit
 //! status.
 
+mod bench;
 mod equilibria;
 mod exit;
 mod github;
@@ -35,6 +36,7 @@ enum Command {
     List(list::Arguments),
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
+    Bench(bench::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
         Command::Study(arguments) => exit::status(study::study(&arguments)),
         Command::List(arguments) => exit::status(list::list(&arguments)),
+        Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
         Command::Run(arguments) => exit::code(run::run(&arguments)),
         Command::Equilibria(arguments) => exit::code(equilibria::run(&arguments)),
     }

@@ -14,6 +14,7 @@ pub mod fit;
 pub mod junit;
 mod nearest;
 pub mod outcome;
+pub mod pace;
 pub mod plots;
 pub mod provenance;
 pub mod quadrature;

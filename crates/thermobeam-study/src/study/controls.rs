@@ -69,8 +69,25 @@ impl Fault {
     }
 }
 
+/// The studies that a section names, with its own levels where it gives them.
+pub(crate) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<ConvergenceSpec>, InputError> {
+    let allowed = "a list of at least one study file beside this one";
+    let files = section.require("studies", allowed)?.items(allowed)?;
+    let levels = section.get("elements").map(|field| field.items("a list of numbers of elements")).transpose()?;
+    let levels = levels.unwrap_or_default().iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
+    let mut studies = vec![];
+    for file in files {
+        let mut spec = ConvergenceSpec::read(folder.join(file.text()?))?;
+        if !levels.is_empty() {
+            spec.refine.elements.clone_from(&levels);
+        }
+        studies.push(spec);
+    }
+    Ok(studies)
+}
+
 /// The coefficients with one of them off by a relative amount; `None` where it is not there, or zero.
-fn perturbed(
+pub(crate) fn perturbed(
     mut beam: Beam,
     mut obstacles: Option<Obstacles>,
     key: &'static str,
@@ -102,24 +119,7 @@ impl Controls {
         section.allow(&["relative", "studies", "elements"])?;
         let allowed = "a number between 0 and 1";
         let relative = section.require("relative", allowed)?.number_where(allowed, |r| r > 0.0 && r < 1.0)?;
-        let allowed = "a list of at least one study file beside this one";
-        let files = section.require("studies", allowed)?.items(allowed)?;
-        let levels = match section.get("elements") {
-            Some(field) => field
-                .items("a list of numbers of elements")?
-                .iter()
-                .map(tables::elements)
-                .collect::<Result<Vec<_>, _>>()?,
-            None => vec![],
-        };
-        let mut studies = vec![];
-        for file in files {
-            let mut spec = ConvergenceSpec::read(folder.join(file.text()?))?;
-            if !levels.is_empty() {
-                spec.refine.elements.clone_from(&levels);
-            }
-            studies.push(spec);
-        }
+        let studies = named_studies(&section, folder)?;
         Ok(Self { header: header(root)?, relative, studies })
     }
 

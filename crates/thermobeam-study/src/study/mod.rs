@@ -17,6 +17,7 @@ pub mod frequencies;
 mod ladder;
 pub mod rigid;
 pub mod self_convergence;
+pub mod sensitivity;
 mod steady;
 pub mod vibration;
 
@@ -100,6 +101,7 @@ type Reader = fn(&Path) -> Result<Box<dyn Study>, InputError>;
 const KINDS: &[(&str, Reader)] = &[
     (CONVERGENCE, |path| Ok(Box::new(convergence::Convergence::read(path)?))),
     (controls::CONTROLS, |path| Ok(Box::new(controls::Controls::read(path)?))),
+    (sensitivity::SENSITIVITY, |path| Ok(Box::new(sensitivity::Sensitivity::read(path)?))),
     (energy::ENERGY, |path| Ok(Box::new(energy::EnergyDecay::read(path)?))),
     (fixed_point::FIXED_POINT, |path| Ok(Box::new(fixed_point::FixedPoint::read(path)?))),
     (vibration::KIND, |path| Ok(Box::new(vibration::Vibration::read(path)?))),

@@ -1,4 +1,63 @@
-//! Solver for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two obstacles.
+//! Finite elements for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two obstacles.
+//!
+//! The scheme is that of C. Bernardi and M. I. M. Copetti, *Discretization of a dynamic thermoviscoelastic Timoshenko
+//! beam*; equation numbers in this crate are theirs. Everything is dimensionless.
+//!
+//! # The problem
+//!
+//! On 0 < x < 1, with the axial force `N(u) = β + ρ ∫ u_x²`, (1.1):
+//!
+//! ```text
+//! u_tt = u_xx - φ_x + ζ (u_xxt - φ_xt) + N(u) u_xx
+//! φ_tt = φ_xx + u_x - φ + ζ (φ_xxt + u_xt - φ_t) - a θ_x
+//! θ_t  = θ_xx - a φ_xt
+//! ```
+//!
+//! Clamped at x = 0, `u = φ = 0` and `θ = θ_A`; at x = 1 `θ = 0`, `φ_x + ζ φ_xt = 0`, and the stress balances the
+//! obstacles, `σ = -g(u)`, `g(u) = ([u - g_2]_+ - [g_1 - u]_+)/ε`, (1.3).
+//!
+//! | symbol | in the code | meaning |
+//! | --- | --- | --- |
+//! | u, û | `u`, `v` | displacement and its velocity |
+//! | φ, φ̂ | `phi`, `w` | rotation of the cross section and its velocity |
+//! | θ, θ~ | `theta` | temperature; in a [`Level`](solve::Level) lifted, `θ~ = θ - θ_A (1 - x)` |
+//! | ζ, a, ρ, β, θ_A | [`Beam`](parameters::Beam) | viscosity, thermal coupling, Kirchhoff coefficient, axial force at rest, clamped end's temperature |
+//! | ε, g_1, g_2 | [`Obstacles`](parameters::Obstacles) | compliance and positions of the obstacles |
+//! | h, δt | `lengths`, `dt` | element lengths, time step |
+//!
+//! # From data to levels
+//!
+//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
+//! one [`scheme`] by one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Beside it, exact
+//! answers: [`equilibrium`], [`vibration`], [`contraction`]. The crate does no input or output and starts no threads; a
+//! failure is a value ([`error`]), and after it the simulation stands where it stood.
+//!
+//! ```
+//! use thermobeam::mesh::Mesh;
+//! use thermobeam::parameters::{Beam, Obstacles};
+//! use thermobeam::scheme::EULER_CRANK_NICOLSON;
+//! use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+//! use thermobeam::solve::Settings;
+//!
+//! // The paper's beam, pushed upwards, meets its upper obstacle.
+//! let mesh = Mesh::uniform(50)?;
+//! let mut initial = Initial::at_rest(&mesh, 0.0);
+//! initial.u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();
+//! let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
+//! let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings: Settings::default(), dt: 1e-3, loaded: false };
+//! let mut simulation = Simulation::new(problem, stepping)?;
+//! let (mut old, mut touched) = (simulation.level(), false);
+//! for _ in 0..300 {
+//!     simulation.advance()?;
+//!     let new = simulation.level();
+//!     touched |= new.contact_force > 0.0;
+//!     // Proposition 3.1: the energy falls in every step.
+//!     assert!(simulation.balance(&old, &new).change < 0.0);
+//!     old = new;
+//! }
+//! assert!(touched);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod assembly;
 mod block_tridiagonal;

@@ -60,6 +60,15 @@ pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
     })
 }
 
+/// Reads a file and hands its topmost table, and the folder that its own file names are relative to, to `read`.
+pub(crate) fn read<T>(
+    path: &Path,
+    read: impl FnOnce(&Section<'_>, &Path) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    parse(&read_text(path)?, &path.display().to_string(), |root| read(root, folder))
+}
+
 /// Parses `text` and hands its topmost table to `read`.
 pub(crate) fn parse<T>(
     text: &str,

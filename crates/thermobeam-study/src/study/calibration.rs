@@ -38,8 +38,7 @@ impl RuleCalibration {
     /// # Errors
     /// [`InputError`] with the place of the mistake.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let text = document::read_text(path)?;
-        document::parse(&text, &path.display().to_string(), Self::from_document)
+        document::read(path, |root, _| Self::from_document(root))
     }
 
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {

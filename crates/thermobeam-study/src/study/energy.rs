@@ -58,9 +58,7 @@ impl EnergyDecay {
     /// # Errors
     /// [`InputError`] with the place of the mistake.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let text = document::read_text(path)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
-        document::parse(&text, &path.display().to_string(), |root| Self::from_document(root, folder))
+        document::read(path, Self::from_document)
     }
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {

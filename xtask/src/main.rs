@@ -5,9 +5,11 @@
 
 mod equilibria;
 mod exit;
+mod merge;
 mod output;
 mod progress;
 mod run;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -25,12 +27,16 @@ struct Xtask {
 enum Command {
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
+    Sweep(sweep::Arguments),
+    Merge(merge::Arguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Xtask::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Equilibria(arguments) => equilibria::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
     };
     exit::code(outcome)
 }

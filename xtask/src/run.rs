@@ -1,6 +1,5 @@
 //! `run SCENE`: simulates one scene.
 
-mod json;
 mod summary;
 
 use std::io;
@@ -9,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use thermobeam_study::atomic;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{Recording, Run, Simulator, figures};
+use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
 
 use crate::exit::{Outcome, Unusable, Verdict};
 use crate::output::{self, Format};
@@ -48,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
     match arguments.format {
         Format::Text => output::print(&summary::summary(&scene, &run, &written))?,
-        Format::Json => output::print_json(&json::object(&scene, &run))?,
+        Format::Json => output::print_json(&Object::new(&scene, &run))?,
     }
     Ok(match &run.failure {
         None => Verdict::Pass,

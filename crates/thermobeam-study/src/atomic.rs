@@ -1,7 +1,7 @@
 //! Files that are there whole or not at all.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -13,8 +13,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// # Errors
 /// That of the operating system, `path` named in front of it; nothing stays behind.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
+    write_with(path, |file| file.write_all(bytes.as_ref()))
+}
+
+/// As [`write`], for content that is too long to be held in memory: `fill` writes it piece by piece.
+///
+/// # Errors
+/// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     let beside = name_beside(path)?;
-    let outcome = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    let filled = File::create(&beside).map(BufWriter::new).and_then(|mut file| {
+        fill(&mut file)?;
+        file.flush()
+    });
+    let outcome = filled.and_then(|()| fs::rename(&beside, path));
     outcome.map_err(|error| {
         // The first error is the one to tell; where even the file beside could not be made there is nothing to remove.
         let _ = fs::remove_file(&beside);
@@ -43,7 +55,7 @@ fn name_beside(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(name))
 }
 
-fn naming(path: &Path, error: &io::Error) -> io::Error {
+pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 

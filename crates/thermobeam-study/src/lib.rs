@@ -17,4 +17,5 @@ mod shared_tables;
 pub mod simulate;
 pub mod study;
 pub mod study_file;
+pub mod sweep;
 pub mod verdict;

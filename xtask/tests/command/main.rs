@@ -3,6 +3,7 @@
 mod equilibria;
 mod failure;
 mod run;
+mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -3,11 +3,15 @@
 //! This file only dispatches. A command is a file of its own, with its `Arguments` and a function `run` from them to an
 //! [`exit::Outcome`].
 
+mod completions;
 mod equilibria;
 mod exit;
+mod explain;
 mod merge;
+mod new;
 mod output;
 mod progress;
+mod rates;
 mod run;
 mod sweep;
 
@@ -29,6 +33,10 @@ enum Command {
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
+    Rates(rates::Arguments),
+    New(new::Arguments),
+    Explain(explain::Arguments),
+    Completions(completions::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -37,6 +45,10 @@ fn main() -> ExitCode {
         Command::Equilibria(arguments) => equilibria::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
+        Command::Rates(arguments) => rates::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
     };
     exit::code(outcome)
 }

@@ -2,6 +2,8 @@
 
 mod equilibria;
 mod failure;
+mod first_steps;
+mod rates;
 mod run;
 mod sweep;
 

@@ -8,6 +8,7 @@ pub mod calibration;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
+pub mod explain;
 pub mod fixed_point;
 
 use crate::document::InputError;

@@ -21,3 +21,8 @@ pub mod study_file;
 pub mod sweep;
 pub mod template;
 pub mod verdict;
+
+/// The code of the README, held by the doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

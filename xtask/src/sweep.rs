@@ -41,8 +41,9 @@ pub(crate) struct Arguments {
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let sweep = Sweep::read(&arguments.file)?;
-    let mine: Vec<usize> =
-        (0..sweep.cases()).filter(|&index| arguments.partition.holds(sweep.case(index).hash())).collect();
+    let share = arguments.partition;
+    let is_mine = |index: &usize| share == Share::ALL || share.holds(sweep.case(*index).hash());
+    let mine: Vec<usize> = (0..sweep.cases()).filter(is_mine).collect();
     let failed = match &arguments.out {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
         None => to_stdout(arguments, &sweep, mine)?,

@@ -16,7 +16,7 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     write_with(path, |file| file.write_all(bytes.as_ref()))
 }
 
-/// As [`write`], for content that is too long to be held in memory: `fill` writes it piece by piece.
+/// As [`write()`], for content that is too long to be held in memory: `fill` writes it piece by piece.
 ///
 /// # Errors
 /// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.

@@ -120,13 +120,13 @@ fn text(table: &RateTable, rates: &[(String, RateVerdict)]) -> String {
     text.push('\n');
     let levels = table.columns.first().map_or(0, |(_, levels)| levels.len());
     for level in 0..levels {
-        let _ = write!(text, "{:>12.4e}", table.columns[0].1[level].step);
+        let mut line = format!("{:>12.4e}", table.columns[0].1[level].step);
         for ((_, levels), (_, rate)) in table.columns.iter().zip(rates) {
             let pairwise = level.checked_sub(1).and_then(|before| rate.pairwise.get(before));
             let pairwise = pairwise.map_or(String::new(), |rate| format!("{rate:.3}"));
-            let _ = write!(text, "{:>16.4e}{pairwise:>8}", levels[level].error);
+            let _ = write!(line, "{:>16.4e}{pairwise:>8}", levels[level].error);
         }
-        text.push('\n');
+        let _ = writeln!(text, "{}", line.trim_end());
     }
     text.push('\n');
     for (name, rate) in rates {

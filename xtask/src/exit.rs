@@ -27,6 +27,11 @@ impl Unusable {
     pub(crate) fn file(path: &Path, error: &dyn Error) -> Self {
         Self(format!("{}: {error}", path.display()))
     }
+
+    /// Something that is wrong with the arguments.
+    pub(crate) fn because(reason: &str) -> Self {
+        Self(reason.to_owned())
+    }
 }
 
 impl<E: Error> From<E> for Unusable {

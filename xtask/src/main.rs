@@ -4,16 +4,22 @@
 //! status.
 
 mod bench;
+mod completions;
 mod equilibria;
 mod exit;
+mod explain;
 mod github;
 mod list;
+mod merge;
+mod new;
 mod output;
 mod progress;
+mod rates;
 mod run;
 mod screen;
 mod selection;
 mod study;
+mod sweep;
 mod verify;
 mod workspace;
 
@@ -34,9 +40,15 @@ enum Command {
     Verify(verify::Arguments),
     Study(study::Arguments),
     List(list::Arguments),
+    Explain(explain::Arguments),
+    New(new::Arguments),
+    Rates(rates::Arguments),
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
+    Sweep(sweep::Arguments),
+    Merge(merge::Arguments),
     Bench(bench::Arguments),
+    Completions(completions::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -44,8 +56,14 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
         Command::Study(arguments) => exit::status(study::study(&arguments)),
         Command::List(arguments) => exit::status(list::list(&arguments)),
-        Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
+        Command::Explain(arguments) => exit::code(explain::run(&arguments)),
+        Command::New(arguments) => exit::code(new::run(&arguments)),
+        Command::Rates(arguments) => exit::code(rates::run(&arguments)),
         Command::Run(arguments) => exit::code(run::run(&arguments)),
         Command::Equilibria(arguments) => exit::code(equilibria::run(&arguments)),
+        Command::Sweep(arguments) => exit::code(sweep::run(&arguments)),
+        Command::Merge(arguments) => exit::code(merge::run(&arguments)),
+        Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
+        Command::Completions(arguments) => exit::code(completions::run(&arguments)),
     }
 }

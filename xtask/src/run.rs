@@ -1,7 +1,5 @@
 //! `run SCENE`: simulates one scene.
 
-mod budget;
-mod json;
 mod summary;
 
 use std::io;
@@ -11,7 +9,7 @@ use clap::Args;
 use thermobeam_study::atomic;
 use thermobeam_study::estimate::estimate;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{Recording, Run, Simulator, figures};
+use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
 
 use crate::exit::{Outcome, Unusable, Verdict};
 use crate::output::{self, Format};
@@ -60,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
             output::print(&format!("{}{budget}", summary::summary(&scene, &run, &written)))?;
         }
-        Format::Json => output::print_json(&json::object(&scene, &run, known))?,
+        Format::Json => output::print_json(&Object::new(&scene, &run).with_budget(known))?,
     }
     if let Err(reason) = budget {
         output::complain(&format!("{}: {reason}", arguments.scene.display()));

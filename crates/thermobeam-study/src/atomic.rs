@@ -1,7 +1,7 @@
 //! Files that are there as a whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,16 +13,25 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// # Errors
 /// What the file system says, the file named in front; the old file is then untouched and nothing is left beside it.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
+    write_with(path, |file| file.write_all(bytes.as_ref()))
+}
+
+/// As [`write()`], for content that is too long to be held in memory: `fill` writes it piece by piece.
+///
+/// # Errors
+/// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let naming = |error: io::Error| naming(path, &error);
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder)?;
+        fs::create_dir_all(folder).map_err(naming)?;
     }
     let beside = name_beside(path)?;
-    let written = write_through(&beside, bytes.as_ref()).and_then(|()| fs::rename(&beside, path));
+    let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
         // The first error is the one to tell; that the rest cannot be cleared away follows from it.
         let _ = fs::remove_file(&beside);
     }
-    written
+    written.map_err(naming)
 }
 
 /// Makes the folder, with those above it, and proves that files can be written to it.
@@ -30,7 +39,7 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 /// # Errors
 /// That of the operating system, `folder` named in front of it.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
-    let naming = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", folder.display()));
+    let naming = |error: io::Error| naming(folder, &error);
     fs::create_dir_all(folder).map_err(naming)?;
     let probe = name_beside(&folder.join("probe"))?;
     fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
@@ -38,9 +47,17 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
 
 /// Writes a file and waits until it is on the disk.
 pub(crate) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create_new(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+    fill_through(path, |file| file.write_all(bytes))
+}
+
+fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut file = BufWriter::new(File::create_new(path)?);
+    fill(&mut file)?;
+    file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+}
+
+pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
 /// A name in the same folder that no other thread or process uses.

@@ -11,7 +11,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 pub use error::{Complaint, InputError, Place};
 pub(crate) use field::Field;
@@ -76,12 +77,41 @@ pub(crate) fn parse<T>(
     read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let source = Source { file, text };
+    let root = table(source, text)?;
+    read(&Section::root(source, &root))
+}
+
+/// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.
+///
+/// Places in complaints are those in `text`, a newline and `overlay`, one after the other.
+pub(crate) fn parse_overlaid<T>(
+    text: &str,
+    overlay: &str,
+    file: &str,
+    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let whole = format!("{text}\n{overlay}");
+    let source = Source { file, text: &whole };
+    // Behind as much blank space as the text is long, values have the places that they have in the whole.
+    let shifted = " ".repeat(text.len() + 1) + overlay;
+    let mut root = table(source, text)?;
+    for (key, value) in table(source, &shifted)? {
+        let below = root.get_mut(&key).map(Spanned::get_mut);
+        match (below, value.get_ref()) {
+            (Some(DeValue::Table(below)), DeValue::Table(above)) => below.extend(above.clone()),
+            _ => drop(root.insert(key, value)),
+        }
+    }
+    read(&Section::root(source, &root))
+}
+
+/// The topmost table of `text`, whose places are those of `source`.
+fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
     // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
-    let root = DeTable::parse(text).map_err(|error| InputError {
-        file: file.to_owned(),
+    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| InputError {
+        file: source.file.to_owned(),
         place: Some(source.place(error.span().map_or(text.len(), |span| span.start))),
         field: None,
         complaint: Box::new(Complaint::Malformed { reason: error.message().to_owned() }),
-    })?;
-    read(&Section::root(source, root.get_ref()))
+    })
 }

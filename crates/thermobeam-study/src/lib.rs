@@ -19,6 +19,7 @@ pub mod plots;
 pub mod provenance;
 pub mod quadrature;
 mod random;
+pub mod rates;
 pub mod record;
 pub mod report;
 pub mod rerun;
@@ -29,5 +30,12 @@ pub mod shelf;
 pub mod simulate;
 pub mod study;
 pub mod study_file;
+pub mod sweep;
+pub mod template;
 pub mod verdict;
 pub mod verification;
+
+/// The code of the README, held by the doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

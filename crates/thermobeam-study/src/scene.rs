@@ -82,8 +82,12 @@ impl Scene {
 
     /// Reads a scene from `text`; complaints and the scene's name refer to `file_name`.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let stem = Path::new(file_name).file_stem().map_or(file_name.into(), |stem| stem.to_string_lossy());
-        document::parse(text, file_name, |root| Self::from_document(root, stem.into_owned()))
+        document::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
+    }
+
+    /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
+    pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
+        document::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
@@ -98,6 +102,11 @@ impl Scene {
         let initial = initial(root, &beam, &mesh)?;
         Ok(Self { name, beam, obstacles, initial, mesh, dt, t_end, steps, scheme, settings })
     }
+}
+
+/// A file's name without folder and extension.
+pub(crate) fn stem(file_name: &str) -> String {
+    Path::new(file_name).file_stem().map_or(file_name.into(), |stem| stem.to_string_lossy()).into_owned()
 }
 
 /// dt, t_end and the number of steps.

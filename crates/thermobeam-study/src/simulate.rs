@@ -18,7 +18,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod budget;
 mod figures;
+mod object;
 mod record;
 
 use std::time::{Duration, Instant};
@@ -33,6 +35,7 @@ use crate::expression::Expression;
 use crate::scene::Scene;
 
 pub use figures::{energy_at_rest, figures};
+pub use object::Object;
 pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
 
 /// Where x = 1/2 lies in a mesh.

@@ -2,7 +2,10 @@
 
 mod equilibria;
 mod failure;
+mod first_steps;
+mod rates;
 mod run;
+mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -115,6 +115,11 @@ impl<'a> Field<'a> {
         Ok(items.iter().enumerate().map(item).collect())
     }
 
+    /// Is it a table?
+    pub(crate) fn is_table(&self) -> bool {
+        self.value.is_table()
+    }
+
     /// Is it a list?
     pub(crate) fn is_list(&self) -> bool {
         self.value.is_array()

@@ -1,7 +1,8 @@
 //! The convergence of the paper's fixed point (4.1)-(4.5), which the paper leaves out.
 //!
 //! In contact its error shrinks by `α = dt/ε [A_u⁻¹]_nn` per iteration and past α = 1 it diverges
-//! ([`contact_contraction`](thermobeam::contraction::contact_contraction)); measured over all combinations of dt, ε and ζ. On a scene it agrees with Newton's method,
+//! ([`contact_contraction`](thermobeam::contraction::contact_contraction)); measured over all combinations of dt, ε and ζ.
+//! On a scene it agrees with Newton's method,
 //! and its tolerance η* bounds its error.
 //!
 //! ```toml

@@ -12,6 +12,7 @@ pub mod convergence;
 pub mod energy;
 pub mod equilibrium;
 pub mod experiment;
+pub mod explain;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;

@@ -2,14 +2,15 @@
 
 use serde::Serialize;
 use thermobeam::error::{StepError, StepFailure};
-use thermobeam_study::estimate::Budget;
-use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::Run;
 
+use super::Run;
 use super::budget::{self, ErrorBudget};
+use crate::estimate::Budget;
+use crate::scene::Scene;
 
+/// The object that `run --format json` prints.
 #[derive(Debug, Serialize)]
-pub(super) struct Object<'a> {
+pub struct Object<'a> {
     scene: &'a str,
     elements: usize,
     /// Steps done: fewer than asked for where the run failed.
@@ -17,7 +18,8 @@ pub(super) struct Object<'a> {
     dt: f64,
     t_end: f64,
     iterations: Iterations,
-    wall_seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_seconds: Option<f64>,
     #[serde(rename = "final")]
     last: Final,
     extremes: Extremes,
@@ -91,40 +93,52 @@ enum Numbers {
     Indefinite { node: usize, pivot: f64, n_value: f64 },
 }
 
-/// The object that `run --format json` prints.
-pub(super) fn object<'a>(scene: &'a Scene, run: &Run, budget: Option<&Budget>) -> Object<'a> {
-    let last = &run.last;
-    Object {
-        scene: &scene.name,
-        elements: scene.mesh.elements(),
-        steps: run.steps,
-        dt: scene.dt,
-        t_end: scene.t_end,
-        iterations: Iterations { total: run.iterations.total, max: run.iterations.max },
-        wall_seconds: run.wall.as_secs_f64(),
-        last: Final {
-            t: last.t,
-            u_tip: last.u_tip,
-            phi_tip: last.phi_tip,
-            u_t_tip: last.u_t_tip,
-            phi_t_tip: last.phi_t_tip,
-            theta_mid: last.theta_mid,
-            energy: last.energy,
-        },
-        extremes: Extremes { u_tip_min: run.extremes.u_tip_min, u_tip_max: run.extremes.u_tip_max },
-        energy: Energy {
-            initial: run.energy.initial,
-            last: run.energy.last,
-            largest_increase: run.energy.largest_increase,
-            largest_balance_residual: run.energy.largest_balance_residual,
-        },
-        scheme: scene.scheme.name,
-        solver: scene.settings.solver.name(),
-        heated: run.is_heated,
-        contact_steps: run.contact_steps,
-        work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
-        error_budget: budget.map(budget::object),
-        failure: run.failure.as_ref().map(failure),
+impl<'a> Object<'a> {
+    /// Everything there is to say about a run.
+    pub fn new(scene: &'a Scene, run: &Run) -> Self {
+        Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
+    }
+
+    /// The same with an error budget.
+    pub fn with_budget(self, budget: Option<&Budget>) -> Self {
+        Self { error_budget: budget.map(budget::object), ..self }
+    }
+
+    /// The same without the time on the clock: the same run gives the same bytes.
+    pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
+        let last = &run.last;
+        Self {
+            scene: &scene.name,
+            elements: scene.mesh.elements(),
+            steps: run.steps,
+            dt: scene.dt,
+            t_end: scene.t_end,
+            iterations: Iterations { total: run.iterations.total, max: run.iterations.max },
+            wall_seconds: None,
+            last: Final {
+                t: last.t,
+                u_tip: last.u_tip,
+                phi_tip: last.phi_tip,
+                u_t_tip: last.u_t_tip,
+                phi_t_tip: last.phi_t_tip,
+                theta_mid: last.theta_mid,
+                energy: last.energy,
+            },
+            extremes: Extremes { u_tip_min: run.extremes.u_tip_min, u_tip_max: run.extremes.u_tip_max },
+            energy: Energy {
+                initial: run.energy.initial,
+                last: run.energy.last,
+                largest_increase: run.energy.largest_increase,
+                largest_balance_residual: run.energy.largest_balance_residual,
+            },
+            scheme: scene.scheme.name,
+            solver: scene.settings.solver.name(),
+            heated: run.is_heated,
+            contact_steps: run.contact_steps,
+            work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
+            error_budget: None,
+            failure: run.failure.as_ref().map(failure),
+        }
     }
 }
 

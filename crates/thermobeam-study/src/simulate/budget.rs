@@ -1,7 +1,7 @@
 //! The error budget of a run, as an addition to its JSON object.
 
+use crate::estimate::{Budget, Estimate, Source};
 use serde::Serialize;
-use thermobeam_study::estimate::{Budget, Source};
 
 /// Added to the object only where it was asked for.
 #[derive(Debug, Serialize)]
@@ -25,7 +25,7 @@ struct Quantity {
 
 /// The budget in the form in which it is printed.
 pub(super) fn object(budget: &Budget) -> ErrorBudget {
-    let quantity = |estimate: &thermobeam_study::estimate::Estimate| Quantity {
+    let quantity = |estimate: &Estimate| Quantity {
         name: estimate.name,
         value: estimate.value,
         space: estimate.error(Source::Space),

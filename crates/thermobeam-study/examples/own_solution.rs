@@ -1,0 +1,74 @@
+//! A manufactured solution of one's own, in Rust and in TOML: the same study.
+//!
+//! `cargo run -p thermobeam-study --example own_solution`
+
+use std::error::Error;
+
+use thermobeam::parameters::Beam;
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::solve::Settings;
+use thermobeam_study::expression::{Expression, ExpressionError, Variable};
+use thermobeam_study::outcome::Outcome;
+use thermobeam_study::study::{Study, convergence::Convergence};
+use thermobeam_study::study_file::{Axis, ConvergenceSpec, Expectation, Manufactured, Norm, Product, Refine, Tier};
+
+const TOML: &str = r#"
+    study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
+    exact.u = [{ x = "sin(2*x)", t = "cos(t)" }]
+    exact.phi = [{ x = "x^2", t = "exp(-t)" }]
+    refine = { axis = "space", isolate = true, elements = [16, 32, 64, 128, 256], steps = 10, t_end = 1.0, tolerance = 1e-13 }
+    expect = [{ norm = "superclose", order = 2.0, tolerance = 0.02 }]
+"#;
+
+fn product(x: &str, t: &str) -> Result<Vec<Product>, ExpressionError> {
+    Ok(vec![Product { x: Expression::parse(x, Variable::X)?, t: Expression::parse(t, Variable::T)? }])
+}
+
+fn in_rust() -> Result<ConvergenceSpec, ExpressionError> {
+    let exact = Manufactured { u: product("sin(2*x)", "cos(t)")?, phi: product("x^2", "exp(-t)")?, theta: vec![] };
+    let refine = Refine {
+        axis: Axis::Space,
+        isolate: true,
+        elements: vec![16, 32, 64, 128, 256],
+        steps: vec![10],
+        grid: false,
+        t_end: 1.0,
+        map: None,
+        perturbation: None,
+        scheme: EULER_CRANK_NICOLSON,
+        settings: Settings { tolerance: 1e-13, ..Settings::default() },
+    };
+    Ok(ConvergenceSpec {
+        id: "my-own".to_owned(),
+        claim: "Second order to the interpolant".to_owned(),
+        tier: Tier::Quick,
+        beam: Beam::default(),
+        obstacles: None,
+        exact,
+        refine,
+        control: None,
+        expect: vec![Expectation { norm: Norm::Superclose, order: 2.0, tolerance: 0.02 }],
+    })
+}
+
+fn run(spec: ConvergenceSpec) -> Outcome {
+    let study = Convergence::new(spec);
+    // Cases are pure: run them in any order, on any thread.
+    let results: Vec<_> = (0..study.cases().len()).map(|case| study.run(case)).collect();
+    study.conclude(&results)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (rust, toml) = (run(in_rust()?), run(ConvergenceSpec::parse(TOML, "my-own.toml")?));
+    for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
+        println!("n = {:3}   superclose {error:.4e}", level.elements);
+    }
+    println!("{}: {}", rust.verdict, rust.rates[0].1.reason);
+    assert_eq!(rust.levels, toml.levels);
+    Ok(())
+}
+
+#[test]
+fn it_runs() {
+    main().unwrap();
+}

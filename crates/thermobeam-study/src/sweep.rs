@@ -1,0 +1,120 @@
+//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene.
+//!
+//! ```toml
+//! [sweep]
+//! scene = "scenes/paper-1-beta-0.toml"      # a file beside this one
+//!
+//! [set]                                     # optional: what every case has in common
+//! time.t_end = 1.0
+//! initial.theta = "{beam.theta_a}*(1-x)"    # {key}: the case's value of a key that varies
+//!
+//! [grid]                                    # every combination, the last key running fastest
+//! beam.beta = [-0.5, 0.0, 5.0]
+//! beam.theta_a = { from = 0.0, to = 20.0, count = 5 }
+//! obstacles.epsilon = { from = 1e-4, to = 1e-2, count = 3, scale = "log" }
+//! ```
+//!
+//! or, in place of `[grid]`,
+//!
+//! ```toml
+//! [latin]                                   # as many cases as samples, each key stratified into as many slices
+//! samples = 1000
+//! seed = 1
+//! beam.beta = { from = -0.5, to = 5.0 }
+//! mesh.elements = { from = 20, to = 200, scale = "log" }
+//! ```
+//!
+//! Cases are numbered from 0. A case's results are a function of the files alone: any number of threads, of shares and of
+//! interruptions ends in the same bytes. Numbers that are computed rather than listed are rounded to 9 digits, so that
+//! the logarithm of another machine's library does not move a case to another share.
+
+mod case;
+mod design;
+mod error;
+mod join;
+mod journal;
+mod key;
+mod reader;
+mod run;
+mod share;
+mod values;
+
+use std::path::Path;
+
+use crate::document::{self, InputError};
+use crate::scene::Scene;
+
+pub use case::Case;
+pub use error::SweepError;
+pub use join::{Merged, merge};
+pub use journal::{Journal, Manifest, RESULTS};
+pub use key::Key;
+pub use run::{InOrder, Line, run};
+pub use share::{Share, content_hash};
+
+use design::Design;
+use reader::Template;
+
+/// Cases of a sweep: more would take a machine longer than it lasts.
+pub const MOST_CASES: usize = 100_000_000;
+
+/// A sweep file, read and validated.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// The file's name without folder and extension.
+    pub name: String,
+    base: Base,
+    template: Template,
+    keys: Vec<Key>,
+    design: Design,
+    fingerprint: u64,
+}
+
+/// The base scene, as text: every case reads it with its own values laid over it.
+#[derive(Debug, Clone)]
+struct Base {
+    file: String,
+    text: String,
+}
+
+impl Sweep {
+    /// Reads a sweep file and the scene that it names.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place of the mistake. A number that the scene cannot have is one, wherever it does not
+    /// depend on the other numbers of the case; what does is found when the case is run.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        let text = document::read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        document::parse(&text, &path.display().to_string(), |root| reader::read(root, &text, path, folder))
+    }
+
+    /// How many cases there are.
+    pub fn cases(&self) -> usize {
+        self.design.cases()
+    }
+
+    /// The keys that vary, in the order of a case's values.
+    pub fn keys(&self) -> &[Key] {
+        &self.keys
+    }
+
+    /// Case number `index`, from 0.
+    pub fn case(&self, index: usize) -> Case<'_> {
+        Case::new(index, &self.keys, self.design.values(index, &self.keys))
+    }
+
+    /// The scene of a case.
+    ///
+    /// # Errors
+    /// [`InputError`] where the case's numbers do not go together, such as a dt that does not divide t_end.
+    pub fn scene(&self, case: &Case<'_>) -> Result<Scene, InputError> {
+        Scene::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
+    }
+
+    /// A number that changes with the sweep file or the base scene.
+    pub fn fingerprint(&self) -> u64 {
+        self.fingerprint
+    }
+}

@@ -1,0 +1,221 @@
+//! The folder of a sweep: what it is of, what is done, and in the end the results in order.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `sweep.json` | the sweep, its share, the number of cases: a [`Manifest`] |
+//! | `journal.jsonl` | a line for each case that is done, as they came; gone when all are |
+//! | `results.jsonl` | the same lines in the order of the cases, when all are done |
+//!
+//! A line is written by one call of the operating system, when its case is done and before the next one begins. So a
+//! process that is killed loses the cases that it was at, and leaves at most one torn line, which the next one removes.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::join::{self, Place};
+use super::{Line, Share, Sweep, SweepError};
+use crate::atomic;
+
+/// What the folder is of.
+const MANIFEST: &str = "sweep.json";
+
+/// Lines as they came.
+pub(super) const JOURNAL: &str = "journal.jsonl";
+
+/// Lines in the order of the cases: the result.
+pub const RESULTS: &str = "results.jsonl";
+
+/// What a folder of results is of.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// The sweep's name.
+    pub sweep: String,
+    /// Hash of sweep file and scene.
+    pub fingerprint: String,
+    /// Version of the program: another one may compute other bits.
+    pub version: String,
+    /// Cases of the whole sweep.
+    pub cases: usize,
+    /// The share, such as `3/8`.
+    pub share: String,
+}
+
+impl Manifest {
+    /// That of a share of a sweep.
+    pub fn new(sweep: &Sweep, share: Share) -> Self {
+        Self {
+            sweep: sweep.name.clone(),
+            fingerprint: format!("{:016x}", sweep.fingerprint()),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            cases: sweep.cases(),
+            share: share.to_string(),
+        }
+    }
+
+    /// That of a folder; `None` where there is none.
+    fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
+        let path = folder.join(MANIFEST);
+        match std::fs::read(&path) {
+            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| SweepError::Damaged {
+                file: path,
+                line: None,
+                reason: format!("not that of a sweep: {error}"),
+            }),
+            Err(error) if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
+            Err(error) => Err(atomic::naming(&path, &error).into()),
+        }
+    }
+
+    /// That of a folder which must have one.
+    pub(super) fn require(folder: &Path) -> Result<Self, SweepError> {
+        let missing = || SweepError::Damaged {
+            file: folder.to_owned(),
+            line: None,
+            reason: format!("not the folder of a sweep: it has no {MANIFEST}"),
+        };
+        Self::read(folder)?.ok_or_else(missing)
+    }
+
+    /// Refuses the folder of another sweep.
+    pub(super) fn agrees_but_for_share(&self, expected: &Self, folder: &Path) -> Result<(), SweepError> {
+        let pairs = [
+            ("the sweep", &self.sweep, &expected.sweep),
+            ("the hash of sweep file and scene", &self.fingerprint, &expected.fingerprint),
+            ("the program's version", &self.version, &expected.version),
+        ];
+        match pairs.into_iter().find(|(_, found, expected)| found != expected) {
+            None => Ok(()),
+            Some((what, found, expected)) => Err(SweepError::Other {
+                folder: folder.to_owned(),
+                what,
+                found: found.clone(),
+                expected: expected.clone(),
+            }),
+        }
+    }
+
+    fn agrees(&self, expected: &Self, folder: &Path) -> Result<(), SweepError> {
+        self.agrees_but_for_share(expected, folder)?;
+        if self.share == expected.share {
+            return Ok(());
+        }
+        let (found, expected) = (self.share.clone(), expected.share.clone());
+        Err(SweepError::Other { folder: folder.to_owned(), what: "the share", found, expected })
+    }
+}
+
+/// An open folder; no other process can open it meanwhile.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    results: PathBuf,
+    file: File,
+    /// Which cases are done.
+    done: Vec<bool>,
+    failed: usize,
+    /// Whether the results had been written before.
+    is_complete: bool,
+}
+
+impl Journal {
+    /// Opens the folder of a share, which is made if need be.
+    ///
+    /// * `resume`: whether to go on with what is there.
+    ///
+    /// # Errors
+    /// [`SweepError`]; with all but a failing disk nothing has been written.
+    pub fn open(folder: &Path, manifest: &Manifest, resume: bool) -> Result<Self, SweepError> {
+        let found = Manifest::read(folder)?;
+        if let Some(found) = &found {
+            if !resume {
+                return Err(SweepError::Taken(folder.to_owned()));
+            }
+            found.agrees(manifest, folder)?;
+        }
+        atomic::prepare_folder(folder)?;
+        let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
+        let file = OpenOptions::new().create(true).append(true).open(&path);
+        let file = file.map_err(|error| atomic::naming(&path, &error))?;
+        // A file system that has no locks cannot keep a second process out.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(SweepError::Busy(folder.to_owned()));
+        }
+        if found.is_none() {
+            let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
+            if bytes > 0 {
+                let reason = format!("a journal without its {MANIFEST}: of which sweep?");
+                return Err(SweepError::Damaged { file: path, line: None, reason });
+            }
+            atomic::write(
+                &folder.join(MANIFEST),
+                serde_json::to_string(manifest).map_err(std::io::Error::from)? + "\n",
+            )?;
+        }
+        let mut journal =
+            Self { path, results, file, done: vec![false; manifest.cases], failed: 0, is_complete: false };
+        journal.take_up()?;
+        Ok(journal)
+    }
+
+    /// Reads what is done, and removes a torn last line.
+    fn take_up(&mut self) -> Result<(), SweepError> {
+        self.is_complete = self.results.exists();
+        let source = if self.is_complete { &self.results } else { &self.path };
+        let (mut places, end) = join::places(source, 0, self.done.len())?;
+        join::sort(&mut places, std::slice::from_ref(source))?;
+        // Beside results, which hold all of it, a journal is what a process killed between two calls has left.
+        let keep = if self.is_complete { 0 } else { end };
+        self.file.set_len(keep).map_err(|error| atomic::naming(&self.path, &error))?;
+        self.count(&places);
+        Ok(())
+    }
+
+    fn count(&mut self, places: &[Place]) {
+        for place in places {
+            self.done[place.case] = true;
+            self.failed += usize::from(!place.passed);
+        }
+    }
+
+    /// Whether the line of a case is there.
+    pub fn has(&self, case: usize) -> bool {
+        self.done[case]
+    }
+
+    /// Cases done that failed.
+    pub fn failed(&self) -> usize {
+        self.failed
+    }
+
+    /// Keeps a line. When this returns, killing the process does not lose it.
+    ///
+    /// # Errors
+    /// That of the operating system.
+    pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
+        let whole = format!("{}\n", line.json);
+        self.file.write_all(whole.as_bytes()).map_err(|error| atomic::naming(&self.path, &error))?;
+        self.done[line.case] = true;
+        self.failed += usize::from(!line.passed);
+        Ok(())
+    }
+
+    /// Writes the results in the order of their cases, and removes the journal.
+    ///
+    /// # Errors
+    /// [`SweepError`]; the journal is then still there.
+    pub fn finish(self) -> Result<PathBuf, SweepError> {
+        let files: Vec<PathBuf> =
+            [&self.results, &self.path].into_iter().filter(|file| file.exists()).cloned().collect();
+        let mut places = vec![];
+        for (index, file) in files.iter().enumerate() {
+            places.extend(join::places(file, index, self.done.len())?.0);
+        }
+        join::sort(&mut places, &files)?;
+        join::copy(&places, &files, &self.results)?;
+        std::fs::remove_file(&self.path).map_err(|error| atomic::naming(&self.path, &error))?;
+        Ok(self.results)
+    }
+}

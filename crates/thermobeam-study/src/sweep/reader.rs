@@ -1,0 +1,227 @@
+//! From a sweep file to cases, every complaint with its place.
+
+use std::path::Path;
+
+use super::design::Design;
+use super::key::{KEYS, TABLES};
+use super::values::{self, Axis};
+use super::{Base, Case, Key, MOST_CASES, Sweep, content_hash};
+use crate::document::{self, Complaint, Field, InputError, Section};
+use crate::scene::{Scene, stem};
+
+/// What every case has in common: TOML in which `{key}` stands for the case's value.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Template(String);
+
+impl Template {
+    /// The values that are laid over the base scene.
+    pub(super) fn overlay(&self, case: &Case<'_>) -> String {
+        let mut text = self.0.clone();
+        for (key, value) in case.parameters() {
+            let (path, written) = (key.path(), key.written(value));
+            // In brackets, so that a negative number keeps its sign under a power.
+            text = text.replace(&format!("{{{path}}}"), &format!("({written})"));
+            text.push_str(&format!("{path} = {written}\n"));
+        }
+        text
+    }
+}
+
+/// Keys that only make sense together: dt must divide t_end.
+const STEPS: [&str; 2] = ["dt", "t_end"];
+
+/// Texts of a scene that may depend on the case.
+const TEXTS: [(&str, &str); 6] = [
+    ("initial", "u"),
+    ("initial", "u_t"),
+    ("initial", "phi"),
+    ("initial", "phi_t"),
+    ("initial", "theta"),
+    ("mesh", "map"),
+];
+
+pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -> Result<Sweep, InputError> {
+    root.allow(&["sweep", "set", "grid", "latin"])?;
+    let section = root.require("sweep", "a table that names the scene")?.section()?;
+    section.allow(&["scene"])?;
+    let scene = folder.join(section.require("scene", "a scene file beside this one")?.text()?);
+    let base = Base { file: scene.display().to_string(), text: document::read_text(&scene)? };
+    let plain = Scene::parse(&base.text, &base.file)?;
+    let set = set(root)?;
+    let axes = axes(root)?;
+    check_placeholders(&set, &axes)?;
+    let template = Template(set.iter().map(|(name, text, _)| format!("{name} = {text}\n")).collect());
+    let samples = samples(root)?;
+    probe(&base, &template, &set, &axes, samples.is_some())?;
+    let keys: Vec<Key> = axes.iter().map(|axis| axis.key).collect();
+    let values = axes.iter().map(|axis| axis.values.clone()).collect();
+    let design = match samples {
+        Some((samples, _)) => {
+            let (dt, t_end) = common_steps(&base, &template, &axes).unwrap_or((plain.dt, plain.t_end));
+            Design::Latin { samples, values, dt, t_end }
+        }
+        None => Design::Grid(values),
+    };
+    if design.cases() > MOST_CASES {
+        return Err(root.refuse("grid", "more combinations", format!("at most {MOST_CASES} cases")));
+    }
+    let fingerprint = content_hash(format!("{text}\0{}", base.text).as_bytes());
+    Ok(Sweep { name: stem(&path.display().to_string()), base, template, keys, design, fingerprint })
+}
+
+/// The table `[set]`: dotted name, value as TOML, place.
+fn set<'a>(root: &Section<'a>) -> Result<Vec<(String, String, Field<'a>)>, InputError> {
+    let Some(section) = root.section("set")? else { return Ok(vec![]) };
+    section.allow(&[&TABLES[..], &["initial"]].concat())?;
+    let mut set = vec![];
+    for table in TABLES.into_iter().chain(["initial"]) {
+        let Some(inner) = section.section(table)? else { continue };
+        let numbers = KEYS.iter().filter(|key| key.table == table).map(|key| (key.name, true));
+        let texts = TEXTS.iter().filter(|(of, _)| *of == table).map(|(_, name)| (*name, false));
+        let known: Vec<(&str, bool)> = numbers.chain(texts).collect();
+        inner.allow(&known.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
+        for (name, is_number) in known {
+            let Some(field) = inner.get(name) else { continue };
+            let value = if is_number { written_number(&field)? } else { quoted(&field)? };
+            set.push((format!("{table}.{name}"), value, field));
+        }
+    }
+    Ok(set)
+}
+
+/// A number as TOML; a whole one stays whole.
+fn written_number(field: &Field<'_>) -> Result<String, InputError> {
+    let value = field.number()?;
+    Ok(field.count(0..=1 << 53).map_or_else(|_| format!("{value:?}"), |count| count.to_string()))
+}
+
+fn quoted(field: &Field<'_>) -> Result<String, InputError> {
+    let text = field.text()?;
+    if text.contains(['"', '\\']) || text.contains(char::is_control) {
+        return Err(field.refuse_as_written("a function in one line"));
+    }
+    Ok(format!("\"{text}\""))
+}
+
+/// Samples and seed of a Latin hypercube; `None` for a grid.
+fn samples(root: &Section<'_>) -> Result<Option<(usize, u64)>, InputError> {
+    let Some(section) = root.section("latin")? else { return Ok(None) };
+    let samples = section.require("samples", "a number of cases")?.count(1..=MOST_CASES)?;
+    let seed = section.require("seed", "a whole number >= 0")?.count(0..=usize::MAX)?;
+    Ok(Some((samples, seed as u64)))
+}
+
+/// The keys that vary: `[grid]` or `[latin]`.
+fn axes<'a>(root: &Section<'a>) -> Result<Vec<Axis<'a>>, InputError> {
+    let either = "either [grid] or [latin]";
+    let (section, others) = match (root.section("grid")?, root.section("latin")?) {
+        (Some(grid), None) => (grid, &[][..]),
+        (None, Some(latin)) => (latin, &["samples", "seed"][..]),
+        (None, None) => return Err(root.missing("grid", either)),
+        (Some(_), Some(_)) => return Err(root.refuse("latin", "a second design beside [grid]", either)),
+    };
+    section.allow(&[&TABLES[..], others].concat())?;
+    let samples = samples(root)?;
+    let mut axes = vec![];
+    for table in TABLES {
+        let Some(inner) = section.section(table)? else { continue };
+        let keys: Vec<Key> = KEYS.into_iter().filter(|key| key.table == table).collect();
+        inner.allow(&keys.iter().map(|key| key.name).collect::<Vec<_>>())?;
+        for key in keys {
+            let Some(field) = inner.get(key.name) else { continue };
+            axes.push(match samples {
+                None => values::grid(field, key)?,
+                Some((samples, seed)) => values::latin(field, key, samples, seed)?,
+            });
+        }
+    }
+    if axes.is_empty() {
+        let names: Vec<String> = KEYS.iter().map(|key| key.path()).collect();
+        let allowed = format!("at least one of {}", names.join(", "));
+        return Err(root.refuse(if samples.is_some() { "latin" } else { "grid" }, "no key that varies", allowed));
+    }
+    Ok(axes)
+}
+
+/// Refuses `{key}` for a key that does not vary.
+fn check_placeholders(set: &[(String, String, Field<'_>)], axes: &[Axis<'_>]) -> Result<(), InputError> {
+    for (_, text, field) in set {
+        let known = axes.iter().fold(text.clone(), |text, axis| text.replace(&format!("{{{}}}", axis.key.path()), ""));
+        if known.contains(['{', '}']) {
+            let names: Vec<String> = axes.iter().map(|axis| format!("{{{}}}", axis.key.path())).collect();
+            return Err(field.refuse_as_written(format!("a function in which only {} are filled in", names.join(", "))));
+        }
+    }
+    Ok(())
+}
+
+/// The dt and t_end of all cases, where one of them varies alone.
+fn common_steps(base: &Base, template: &Template, axes: &[Axis<'_>]) -> Option<(f64, f64)> {
+    let fixed: Vec<&Axis<'_>> = axes.iter().filter(|axis| !is_step(axis.key)).collect();
+    let scene = attempt(base, template, &fixed, None).ok()?;
+    Some((scene.dt, scene.t_end))
+}
+
+fn is_step(key: Key) -> bool {
+    STEPS.iter().any(|name| key.is("time", name))
+}
+
+/// The scene with the first values of all keys but one.
+fn attempt(
+    base: &Base,
+    template: &Template,
+    axes: &[&Axis<'_>],
+    probed: Option<(usize, f64)>,
+) -> Result<Scene, InputError> {
+    let keys: Vec<Key> = axes.iter().map(|axis| axis.key).collect();
+    let mut values: Vec<f64> = axes.iter().map(|axis| axis.probes[0].0).collect();
+    if let Some((index, value)) = probed {
+        values[index] = value;
+    }
+    Scene::parse_overlaid(&base.text, &template.overlay(&Case::new(0, &keys, values)), &base.file)
+}
+
+/// Tries every number that is written in the file, the other keys at their first.
+///
+/// Where dt and t_end both vary, whether they go together is for each case to find out; drawn ones are made to fit.
+fn probe(
+    base: &Base,
+    template: &Template,
+    set: &[(String, String, Field<'_>)],
+    axes: &[Axis<'_>],
+    is_drawn: bool,
+) -> Result<(), InputError> {
+    let together = is_drawn || axes.iter().filter(|axis| is_step(axis.key)).count() == STEPS.len();
+    let (steps, others): (Vec<_>, Vec<_>) = axes.iter().partition(|axis| together && is_step(axis.key));
+    for (value, field) in steps.iter().flat_map(|axis| &axis.probes) {
+        if *value <= 0.0 {
+            return Err(field.refuse_as_written("numbers > 0"));
+        }
+    }
+    attempt(base, template, &others, None).map_err(|error| blame(&error, set, &others))?;
+    for (index, axis) in others.iter().enumerate() {
+        for (value, field) in &axis.probes {
+            attempt(base, template, &others, Some((index, *value))).map_err(|error| complain(&error, field))?;
+        }
+    }
+    Ok(())
+}
+
+/// The complaint about a scene as one about the place in the sweep file that it comes from.
+fn blame(error: &InputError, set: &[(String, String, Field<'_>)], axes: &[&Axis<'_>]) -> InputError {
+    let named = |name: &str| error.field.as_deref() == Some(name);
+    let of_set = set.iter().find(|(name, ..)| named(name)).map(|(.., field)| field);
+    let of_axis = axes.iter().find(|axis| named(&axis.key.path())).map(|axis| &axis.probes[0].1);
+    match of_set.or(of_axis).or(axes.first().map(|axis| &axis.probes[0].1)) {
+        Some(field) => complain(error, field),
+        None => error.clone(),
+    }
+}
+
+fn complain(error: &InputError, field: &Field<'_>) -> InputError {
+    let name = error.field.as_deref().unwrap_or("the scene");
+    match &*error.complaint {
+        Complaint::NotAllowed { found, allowed } => field.refuse(format!("{name} = {found}"), allowed.clone()),
+        other => field.refuse(format!("{}, of which {name} becomes unusable", field.as_written()), other.to_string()),
+    }
+}

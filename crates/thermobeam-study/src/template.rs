@@ -1,0 +1,29 @@
+//! Files to begin with: a study and a scene, commented, that run as they are.
+
+/// A kind of file that can be begun.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Template {
+    /// A convergence study with a manufactured solution.
+    Study,
+    /// A scene.
+    Scene,
+}
+
+impl Template {
+    /// The file's text.
+    ///
+    /// * `name`: the study's id, or the scene's name; see [`is_name`].
+    pub fn text(self, name: &str) -> String {
+        let text = match self {
+            Self::Study => include_str!("template/study.toml"),
+            Self::Scene => include_str!("template/scene.toml"),
+        };
+        text.replace("NAME", name)
+    }
+}
+
+/// Whether a text can be a study's id and a file's name: small letters, digits, `.` and `-`, the first a letter or digit.
+pub fn is_name(text: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
+    text.starts_with(plain) && text.chars().all(|c| plain(c) || c == '.' || c == '-')
+}

@@ -1,0 +1,76 @@
+//! How far the iterate of a pass can be from the solution of its step.
+//!
+//! After a pass the residual is `((m⁺ - m) K u½ + (m - m̄) dt/2 K δV, 0, 0)`: its dual norm in V_x is at most
+//! `c = |m⁺ - m| ‖u½_x‖ + |m - m̄| dt/2 ‖δV_x‖`. Test the equation for the next increment with itself: the couplings
+//! through a and C cancel or complete squares, contact is monotone, and
+//!
+//! ```text
+//! κ(‖V‖² + ‖W‖²) + s(‖V_x - W‖² + ‖W_x‖²) + m dt/2 ‖V_x‖² + 2/dt ‖Θ‖² + ‖Θ_x‖² <= c ‖V_x‖,   s = ζ + dt/2.
+//! ```
+//!
+//! With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²` (B the buckling force) `λ ‖V_x‖² <= c ‖V_x‖`, `λ = B s + m dt/2`. Each square
+//! of Theorem 3.4's left-hand side is at most 2 dt times a term above, so the next increment is at most
+//! `√(2 dt/λ) c`, times `√(1 + |m| dt/(2λ))` where m < 0. In the same way one pass shrinks an error by at most
+//! `q = dt/λ (|m - m̄|/2 + ρ ‖u½_x‖ ‖u_x‖)`, so what is left to the solution is at most the bound over 1 - q.
+
+use crate::kirchhoff::BUCKLING;
+use crate::lanes::Lane;
+use crate::solve::newton::Newton;
+
+/// What is known after a pass.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bound {
+    /// ½(N(u) + N(u0)) of the iterate.
+    pub(super) m: f64,
+    /// Bound on the next increment.
+    pub(super) increment: f64,
+    /// Bound on the distance to the solution.
+    pub(super) remaining: f64,
+    /// q, bound on the contraction factor.
+    pub(super) contraction: f64,
+}
+
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// λ of the module's bound.
+    pub(super) fn coercivity(&self, k: usize, m: f64) -> f64 {
+        let case = &self.cases[k];
+        BUCKLING * (case.beam.zeta + 0.5 * case.dt) + 0.5 * m * case.dt
+    }
+
+    /// The part of q that a factorisation with m̄ in place of m costs.
+    pub(super) fn kept_contraction(&self, k: usize, m: f64) -> f64 {
+        let lambda = self.coercivity(k, m);
+        let lag = 0.5 * self.cases[k].dt * (m - self.controls[k].factorized).abs();
+        if lag == 0.0 {
+            0.0
+        } else if lambda > 0.0 {
+            lag / lambda
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The a-posteriori bound of the module's head, for the pass just done.
+    pub(super) fn bound(&self, k: usize) -> Bound {
+        let (case, control) = (&self.cases[k], &self.controls[k]);
+        let n = case.beam.axial_force(control.new_slope_squared);
+        let m = 0.5 * (n + control.forces[0]);
+        let slope = control.new_slope_squared.sqrt();
+        // ‖u½_x‖ is at most the mean of both levels' norms.
+        let half_slope = 0.5 * (control.slope_squared.sqrt() + slope);
+        let lag = (control.m - control.factorized).abs();
+        let residual = (m - control.m).abs() * half_slope + 0.5 * lag * case.dt * control.increment_slope;
+        if residual == 0.0 {
+            return Bound { m, increment: 0.0, remaining: 0.0, contraction: 0.0 };
+        }
+        let lambda = self.coercivity(k, m);
+        if !(lambda > 0.0) {
+            return Bound { m, increment: f64::INFINITY, remaining: f64::INFINITY, contraction: f64::INFINITY };
+        }
+        let negative = (1.0 + (-m).max(0.0) * case.dt / (2.0 * lambda)).sqrt();
+        let increment = (2.0 * case.dt / lambda).sqrt() * negative * residual;
+        let contraction = case.dt / lambda * (0.5 * lag + case.beam.rho * half_slope * slope);
+        let remaining = if contraction < 0.5 { increment / (1.0 - contraction) } else { f64::INFINITY };
+        Bound { m, increment, remaining, contraction }
+    }
+}

@@ -1,0 +1,62 @@
+//! `new study NAME`, `new scene NAME`: a file to begin with.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use thermobeam_study::template::{Template, is_name};
+
+use crate::exit::{Outcome, Unusable, Verdict};
+use crate::output;
+
+/// Write a commented study or scene that runs as it is
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// What to begin
+    #[arg(value_enum)]
+    what: What,
+    /// Its name: small letters, digits, `.` and `-`
+    #[arg(value_parser = name)]
+    name: String,
+    /// The folder for NAME.toml, which must exist; default: the current one
+    #[arg(long, value_name = "DIR")]
+    dir: Option<PathBuf>,
+    /// Say nothing where all is well
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum What {
+    /// A convergence study with a manufactured solution
+    Study,
+    /// A scene: a beam, how it starts, a mesh, time steps
+    Scene,
+}
+
+fn name(text: &str) -> Result<String, String> {
+    if is_name(text) {
+        Ok(text.to_owned())
+    } else {
+        Err("allowed are small letters a-z, digits, `.` and `-`".to_owned())
+    }
+}
+
+/// Runs the command. A file that is there is never written over.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let (template, command) = match arguments.what {
+        What::Study => (Template::Study, "study"),
+        What::Scene => (Template::Scene, "run"),
+    };
+    let file = format!("{}.toml", arguments.name);
+    let path = arguments.dir.as_ref().map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file));
+    let unusable = |error: std::io::Error| Unusable::file(&path, &error);
+    let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(unusable)?;
+    file.write_all(template.text(&arguments.name).as_bytes()).map_err(unusable)?;
+    if !arguments.quiet {
+        let path = path.display();
+        output::print(&format!("wrote {path}\nnow  cargo xtask {command} {path}\n"))?;
+    }
+    Ok(Verdict::Pass)
+}

@@ -9,6 +9,7 @@ pub mod controls;
 pub mod convergence;
 pub mod energy;
 pub mod fixed_point;
+pub mod work_precision;
 
 use crate::document::InputError;
 use crate::outcome::Outcome;
@@ -93,6 +94,7 @@ pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
         energy::ENERGY => Ok(Box::new(energy::EnergyDecay::read(path)?)),
         calibration::CALIBRATION => Ok(Box::new(calibration::RuleCalibration::read(path)?)),
         fixed_point::FIXED_POINT => Ok(Box::new(fixed_point::FixedPoint::read(path)?)),
+        work_precision::WORK_PRECISION => Ok(Box::new(work_precision::WorkPrecision::read(path)?)),
         _ => unreachable!("kinds are registered below"),
     }
 }

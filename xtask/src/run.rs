@@ -1,5 +1,6 @@
 //! `run SCENE`: simulates one scene.
 
+mod accuracy;
 mod json;
 mod summary;
 
@@ -7,6 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use thermobeam_study::accuracy::Unreachable;
 use thermobeam_study::atomic;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Recording, Run, Simulator, figures};
@@ -26,6 +28,12 @@ pub(crate) struct Arguments {
     /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Choose scheme, elements and steps so that the error is no larger than this
+    #[arg(long, value_name = "ERROR")]
+    target_error: Option<f64>,
+    /// What the target error is about
+    #[arg(long, value_enum, default_value_t, requires = "target_error")]
+    quantity: accuracy::Quantity,
     /// Show no progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -33,7 +41,18 @@ pub(crate) struct Arguments {
 
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let scene = Scene::read(&arguments.scene)?;
+    let read = Scene::read(&arguments.scene)?;
+    let (scene, planned) = match arguments.target_error {
+        None => (read, None),
+        Some(target) => match accuracy::choose(read, arguments.quantity, target) {
+            Ok((scene, planned)) => (scene, Some(planned)),
+            Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
+            Err(error) => {
+                output::complain(&format!("{}: {error}", arguments.scene.display()));
+                return Ok(Verdict::Fail);
+            }
+        },
+    };
     let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let recording = match &arguments.out {
         Some(folder) => {
@@ -47,8 +66,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     bar.finish_and_clear();
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
     match arguments.format {
-        Format::Text => output::print(&summary::summary(&scene, &run, &written))?,
-        Format::Json => output::print_json(&json::object(&scene, &run))?,
+        Format::Text => output::print(&summary::summary(&scene, &run, planned.as_ref(), &written))?,
+        Format::Json => output::print_json(&json::object(&scene, &run, planned.as_ref()))?,
     }
     Ok(match &run.failure {
         None => Verdict::Pass,

@@ -1,5 +1,6 @@
 //! Convergence studies for the `thermobeam` solver.
 
+pub mod accuracy;
 pub mod atomic;
 pub mod calibration;
 pub mod design;

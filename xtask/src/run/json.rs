@@ -1,5 +1,6 @@
 //! A run as a JSON object. The order of the keys is the order of the fields; names are a contract, more may be added.
 
+use super::accuracy::{self, Planned};
 use serde::Serialize;
 use thermobeam::error::{StepError, StepFailure};
 use thermobeam_study::scene::Scene;
@@ -25,6 +26,9 @@ pub(super) struct Object<'a> {
     heated: bool,
     contact_steps: usize,
     work: Work,
+    /// Only where an accuracy was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<accuracy::Object>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
 }
@@ -87,7 +91,7 @@ enum Numbers {
 }
 
 /// The object that `run --format json` prints.
-pub(super) fn object<'a>(scene: &'a Scene, run: &Run) -> Object<'a> {
+pub(super) fn object<'a>(scene: &'a Scene, run: &Run, planned: Option<&Planned>) -> Object<'a> {
     let last = &run.last;
     Object {
         scene: &scene.name,
@@ -118,6 +122,7 @@ pub(super) fn object<'a>(scene: &'a Scene, run: &Run) -> Object<'a> {
         heated: run.is_heated,
         contact_steps: run.contact_steps,
         work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
+        accuracy: planned.map(Planned::object),
         failure: run.failure.as_ref().map(failure),
     }
 }

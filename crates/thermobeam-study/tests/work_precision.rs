@@ -56,9 +56,9 @@ fn planted_defects_fail() {
     // An order lost: 256 and 1024 steps are no better than 64.
     let first_order = |name: &str, value: &mut f64| {
         if name == "superclose 256" {
-            *value *= 8.0
+            *value *= 8.0;
         } else if name == "superclose 1024" {
-            *value *= 64.0
+            *value *= 64.0;
         }
     };
     assert_eq!(plant(&first_order, "midpoint").verdict, Verdict::Fail);
@@ -95,7 +95,7 @@ fn mistakes_are_named() {
     for (body, piece) in [
         ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
         ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
-        (&format!("{grid}"), "exactly one of"),
+        (grid, "exactly one of"),
         (&format!("{grid}vibration = [40]\nzeta = 0.1\nt_end = 1"), "modes that ring"),
         (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nreference = [8, 8]"), "reference without scene"),
         (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\nreference = [9, 8]"), "a multiple"),

@@ -24,6 +24,8 @@
 
 mod input;
 pub mod law;
+#[cfg(feature = "ode-library")]
+mod library;
 pub mod method;
 mod report;
 

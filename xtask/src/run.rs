@@ -1,11 +1,13 @@
 //! `run SCENE`: simulates one scene.
 
+mod accuracy;
 mod summary;
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use thermobeam_study::accuracy::Unreachable;
 use thermobeam_study::atomic;
 use thermobeam_study::estimate::estimate;
 use thermobeam_study::scene::Scene;
@@ -29,14 +31,40 @@ pub(crate) struct Arguments {
     /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper
     #[arg(long)]
     estimate_error: bool,
+    /// Choose scheme, elements and steps so that the error is no larger than this
+    #[arg(long, value_name = "ERROR")]
+    target_error: Option<f64>,
+    /// What the target error is about
+    #[arg(long, value_enum, default_value_t, requires = "target_error")]
+    quantity: accuracy::Quantity,
     /// Show no progress bar
     #[arg(long, short)]
     quiet: bool,
 }
 
+/// The JSON object, with what was asked for on top.
+#[derive(serde::Serialize)]
+struct Printed<'a> {
+    #[serde(flatten)]
+    object: Object<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<accuracy::Object>,
+}
+
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let scene = Scene::read(&arguments.scene)?;
+    let read = Scene::read(&arguments.scene)?;
+    let (scene, planned) = match arguments.target_error {
+        None => (read, None),
+        Some(target) => match accuracy::choose(read, arguments.quantity, target) {
+            Ok((scene, planned)) => (scene, Some(planned)),
+            Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
+            Err(error) => {
+                output::complain(&format!("{}: {error}", arguments.scene.display()));
+                return Ok(Verdict::Fail);
+            }
+        },
+    };
     let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let recording = match &arguments.out {
         Some(folder) => {
@@ -56,9 +84,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     match arguments.format {
         Format::Text => {
             let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
-            output::print(&format!("{}{budget}", summary::summary(&scene, &run, &written)))?;
+            output::print(&format!("{}{budget}", summary::summary(&scene, &run, planned.as_ref(), &written)))?;
         }
-        Format::Json => output::print_json(&Object::new(&scene, &run).with_budget(known))?,
+        Format::Json => {
+            let object = Object::new(&scene, &run).with_budget(known);
+            output::print_json(&Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) })?;
+        }
     }
     if let Err(reason) = budget {
         output::complain(&format!("{}: {reason}", arguments.scene.display()));

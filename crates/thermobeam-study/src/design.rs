@@ -13,7 +13,7 @@ use crate::exact::Factors;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::sources::{BoundaryLoads, Sources, nodal};
 use crate::study::CaseFailure;
-use crate::study_file::{Axis, ConvergenceSpec, Product};
+use crate::study_file::{Axis, ConvergenceSpec, Manufactured, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
@@ -134,7 +134,7 @@ impl<'a> DesignCase<'a> {
         let Disagreement { beam, obstacles, defect } = disagreement;
         let mut old = Factors::default();
         old.at(&spec.exact, 0.0);
-        let initial = initial(spec, mesh, &old, beam.theta_a);
+        let initial = initial(&spec.exact, &spec.beam, mesh, &old, beam.theta_a);
         let dt = spec.refine.dt(steps);
         let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
         let level = Level::new(mesh.nodes().len());
@@ -201,7 +201,9 @@ impl<'a> DesignCase<'a> {
 }
 
 /// Nodal values of the exact solution at t = 0, by (3.6); the temperature is made to meet the solver's own θ_A.
-fn initial(spec: &ConvergenceSpec, mesh: &Mesh, factors: &Factors, theta_a: f64) -> Initial {
+///
+/// * `theory`: the coefficients that the exact solution belongs to; `theta_a`: the solver's own.
+pub(crate) fn initial(exact: &Manufactured, theory: &Beam, mesh: &Mesh, factors: &Factors, theta_a: f64) -> Initial {
     let sum = |products: &[Product], factors: &[f64]| {
         let mut values = vec![0.0; mesh.nodes().len()];
         for (product, factor) in products.iter().zip(factors) {
@@ -211,18 +213,18 @@ fn initial(spec: &ConvergenceSpec, mesh: &Mesh, factors: &Factors, theta_a: f64)
         }
         values
     };
-    let mut theta = sum(&spec.exact.theta, &factors.theta.value);
+    let mut theta = sum(&exact.theta, &factors.theta.value);
     for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
-        *theta += (theta_a - spec.beam.theta_a) * (1.0 - x);
+        *theta += (theta_a - theory.theta_a) * (1.0 - x);
     }
     let last = theta.len() - 1;
     // Checked up to round-off when the study was read.
     (theta[0], theta[last]) = (theta_a, 0.0);
     Initial {
-        u: sum(&spec.exact.u, &factors.u.value),
-        u_t: sum(&spec.exact.u, &factors.u.rate),
-        phi: sum(&spec.exact.phi, &factors.phi.value),
-        phi_t: sum(&spec.exact.phi, &factors.phi.rate),
+        u: sum(&exact.u, &factors.u.value),
+        u_t: sum(&exact.u, &factors.u.rate),
+        phi: sum(&exact.phi, &factors.phi.value),
+        phi_t: sum(&exact.phi, &factors.phi.rate),
         theta,
     }
 }

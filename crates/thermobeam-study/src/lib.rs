@@ -1,5 +1,6 @@
 //! Convergence studies for the `thermobeam` solver.
 
+pub mod accuracy;
 pub mod atomic;
 pub mod baseline;
 pub mod calibration;
@@ -11,7 +12,9 @@ pub mod estimate;
 pub mod exact;
 pub mod expression;
 pub mod fit;
+pub mod free_vibration;
 pub mod junit;
+pub mod march;
 mod nearest;
 pub mod outcome;
 pub mod pace;
@@ -34,6 +37,7 @@ pub mod sweep;
 pub mod template;
 pub mod verdict;
 pub mod verification;
+pub mod yardstick;
 
 /// The code of the README, held by the doc tests.
 #[cfg(doctest)]

@@ -102,6 +102,7 @@ fn every_finite_point_is_drawn() {
             label: "s".into(),
             points: (1..40).map(|k| (f64::from(k), 1.0 / f64::from(k))).collect(),
         }],
+        x_label: None,
         title: None,
     };
     let svg = work_precision(&figure);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use super::accuracy::Planned;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Run, energy_at_rest};
 
@@ -10,8 +11,11 @@ use thermobeam_study::simulate::{Run, energy_at_rest};
 type Line = (&'static str, String, String);
 
 /// What happened, in aligned columns; all quantities are dimensionless but for times on the clock.
-pub(super) fn summary(scene: &Scene, run: &Run, written: &[PathBuf]) -> String {
+pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, written: &[PathBuf]) -> String {
     let mut text = headline(scene, run);
+    if let Some(planned) = planned {
+        section(&mut text, "accuracy", planned.lines(run));
+    }
     let last = format!("at t = {}", run.last.t);
     section(&mut text, "work", work(scene, run));
     section(&mut text, &last, final_state(scene, run));

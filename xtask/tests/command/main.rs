@@ -1,5 +1,6 @@
 //! The commands as scripts use them: arguments, exit status, standard output and error, files.
 
+mod accuracy;
 mod equilibria;
 mod failure;
 mod first_steps;

@@ -5,18 +5,20 @@ use super::style::{self, look};
 use super::xy::{Curve, Xy};
 use super::{Axis, Series};
 
-/// Errors against run time.
+/// Errors against cost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkPrecision {
     /// Above the plot.
     pub title: Option<String>,
+    /// The measure of cost; `None` is the run time in seconds.
+    pub x_label: Option<String>,
     /// What is measured.
     pub y_label: String,
-    /// `(seconds, error)`, one series per method, in order of refinement.
+    /// `(cost, error)`, one series per method, in order of refinement.
     pub series: Vec<Series>,
 }
 
-/// Draws error over seconds, log-log: the lower and the further left, the better.
+/// Draws error over cost, log-log: the lower and the further left, the better.
 pub fn work_precision(figure: &WorkPrecision) -> String {
     let curve = |(k, series): (usize, &Series)| Curve {
         label: Some(series.label.clone()),
@@ -28,7 +30,7 @@ pub fn work_precision(figure: &WorkPrecision) -> String {
     };
     Xy {
         title: figure.title.clone(),
-        x: Axis::log("run time (s)"),
+        x: Axis::log(figure.x_label.as_deref().unwrap_or("run time (s)")),
         y: Axis::log(&*figure.y_label),
         curves: figure.series.iter().enumerate().map(curve).collect(),
         ..Xy::default()

@@ -21,6 +21,7 @@ pub mod self_convergence;
 pub mod sensitivity;
 mod steady;
 pub mod vibration;
+pub mod work_precision;
 
 pub(crate) use ladder::max_or_nan;
 
@@ -112,6 +113,7 @@ const KINDS: &[(&str, Reader)] = &[
     ("equilibrium", |path| Ok(Box::new(equilibrium::EndStates::read(path)?))),
     ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
+    (work_precision::WORK_PRECISION, |path| Ok(Box::new(work_precision::WorkPrecision::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];
 

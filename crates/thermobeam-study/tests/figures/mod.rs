@@ -265,6 +265,7 @@ pub(crate) fn costs() -> WorkPrecision {
     };
     WorkPrecision {
         title: None,
+        x_label: None,
         y_label: "error in u(1, T) (dimensionless)".into(),
         series: vec![
             run("euler-crank-nicolson, newton", 3e-2, 1.0),

@@ -1,6 +1,8 @@
 //! The words for each kind of study.
 
-use crate::study::{calibration, controls, energy, fixed_point, frequencies, self_convergence, sensitivity, vibration};
+use crate::study::{
+    calibration, controls, energy, fixed_point, frequencies, self_convergence, sensitivity, vibration, work_precision,
+};
 use crate::study_file::CONVERGENCE;
 
 /// The words for a kind of study.
@@ -12,7 +14,7 @@ pub(super) struct Kind {
 }
 
 /// One row for each kind.
-pub(super) const KINDS: [Kind; 14] = [
+pub(super) const KINDS: [Kind; 16] = [
     Kind {
         name: CONVERGENCE,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
@@ -112,6 +114,19 @@ pub(super) const KINDS: [Kind; 14] = [
               epsilon^(2/3) in an impact that the grid resolves.",
         judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
         failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
+    },
+    Kind {
+        name: work_precision::WORK_PRECISION,
+        why: "Every method pays for a smaller error with more node-steps. The law e = C_h h^p + C_t dt^q of each gives its cheapest \
+              path, and its cost for any error.",
+        judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
+        failure: "A method has become dearer for the same error, or its order is not what the law says.",
+    },
+    Kind {
+        name: "random-scenes",
+        why: "Coefficients, meshes and data at random reach corners that nobody thought of.",
+        judged: "Each scene ends with an answer or a typed error; the energy never rises and its balance closes within the bound stated.",
+        failure: "The scene named, with its seed, breaks a law of the scheme: run it alone.",
     },
     Kind {
         name: "stability",

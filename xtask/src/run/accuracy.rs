@@ -1,0 +1,102 @@
+//! `run SCENE --target-error E`: the run is chosen by the error that it is to make.
+
+use clap::ValueEnum;
+use serde::Serialize;
+use thermobeam_study::accuracy::{Plan, Request, Trust, Unreachable, plan};
+use thermobeam_study::march::Family;
+use thermobeam_study::scene::Scene;
+use thermobeam_study::simulate::Run;
+use thermobeam_study::yardstick;
+
+/// What the error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Quantity {
+    /// Maximum over [0, T] of the error of u(1, t)
+    #[default]
+    Tip,
+    /// Maximum over [0, T] of the norm of Theorem 3.4
+    #[value(name = "theorem-3.4")]
+    Theorem34,
+}
+
+/// What was asked for, and the run that was chosen.
+pub(crate) struct Planned {
+    quantity: yardstick::Quantity,
+    target: f64,
+    plan: Plan,
+}
+
+/// The scene with scheme, mesh and steps that make the error asked for; those that it came with do not matter, but for
+/// the grading of its mesh.
+pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(Scene, Planned), Unreachable> {
+    let quantity = match quantity {
+        Quantity::Tip => yardstick::Quantity::Tip,
+        Quantity::Theorem34 => yardstick::Quantity::Theorem34,
+    };
+    let family = Family::of_scene(&scene);
+    let plan = plan(&family, &Request::new(quantity, target))?;
+    let mesh = family.mesh(plan.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
+    let dt = scene.t_end / plan.steps as f64;
+    let scene = Scene { mesh, dt, steps: plan.steps, scheme: plan.scheme, settings: plan.settings, ..scene };
+    Ok((scene, Planned { quantity, target, plan }))
+}
+
+/// The key `accuracy` of the JSON object.
+#[derive(Debug, Serialize)]
+pub(super) struct Object {
+    quantity: &'static str,
+    target_error: f64,
+    /// The error that the run is believed to have made.
+    believed_error: f64,
+    space_error: f64,
+    time_error: f64,
+    confidence: &'static str,
+    node_steps: f64,
+    pilot_node_steps: f64,
+    pilot_seconds: f64,
+}
+
+impl Planned {
+    pub(super) fn object(&self) -> Object {
+        let plan = &self.plan;
+        Object {
+            quantity: self.quantity.name(),
+            target_error: self.target,
+            believed_error: plan.believed,
+            space_error: plan.parts[0],
+            time_error: plan.parts[1],
+            confidence: match plan.trust {
+                Trust::Firm => "firm",
+                Trust::Loose => "loose",
+                Trust::None => "none",
+            },
+            node_steps: plan.node_steps(),
+            pilot_node_steps: plan.pilots.node_steps,
+            pilot_seconds: plan.pilots.seconds,
+        }
+    }
+
+    /// Lines of the summary: name, value, meaning.
+    pub(super) fn lines(&self, run: &Run) -> Vec<(&'static str, String, String)> {
+        let plan = &self.plan;
+        let what = match self.quantity {
+            yardstick::Quantity::Tip => "maximum over [0, T] of the error of u(1, t)".to_owned(),
+            _ => "maximum over [0, T] of the norm of Theorem 3.4".to_owned(),
+        };
+        let trust = match plan.trust {
+            Trust::Firm => "all rates observed are those of theory",
+            Trust::Loose => "impacts, or rates below those of theory: judged by pilots as fine as this run",
+            Trust::None => "no rates to speak of: judged by coarser runs alone",
+        };
+        let parts = format!("space {:.1e}, time {:.1e}; {trust}", plan.parts[0], plan.parts[1]);
+        let (pilots, node_steps) = (plan.pilots.node_steps, plan.node_steps());
+        let seconds =
+            format!("{:.3} s for the pilots, {:.3} s for the run", plan.pilots.seconds, run.wall.as_secs_f64());
+        vec![
+            ("asked for", format!("{:.3e}", self.target), what),
+            ("believed", format!("{:.3e}", plan.believed), parts),
+            ("node-steps", format!("{:.3e}", pilots + node_steps), format!("of which {pilots:.3e} for pilot runs")),
+            ("time", format!("{:.3} s", plan.pilots.seconds + run.wall.as_secs_f64()), seconds),
+        ]
+    }
+}

@@ -15,10 +15,12 @@ pub mod experiment;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;
+pub mod random_scenes;
 pub mod rigid;
 pub mod self_convergence;
 mod steady;
 pub mod vibration;
+mod watch;
 
 pub(crate) use ladder::max_or_nan;
 
@@ -109,6 +111,7 @@ const KINDS: &[(&str, Reader)] = &[
     ("equilibrium", |path| Ok(Box::new(equilibrium::EndStates::read(path)?))),
     ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
+    (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];
 

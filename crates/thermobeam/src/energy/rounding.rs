@@ -8,7 +8,7 @@
 //! balance tests the equations with Δu = dt V, Δφ = dt W and dt θ, so that it is open by at most
 //!
 //! ```text
-//! c u_r Σ_e 1/h [((1 + |N|)(|u| + |φ|) + ζ (|V| + |W|)) (|Δu| + |Δφ|) + dt |θ|²] + |a| |θ| |Δφ|
+//! c u_r Σ_e 1/h [((1 + |N|)(|u| + |φ|) + ζ (|V| + |W|)) (|Δu| + |Δφ|) + dt |θ|²] + |a| |θ| |Δφ| + h [(|V| + |W|)² + |θ|²]
 //! ```
 //!
 //! with the largest values over the ends of an element and both levels, u_r the unit round-off and c the number of such
@@ -63,7 +63,9 @@ impl Rounding {
                 + beam.zeta * (either(&new.v, &old.v) + either(&new.w, &old.w));
             let (moved, turned) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
             let theta = either(&new.theta, &old.theta);
+            let speed = either(&new.v, &old.v) + either(&new.w, &old.w);
             sum += (size * (moved + turned) + dt * theta * theta) / h + beam.a.abs() * theta * turned;
+            sum += h * (speed * speed + theta * theta);
         }
         let unit = 0.5 * f64::EPSILON;
         let contact = obstacles.map_or(0.0, |obstacles| contact(obstacles, dt, unit, old, new));

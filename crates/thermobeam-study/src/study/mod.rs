@@ -18,6 +18,7 @@ mod ladder;
 pub mod random_scenes;
 pub mod rigid;
 pub mod self_convergence;
+pub mod stability;
 mod steady;
 pub mod vibration;
 mod watch;
@@ -111,6 +112,7 @@ const KINDS: &[(&str, Reader)] = &[
     ("equilibrium", |path| Ok(Box::new(equilibrium::EndStates::read(path)?))),
     ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
+    (stability::KIND, |path| Ok(Box::new(stability::Stability::read(path)?))),
     (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];

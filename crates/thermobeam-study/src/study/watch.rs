@@ -52,12 +52,13 @@ impl Watch {
         }
     }
 
-    /// Files the numbers; infinities, of a run without a step, are left out.
-    pub(super) fn report(&self, measured: &mut Measured) {
+    /// Takes the worst of a run into those of the runs before; what a run without a step knows nothing of is left out.
+    pub(super) fn worsen(&self, worst: &mut Measured) {
         let numbers = [("residual", self.residual), ("rise", self.rise), ("open", self.open), ("risen", self.risen)];
-        for (name, value) in numbers {
-            if value != f64::NEG_INFINITY {
-                measured.push(name, value);
+        for (name, value) in numbers.into_iter().filter(|(_, value)| *value != f64::NEG_INFINITY) {
+            match worst.values.iter_mut().find(|(key, _)| *key == name) {
+                Some((_, worst)) => *worst = max_or_nan(*worst, value),
+                None => worst.push(name, value),
             }
         }
     }

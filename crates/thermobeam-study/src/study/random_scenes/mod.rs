@@ -22,7 +22,7 @@ use crate::outcome::Outcome;
 use crate::shared_tables as tables;
 use crate::study::energy::wild;
 use crate::study::watch::{CLOSED, SOLVED, Watch};
-use crate::study::{Case, CaseFailure, Measured, Study, max_or_nan};
+use crate::study::{Case, CaseFailure, Measured, Study};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 use thermobeam::ensemble::Ensemble;
@@ -206,14 +206,7 @@ impl Tally {
         for (count, name) in self.ends.iter_mut().zip(ENDS) {
             *count += usize::from(name == end);
         }
-        let mut of_scene = Measured::default();
-        watch.report(&mut of_scene);
-        for (name, value) in of_scene.values {
-            match self.worst.values.iter_mut().find(|(key, _)| *key == name) {
-                Some((_, worst)) => *worst = max_or_nan(*worst, value),
-                None => self.worst.push(name, value),
-            }
-        }
+        watch.worsen(&mut self.worst);
         if !(watch.residual <= CLOSED) {
             self.exceptions.push((scene as f64, watch.residual));
         }

@@ -14,6 +14,10 @@
 //!
 //! Monotony can hold by luck; this balance to round-off cannot.
 
+mod rounding;
+
+pub use rounding::{Rounding, scale};
+
 use crate::norms::{element_product, l2_squared, shear_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;

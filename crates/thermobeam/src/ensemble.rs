@@ -3,7 +3,7 @@
 //! The stepping code is that of [`Simulation`](crate::simulation::Simulation), with W numbers in place of one. A case in a
 //! lane gets the same bits as alone; a case that fails keeps its last level and does not touch the others.
 
-use crate::energy::{Balance, Energy};
+use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
 use crate::scheme::Scheme;
@@ -116,6 +116,18 @@ impl<const W: usize> Ensemble<W> {
     pub fn balance(&self, k: usize, old: &Level, new: &Level) -> Balance {
         let problem = &self.problems[k];
         Balance::of(&problem.beam, problem.obstacles.as_ref(), &self.scheme, self.dt[k], &self.lengths[k], old, new)
+    }
+
+    /// The size of the energy of a level of case k, without signs.
+    pub fn energy_scale(&self, k: usize, level: &Level) -> f64 {
+        let problem = &self.problems[k];
+        energy::scale(&problem.beam, problem.obstacles.as_ref(), &self.lengths[k], level)
+    }
+
+    /// What rounding errors explain in the balance of a step of case k.
+    pub fn rounding(&self, k: usize, old: &Level, new: &Level) -> Rounding {
+        let problem = &self.problems[k];
+        Rounding::of(&problem.beam, problem.obstacles.as_ref(), self.dt[k], &self.lengths[k], old, new)
     }
 
     /// Counts of the work done so far, all cases together: a pass of all lanes is one.

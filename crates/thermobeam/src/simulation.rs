@@ -1,6 +1,6 @@
 //! The one time loop: step, then observe what was asked for.
 
-use crate::energy::{Balance, Energy};
+use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
@@ -165,6 +165,17 @@ impl Simulation {
     pub fn balance(&self, old: &Level, new: &Level) -> Balance {
         let obstacles = self.problem.obstacles.as_ref();
         Balance::of(&self.problem.beam, obstacles, &self.stepping.scheme, self.stepping.dt, &self.lengths, old, new)
+    }
+
+    /// The size of a level's energy, without signs: what a residual of the balance is to be compared with.
+    pub fn energy_scale(&self, level: &Level) -> f64 {
+        energy::scale(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
+    }
+
+    /// What rounding errors explain in the balance between two consecutive levels.
+    pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
+        let Problem { beam, obstacles, .. } = &self.problem;
+        Rounding::of(beam, obstacles.as_ref(), self.stepping.dt, &self.lengths, old, new)
     }
 
     /// The problem being solved; its initial data have the boundary values exactly.

@@ -15,6 +15,8 @@
 
 mod random;
 
+pub(super) use random::wild;
+
 use crate::document::{self, InputError, Section};
 use crate::expression::Variable;
 use crate::outcome::{Check, Figure, Outcome, Table};

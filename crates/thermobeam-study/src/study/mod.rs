@@ -16,11 +16,14 @@ pub mod explain;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;
+pub mod random_scenes;
 pub mod rigid;
 pub mod self_convergence;
 pub mod sensitivity;
+pub mod stability;
 mod steady;
 pub mod vibration;
+mod watch;
 pub mod work_precision;
 
 pub(crate) use ladder::max_or_nan;
@@ -114,6 +117,8 @@ const KINDS: &[(&str, Reader)] = &[
     ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
     (work_precision::WORK_PRECISION, |path| Ok(Box::new(work_precision::WorkPrecision::read(path)?))),
+    (stability::KIND, |path| Ok(Box::new(stability::Stability::read(path)?))),
+    (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];
 

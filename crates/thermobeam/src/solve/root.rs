@@ -38,6 +38,11 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             } else {
                 high = m;
             }
+            // A stiff obstacle or a large ρ magnifies the rounding errors of m in F: its sign then changes between two
+            // neighbouring numbers, and |F| itself never gets small.
+            if high - low <= rounding {
+                return Ok(());
+            }
             m -= f / self.derivative(k);
             if !(low < m && m < high) {
                 m = if high.is_finite() { 0.5 * (low + high) } else { low + (1.0 + low.abs()) };

@@ -111,3 +111,21 @@ fn a_bad_prediction_of_the_axial_force_is_no_reason_to_refuse_a_step() {
     }
     assert!(done > 300, "{done}");
 }
+
+/// One element against stiff obstacles, light and stiff beams: F's rounding errors then exceed those of m.
+#[test]
+fn a_force_that_is_known_to_its_last_digit_ends_the_search() {
+    for epsilon in [1e-8, 3e-8, 1e-7, 1e-6] {
+        for rho in [20.0, 100.0, 1e3, 1e4, 1e5] {
+            for dt in [1e-3, 3e-3, 1e-2, 0.1, 1.0] {
+                for scheme in SCHEMES {
+                    let mut problem = scene(uniform(1), (0.5, 20.0), rho, epsilon);
+                    problem.obstacles = Some(Obstacles { epsilon, g1: -1e-4, g2: 1e-4 });
+                    problem.initial.u_t[1] = 2.0;
+                    let mut simulation = simulate(&problem, Stepping { scheme, ..stepping(dt) });
+                    crate::scenes::advance(&mut simulation, 100);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! The table `[stability]`.
+
+use super::{KIND, Parameter, Stability};
+use crate::document::{Field, InputError, Section};
+use crate::shared_tables as tables;
+use crate::study_file::header;
+
+const KEYS: [&str; 8] = ["over", "dt", "range", "points", "lines", "elements", "steps", "agreement"];
+
+pub(super) fn from_document(root: &Section<'_>) -> Result<Stability, InputError> {
+    root.allow(&["study", KIND])?;
+    let section = root.require(KIND, "a table with over, dt, range, points, lines and steps")?.section()?;
+    section.allow(&KEYS)?;
+    let over = section.require("over", "a second parameter")?.choice(&Parameter::ALL)?;
+    let positive = "a finite number > 0";
+    let values = "a list of at least one number";
+    let lines = section.require("lines", values)?;
+    let items = lines.items(values)?;
+    if items.is_empty() {
+        return Err(lines.refuse_as_written(values));
+    }
+    // ζ = 0 has no place on a logarithmic axis, and is the line that the theory excludes.
+    let fits = |value: f64| value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0);
+    Ok(Stability {
+        header: header(root)?,
+        over,
+        dt: interval(&section.require("dt", "a range")?, false)?,
+        range: interval(&section.require("range", "a range")?, over.is_linear())?,
+        points: section.require("points", "a number of points")?.count(2..=1000)?,
+        lines: items
+            .iter()
+            .map(|item| item.number_where("a value of the parameter", fits))
+            .collect::<Result<_, _>>()?,
+        elements: tables::elements(&section.require("elements", "a number of elements")?)?,
+        steps: section.require("steps", "a number of steps")?.count(1..=tables::MAX_STEPS)?,
+        agreement: section.require("agreement", positive)?.number_where(positive, |a| a > 0.0)?,
+    })
+}
+
+/// Two ascending numbers, positive unless the axis is linear.
+fn interval(field: &Field<'_>, linear: bool) -> Result<[f64; 2], InputError> {
+    let allowed = if linear { "two ascending numbers" } else { "two ascending numbers > 0" };
+    let items = field.items(allowed)?;
+    let [low, high] = items.as_slice() else { return Err(field.refuse_as_written(allowed)) };
+    let (low, high) = (low.number()?, high.number()?);
+    if low < high && (linear || low > 0.0) { Ok([low, high]) } else { Err(field.refuse_as_written(allowed)) }
+}

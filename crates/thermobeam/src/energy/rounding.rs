@@ -1,0 +1,94 @@
+//! What rounding errors may leave of the balance: its scale, and a bound that tells round-off from a defect.
+//!
+//! # The sweep
+//!
+//! The solver is backward stable: what it finds solves the step's equations with residuals of a few rounding errors of
+//! the *terms* of each equation, not of their sum. At a node between elements of length h the largest terms are
+//! `((1 + N) u + φ)/h` and `ζ V/h`: differences of neighbouring values that cancel, the more the finer the mesh. The
+//! balance tests the equations with Δu = dt V, Δφ = dt W and dt θ, so that it is open by at most
+//!
+//! ```text
+//! c u_r Σ_e 1/h [((1 + |N|)(|u| + |φ|) + ζ (|V| + |W|)) (|Δu| + |Δφ|) + dt |θ|²] + |a| |θ| |Δφ| + h [(|V| + |W|)² + |θ|²]
+//! ```
+//!
+//! with the largest values over the ends of an element and both levels, u_r the unit round-off and c the number of such
+//! terms and operations. Against the energy, `½ ‖u_x‖²`, this is about `c u_r u/(h u_x)`: of no account on a mesh of a
+//! hundred elements, 1e-11 where neighbours differ by a factor of 1000, and it grows with dt, because Δu does.
+//!
+//! # Contact
+//!
+//! The tip carries a rounding error δ of its position, some `u_r (|u(1)| + dt |v(1)|)`: the second part is the way that it
+//! would have gone without the obstacle, whose last digits it keeps. The law magnifies it: a force of δ/ε, 1e-17/ε where the
+//! obstacle stands at 0.1. The *force* of the step hardly suffers, for it is computed in closed form and enters the balance
+//! as it is; but the contact *energy* is that of the rounded position, and is wrong by `|F| δ + δ²/(2ε)`. In the residual it
+//! cancels against the gap, in which it stands too. In the change of the energy it stays: an energy that is conserved may
+//! seem to rise by as much.
+
+use crate::energy::Energy;
+use crate::norms::slope_squared;
+use crate::parameters::{Beam, Obstacles};
+use crate::solve::Level;
+
+/// The c of the module's bound: some ten terms in an equation, each of a few operations, and as many in the balance; the
+/// elimination multiplies by inverted blocks, which costs as much again.
+const TERMS: f64 = 64.0;
+/// Operations that lead to the tip's position: the elimination's last, the closed form's, and `u0 + dt V`.
+const TIP_TERMS: f64 = 16.0;
+
+/// What rounding errors explain in the balance of one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rounding {
+    /// Of the residual: the equations' residuals, tested.
+    pub residual: f64,
+    /// Of the energy's change besides: the contact energy of a rounded position.
+    pub contact: f64,
+}
+
+impl Rounding {
+    /// The bound of both.
+    pub fn total(&self) -> f64 {
+        self.residual + self.contact
+    }
+
+    /// Of the step from `old` to `new` with step `dt`; without loads, and solved to a tolerance at round-off.
+    pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64, lengths: &[f64], old: &Level, new: &Level) -> Self {
+        let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
+        let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;
+        let mut sum = 0.0;
+        for (i, h) in lengths.iter().enumerate() {
+            let largest = |y: &[f64]| y[i].abs().max(y[i + 1].abs());
+            let either = |y: &[f64], y0: &[f64]| largest(y).max(largest(y0));
+            let jump = |y: &[f64], y0: &[f64]| (y[i] - y0[i]).abs().max((y[i + 1] - y0[i + 1]).abs());
+            let size = stiffness * (either(&new.u, &old.u) + either(&new.phi, &old.phi))
+                + beam.zeta * (either(&new.v, &old.v) + either(&new.w, &old.w));
+            let (moved, turned) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
+            let theta = either(&new.theta, &old.theta);
+            let speed = either(&new.v, &old.v) + either(&new.w, &old.w);
+            sum += (size * (moved + turned) + dt * theta * theta) / h + beam.a.abs() * theta * turned;
+            sum += h * (speed * speed + theta * theta);
+        }
+        let unit = 0.5 * f64::EPSILON;
+        let contact = obstacles.map_or(0.0, |obstacles| contact(obstacles, dt, unit, old, new));
+        Self { residual: TERMS * unit * sum, contact }
+    }
+}
+
+/// `2 (|F| δ + δ²/ε)`, with the larger force of the two levels: the energies of both are rounded.
+fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) -> f64 {
+    let tip = new.u.len() - 1;
+    let (u, u0) = (new.u[tip], old.u[tip]);
+    let force = obstacles.force(u).abs().max(obstacles.force(u0).abs()).max(new.contact_force.abs());
+    let way = dt * new.v[tip].abs().max(old.v[tip].abs());
+    let delta = TIP_TERMS * unit * (u.abs().max(u0.abs()) + way);
+    2.0 * (force * delta + delta * delta / obstacles.epsilon)
+}
+
+/// The size of the energy of a level: its terms without their signs, the Kirchhoff term without its constant.
+///
+/// `N²/(4ρ)` holds β²/(4ρ), which no motion changes and which would hide any residual of a beam with a small ρ.
+pub fn scale(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> f64 {
+    let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = Energy::of(beam, obstacles, lengths, level);
+    let stretch = slope_squared(lengths, &level.u);
+    let kirchhoff = 0.5 * beam.beta.abs() * stretch + 0.25 * beam.rho * stretch * stretch;
+    kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
+}

@@ -12,6 +12,7 @@ pub mod convergence;
 pub mod energy;
 pub mod equilibrium;
 pub mod experiment;
+pub mod extremes;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;
@@ -113,6 +114,7 @@ const KINDS: &[(&str, Reader)] = &[
     ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
     (stability::KIND, |path| Ok(Box::new(stability::Stability::read(path)?))),
+    (extremes::KIND, |path| Ok(Box::new(extremes::Extremes::read(path)?))),
     (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];

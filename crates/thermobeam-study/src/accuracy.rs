@@ -1,7 +1,7 @@
 //! Ask for an accuracy: scheme, elements and steps that make an error no larger than wanted, at little cost.
 //!
 //! Pilot runs on coarse levels measure the errors of space and time (`pilot`). From their rates follow the error of any
-//! finer run and the cheapest run whose error is [`AIM`] of the one asked for. Pilots are refined until what they foretell can be
+//! finer run and the cheapest run whose error is `AIM` of the one asked for. Pilots are refined until what they foretell can be
 //! trusted, or until they reach the accuracy themselves: where the tip meets an obstacle, the observed rate of the
 //! second-order scheme drops, and it is the observed rate that counts.
 //!

@@ -33,6 +33,9 @@ use crate::shared_tables as tables;
 /// Elements of a scene that does not say: the paper's number.
 const DEFAULT_ELEMENTS: usize = 100;
 
+/// The tables of a scene.
+pub(crate) const TABLES: [&str; 5] = ["beam", "obstacles", "initial", "mesh", "time"];
+
 /// Initial data (1.2), functions of x; `None` is 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Initial {
@@ -91,7 +94,12 @@ impl Scene {
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
-        root.allow(&["beam", "obstacles", "initial", "mesh", "time"])?;
+        root.allow(&TABLES)?;
+        Self::from_tables(root, name)
+    }
+
+    /// The scene of the tables in a section, which may hold other keys besides.
+    pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         let beam = tables::beam(root)?;
         let obstacles = tables::obstacles(root)?;
         let time = root.require("time", "a table with dt and t_end")?.section()?;

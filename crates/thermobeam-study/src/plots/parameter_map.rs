@@ -78,14 +78,15 @@ fn draw_marks(sheet: &mut Sheet, figure: &ParameterMap, lattice: &Lattice) {
     });
 }
 
+/// All rims before all lines: where two boundaries agree, the gaps of the dashed one show the other.
 fn draw_boundaries(sheet: &mut Sheet, figure: &ParameterMap) {
-    for (k, series) in figure.boundaries.iter().enumerate() {
-        let look = boundary_look(k);
-        let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
-        let lines: Vec<&[Option<Point>]> = positions.split(Option::is_none).collect();
-        for (dash, colour, width) in [(Dash::Solid, WHITE, 6.0), (look.dash, look.colour, 3.0)] {
+    for rim in [true, false] {
+        for (k, series) in figure.boundaries.iter().enumerate() {
+            let look = boundary_look(k);
+            let (dash, colour, width) = if rim { (Dash::Solid, WHITE, 6.0) } else { (look.dash, look.colour, 3.0) };
+            let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
             sheet.canvas.draw(Layer::clipped(sheet.plot).dashed(dash), |pen| {
-                for line in &lines {
+                for line in positions.split(Option::is_none) {
                     let line: Vec<Point> = line.iter().flatten().copied().collect();
                     pen.line(&line, colour, width);
                 }

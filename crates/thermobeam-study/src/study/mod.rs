@@ -13,6 +13,7 @@ pub mod energy;
 pub mod equilibrium;
 pub mod experiment;
 pub mod explain;
+pub mod extremes;
 pub mod fixed_point;
 pub mod frequencies;
 mod ladder;
@@ -118,6 +119,7 @@ const KINDS: &[(&str, Reader)] = &[
     ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
     (work_precision::WORK_PRECISION, |path| Ok(Box::new(work_precision::WorkPrecision::read(path)?))),
     (stability::KIND, |path| Ok(Box::new(stability::Stability::read(path)?))),
+    (extremes::KIND, |path| Ok(Box::new(extremes::Extremes::read(path)?))),
     (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
     (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
 ];

@@ -2,6 +2,7 @@
 
 mod frequencies;
 mod self_convergence;
+mod stress;
 mod vibration;
 
 use std::path::{Path, PathBuf};

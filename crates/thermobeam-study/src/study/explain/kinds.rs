@@ -14,7 +14,7 @@ pub(super) struct Kind {
 }
 
 /// One row for each kind.
-pub(super) const KINDS: [Kind; 16] = [
+pub(super) const KINDS: [Kind; 17] = [
     Kind {
         name: CONVERGENCE,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
@@ -121,6 +121,13 @@ pub(super) const KINDS: [Kind; 16] = [
               path, and its cost for any error.",
         judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
         failure: "A method has become dearer for the same error, or its order is not what the law says.",
+    },
+    Kind {
+        name: "extremes",
+        why: "At the edge of each range - huge steps, stiff obstacles, no viscosity, loads past buckling, a million elements, ten million \
+              steps - the laws of the scheme still hold, or a typed error says that they cannot.",
+        judged: "Each case has its claim: the energy, the balance within its derived bound, or the error that must come.",
+        failure: "The case named has left the range in which the solver can be trusted.",
     },
     Kind {
         name: "random-scenes",

@@ -113,7 +113,7 @@ fn exceptions(study: &RandomScenes, measured: &[Measured]) -> Table {
 
 /// The largest residual in each cell of (dt, shortest element).
 fn figure(id: &str, measured: &[Measured]) -> Figure {
-    let (dt_range, h_range) = ([-6.0, 1.0], [-4.5, 0.0]);
+    let (dt_range, h_range) = ([-6.0, 1.0], [-4.0, 0.0]);
     let index = |[low, high]: [f64; 2], value: f64| {
         let at = (value.log10() - low) / (high - low) * CELLS as f64;
         (at >= 0.0).then(|| (at as usize).min(CELLS - 1))

@@ -34,7 +34,7 @@ pub(super) fn all(study: &Stability, rows: &[Measured], lines: &[Measured]) -> V
         ),
         map.draw(
             ("newton", ITERATIONS_OF_NEWTON, REFUSED, "operator not definite"),
-            Axis::linear("most iterations of Newton's method in a step"),
+            Axis::linear("most Newton iterations in a step"),
             1.0,
             map.definite(),
             &format!("Most iterations of Newton's method in a step over dt and {over}."),

@@ -15,13 +15,15 @@
 //! Monotony can hold by luck; this balance to round-off cannot.
 
 mod rounding;
+mod sums;
 
 pub use rounding::{Rounding, scale};
 
-use crate::norms::{element_product, l2_squared, shear_squared, slope_squared};
+use crate::norms::{l2_squared, shear_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;
 use crate::solve::Level;
+use sums::Sums;
 
 /// The terms of E^n, (3.9).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,10 +98,7 @@ impl Balance {
         old: &Level,
         new: &Level,
     ) -> Self {
-        let mut sums = Sums::default();
-        for (i, &h) in lengths.iter().enumerate() {
-            sums.add_element(h, 1.0 / scheme.inertia, [i, i + 1], old, new);
-        }
+        let sums = Sums::over(lengths, 1.0 / scheme.inertia, old, new);
         let tip = new.u.len() - 1;
         let (u, u0) = (new.u[tip], old.u[tip]);
         let (mut contact_change, mut gap) = (0.0, 0.0);
@@ -116,52 +115,5 @@ impl Balance {
         // Backward Euler loses (2 - inertia)/2 of the squared jump: all of it, or nothing for the midpoint rule.
         let inertial = 0.5 * (2.0 - scheme.inertia) * sums.jump;
         Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
-    }
-}
-
-/// Sums over the elements.
-#[derive(Default)]
-struct Sums {
-    /// ½ of the differences of ‖v‖², ‖w‖², ‖u_x - φ‖², ‖φ_x‖², ‖θ~‖².
-    quadratic: f64,
-    /// ‖u_x‖², old and new.
-    slope_squared: [f64; 2],
-    /// ∫ φ - φ0.
-    rotation_change: f64,
-    /// ‖V_x - W‖² + ‖W_x‖².
-    viscous: f64,
-    /// ‖θ~_x‖² at n-½.
-    heat_flow: f64,
-    /// ‖v - v0‖² + ‖w - w0‖².
-    jump: f64,
-}
-
-impl Sums {
-    fn add_element(&mut self, h: f64, weight: f64, ends: [usize; 2], old: &Level, new: &Level) {
-        let pick = |y: &[f64]| [y[ends[0]], y[ends[1]]];
-        let mean = |y: &[f64], y0: &[f64]| ends.map(|i| 0.5 * (y[i] + y0[i]));
-        let jump = |y: &[f64], y0: &[f64]| ends.map(|i| y[i] - y0[i]);
-        // ½(‖y‖² - ‖y0‖²) = (mean, jump): no cancellation.
-        for (y, y0) in [(&new.v, &old.v), (&new.w, &old.w), (&new.theta, &old.theta)] {
-            self.quadratic += element_product(h, mean(y, y0), jump(y, y0));
-        }
-        for (y, y0) in [(&new.v, &old.v), (&new.w, &old.w)] {
-            self.jump += element_product(h, jump(y, y0), jump(y, y0));
-        }
-        let slope = |y: [f64; 2]| (y[1] - y[0]) / h;
-        let shear = |u: [f64; 2], phi: [f64; 2]| phi.map(|phi| slope(u) - phi);
-        let mean_shear = shear(mean(&new.u, &old.u), mean(&new.phi, &old.phi));
-        let (du, dphi) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
-        self.quadratic += element_product(h, mean_shear, shear(du, dphi));
-        self.quadratic += h * slope(mean(&new.phi, &old.phi)) * slope(dphi);
-        self.rotation_change += 0.5 * h * (dphi[0] + dphi[1]);
-        for (sum, u) in self.slope_squared.iter_mut().zip([&old.u, &new.u]) {
-            *sum += h * slope(pick(u)) * slope(pick(u));
-        }
-        let carrying = |y: &[f64], y0: &[f64]| ends.map(|i| weight * y[i] + (1.0 - weight) * y0[i]);
-        let (v, w) = (carrying(&new.v, &old.v), carrying(&new.w, &old.w));
-        self.viscous += element_product(h, shear(v, w), shear(v, w)) + h * slope(w) * slope(w);
-        let theta = slope(mean(&new.theta, &old.theta));
-        self.heat_flow += h * theta * theta;
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers that a time step is computed in: one case (`f64`) or several side by side ([`Lanes`]).
 //!
-//! Lanes never mix: the operations of lane k are those of a run of case k alone, in the same order, so that both give
-//! the same bits.
+//! Where cases lie side by side, lanes never mix: the operations of lane k are those of a run of case k alone, in the
+//! same order, so that both give the same bits.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -23,6 +23,11 @@ pub trait Lane:
     fn splat(value: f64) -> Self;
     /// The value of each case.
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self;
+    /// The first `WIDTH` of the values.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn load(values: &[f64]) -> Self;
     /// The value of case k < WIDTH.
     fn lane(&self, k: usize) -> f64;
     /// Sets the value of case k < WIDTH.
@@ -40,6 +45,10 @@ impl Lane for f64 {
     #[inline(always)]
     fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
         value(0)
+    }
+    #[inline(always)]
+    fn load(values: &[f64]) -> Self {
+        values[0]
     }
     #[inline(always)]
     fn lane(&self, _: usize) -> f64 {
@@ -68,6 +77,10 @@ impl<const W: usize> Lane for Lanes<W> {
     #[inline(always)]
     fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
         Self(std::array::from_fn(value))
+    }
+    #[inline(always)]
+    fn load(values: &[f64]) -> Self {
+        Self(*values.first_chunk().expect("a value for each lane"))
     }
     #[inline(always)]
     fn lane(&self, k: usize) -> f64 {

@@ -1,0 +1,148 @@
+//! Times of the parts of a step over the number of elements: `cargo bench -p thermobeam`.
+//!
+//! Items are elements: a throughput of 100 Mitem/s is 10 ns per element.
+
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+use thermobeam::energy::scale;
+use thermobeam::ensemble::Ensemble;
+use thermobeam::mesh::Mesh;
+use thermobeam::norms::TheoremSquares;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::{Level, Settings, Solver};
+use thermobeam::tridiagonal::TridiagonalFactor;
+
+/// Elements of a mesh.
+const SIZES: [usize; 4] = [10, 100, 1_000, 10_000];
+const DT: f64 = 1e-4;
+
+fn main() {
+    divan::main();
+}
+
+/// The paper's beam, heated and thrown against its upper obstacle.
+fn thrown(elements: usize) -> Problem {
+    let mesh = Mesh::uniform(elements).expect("a mesh");
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    for (i, &x) in mesh.nodes().iter().enumerate() {
+        initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
+        initial.theta[i] = x * (1.0 - x);
+    }
+    Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial }
+}
+
+fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
+    let settings = Settings { solver, ..Settings::default() };
+    Simulation::new(thrown(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
+}
+
+/// A simulation that has moved, and its two last levels.
+fn moved(elements: usize) -> (Simulation, Level, Level) {
+    let mut simulation = simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
+    (0..10).for_each(|_| drop(simulation.advance().expect("a step")));
+    let old = simulation.level();
+    simulation.advance().expect("a step");
+    let new = simulation.level();
+    (simulation, old, new)
+}
+
+fn steps(bencher: Bencher<'_, '_>, mut simulation: Simulation) {
+    let elements = simulation.lengths().len();
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.advance());
+}
+
+#[divan::bench(args = SIZES)]
+fn step_newton(bencher: Bencher<'_, '_>, elements: usize) {
+    steps(bencher, simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton));
+}
+
+#[divan::bench(args = SIZES)]
+fn step_midpoint(bencher: Bencher<'_, '_>, elements: usize) {
+    steps(bencher, simulation(elements, MIDPOINT, Solver::Newton));
+}
+
+#[divan::bench(args = SIZES)]
+fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
+    steps(bencher, simulation(elements, EULER_CRANK_NICOLSON, Solver::FixedPoint));
+}
+
+/// Items are the elements of all W cases.
+#[divan::bench(args = SIZES, consts = [2, 4, 8])]
+fn step_in_lanes<const W: usize>(bencher: Bencher<'_, '_>, elements: usize) {
+    let problems = vec![thrown(elements); W];
+    let mut ensemble =
+        Ensemble::<W>::new(problems, [DT; W], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
+    bencher.counter(ItemsCount::new(elements * W)).bench_local(|| ensemble.advance());
+}
+
+#[divan::bench(args = SIZES)]
+fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
+    let build = || simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
+    bencher.counter(ItemsCount::new(elements)).bench_local(build);
+}
+
+#[divan::bench(args = SIZES)]
+fn observe(bencher: Bencher<'_, '_>, elements: usize) {
+    let (mut simulation, _, mut level) = moved(elements);
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.observe(black_box(&mut level)));
+}
+
+#[divan::bench(args = SIZES)]
+fn energy(bencher: Bencher<'_, '_>, elements: usize) {
+    let (simulation, _, level) = moved(elements);
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.energy(black_box(&level)));
+}
+
+#[divan::bench(args = SIZES)]
+fn energy_scale(bencher: Bencher<'_, '_>, elements: usize) {
+    let (simulation, _, level) = moved(elements);
+    let Problem { beam, obstacles, .. } = simulation.problem();
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| scale(beam, obstacles.as_ref(), simulation.lengths(), black_box(&level)));
+}
+
+#[divan::bench(args = SIZES)]
+fn balance(bencher: Bencher<'_, '_>, elements: usize) {
+    let (simulation, old, new) = moved(elements);
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
+}
+
+#[divan::bench(args = SIZES)]
+fn rounding(bencher: Bencher<'_, '_>, elements: usize) {
+    let (simulation, old, new) = moved(elements);
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
+}
+
+#[divan::bench(args = SIZES)]
+fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
+    let (simulation, _, level) = moved(elements);
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| {
+        let Level { u, v, phi, w, theta, .. } = black_box(&level);
+        TheoremSquares::of(simulation.lengths(), v, u, w, phi, theta).norm()
+    });
+}
+
+#[divan::bench(args = SIZES)]
+fn tridiagonal_factorize(bencher: Bencher<'_, '_>, elements: usize) {
+    let lengths = vec![1.0 / elements as f64; elements];
+    let mut factor = TridiagonalFactor::new(elements);
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| factor.factorize(black_box(&lengths), elements, 1.0, 0.0, 1.0));
+}
+
+#[divan::bench(args = SIZES)]
+fn tridiagonal_solve(bencher: Bencher<'_, '_>, elements: usize) {
+    let lengths = vec![1.0 / elements as f64; elements];
+    let mut factor = TridiagonalFactor::new(elements);
+    factor.factorize(&lengths, elements, 1.0, 0.0, 0.0).expect("a definite matrix");
+    let mut right = vec![1.0; elements + 1];
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| factor.solve_in_place(elements, black_box(&mut right)));
+}

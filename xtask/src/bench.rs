@@ -2,27 +2,36 @@
 
 use std::error::Error;
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use thermobeam_study::outcome::Table;
 use thermobeam_study::provenance::Provenance;
 use thermobeam_study::scene::Scene;
+use thermobeam_study::study::Study;
+use thermobeam_study::study::work_precision::{WORK_PRECISION, WorkPrecision};
 use thermobeam_study::study_file::Tier;
+use thermobeam_study::yardstick::Quantity;
 use thermobeam_study::{atomic, pace, runner, study};
 
-use crate::{output, screen, workspace};
+use crate::{output, screen, selection, workspace};
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
+
+/// Studies in the table of the costliest.
+const COSTLIEST: usize = 12;
 
 /// Time per step, and run time against error, on this machine; writes reports/bench.md
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// The scene that is timed
     #[arg(long, default_value = "studies/scenes/paper-1-beta-0.toml")]
-    scene: std::path::PathBuf,
+    scene: PathBuf,
+    /// The tier of `verify` that is timed on one thread and on all
+    #[arg(long, value_parser = selection::tier_parser(), default_value = Tier::Quick.name())]
+    tier: Tier,
 }
 
 /// Runs the command.
@@ -30,58 +39,97 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let root = workspace::root()?;
     let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
     let scene = Scene::read(&path)?;
-    let mut text = heading(&root, &path);
-    let mut add = |table: Table| -> Result<(), Box<dyn Error>> {
-        let section = format!("## {}\n\n{}\n", table.title, markdown(&table));
-        output::print(&format!("{}\n{}\n", table.title, screen::table(&as_text(&table.head), &table.rows)))?;
-        text += &section;
-        Ok(())
-    };
-    add(pace::ways(&scene, 100)?)?;
-    add(pace::ways(&scene, 1000)?)?;
-    add(pace::scenes(&scene, 100)?)?;
-    add(pace::scaling(&scene, &ELEMENTS)?)?;
-    add(threads(&root)?)?;
-    let file = root.join("reports/bench.md");
-    atomic::write(&file, text)?;
+    let listed = workspace::studies(&root)?;
+    let mut page = Page { text: heading(&root, &path), folder: root.join("reports") };
+    page.add(&pace::ways(&scene, 100)?)?;
+    page.add(&pace::ways(&scene, 1000)?)?;
+    page.add(&pace::scenes(&scene, 100)?)?;
+    page.add(&pace::scaling(&scene, &ELEMENTS)?)?;
+    for listed in listed.iter().filter(|listed| listed.header.kind == WORK_PRECISION) {
+        accuracy(&WorkPrecision::read(&listed.path)?, &mut page)?;
+    }
+    threads(&listed, arguments.tier, &mut page)?;
+    let file = page.folder.join("bench.md");
+    atomic::write(&file, &page.text)?;
     output::print(&format!("written to {}\n", file.display()))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// What has been measured so far, as Markdown.
+struct Page {
+    text: String,
+    folder: PathBuf,
+}
+
+impl Page {
+    /// Adds a table, and shows it.
+    fn add(&mut self, table: &Table) -> std::io::Result<()> {
+        let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
+        self.text += &format!("## {}\n\n{}\n", table.title, markdown(table));
+        output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))
+    }
+
+    /// Adds a figure, in a file beside the page.
+    fn draw(&mut self, name: &str, caption: &str, svg: &str) -> std::io::Result<()> {
+        self.text += &format!("![{caption}](bench/{name})\n\n");
+        atomic::write(&self.folder.join("bench").join(name), svg)
+    }
 }
 
 fn heading(root: &Path, scene: &Path) -> String {
     let machine = Provenance::collect(root, "cargo xtask bench".to_owned(), 1, &[]);
     let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     format!(
-        "# Benchmarks\n\nWritten by `cargo xtask bench` on {}, {} threads, {}; scene {name}. Each time is the best of nine \
-         runs; counts are exact. Another machine gives other times: compare ratios.\n\n",
+        "# Benchmarks\n\nWritten by `cargo xtask bench` on {}, {} threads, {}; scene {name}. Each time is the best of \
+         several runs; counts are exact. Another machine gives other times: compare ratios.\n\n",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.threads_available.map_or("?".to_owned(), |threads| threads.to_string()),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
     )
 }
 
-/// The quick tier on one thread and on all.
-fn threads(root: &Path) -> Result<Table, Box<dyn Error>> {
-    let listed = workspace::studies(root)?;
-    let quick = listed.iter().filter(|listed| listed.header.tier == Tier::Quick);
-    let studies = quick.map(|listed| study::read(&listed.path)).collect::<Result<Vec<_>, _>>()?;
-    let mut rows = vec![];
-    let mut one = f64::NAN;
+/// Run time against error, in every quantity.
+fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Box<dyn Error>> {
+    let runs = study.timed().map_err(|failure| failure.reason)?;
+    #[cfg(feature = "ode-library")]
+    let runs = [runs, study.timed_library().map_err(|failure| failure.reason)?].concat();
+    let id = &study.header().id;
+    for quantity in Quantity::ALL {
+        let table = study.seconds(quantity, &runs);
+        if table.rows.is_empty() {
+            continue;
+        }
+        page.add(&table)?;
+        let caption = format!("{id}: error ({}) over seconds", quantity.name());
+        page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &study.seconds_figure(quantity, &runs))?;
+    }
+    Ok(())
+}
+
+/// A tier on one thread and on all, and what its studies cost on one.
+fn threads(listed: &[workspace::Listed], tier: Tier, page: &mut Page) -> Result<(), Box<dyn Error>> {
+    let chosen = listed.iter().filter(|listed| listed.header.tier <= tier);
+    let studies = chosen.map(|listed| study::read(&listed.path)).collect::<Result<Vec<_>, _>>()?;
+    let (mut rows, mut one, mut costs) = (vec![], f64::NAN, vec![]);
     for jobs in [NonZeroUsize::MIN, screen::jobs(None)] {
         let start = Instant::now();
-        runner::run(&studies, jobs, &|_| ())?;
+        let finished = runner::run(&studies, jobs, &|_| ())?;
         let seconds = start.elapsed().as_secs_f64();
         if jobs == NonZeroUsize::MIN {
             one = seconds;
+            costs = finished.iter().map(|study| (study.spent.busy.as_secs_f64(), study.header.id.clone())).collect();
         }
         rows.push(vec![jobs.to_string(), format!("{seconds:.2}"), format!("{:.2}", one / seconds)]);
     }
-    let head = ["threads", "seconds", "speed-up"].map(str::to_owned).to_vec();
-    Ok(Table { title: "The quick tier of verify".to_owned(), head, rows })
-}
-
-fn as_text(head: &[String]) -> Vec<&str> {
-    head.iter().map(String::as_str).collect()
+    let table = |title: String, head: [&str; 3], rows| Table { title, head: head.map(str::to_owned).to_vec(), rows };
+    page.add(&table(format!("The {} tier of verify", tier.name()), ["threads", "seconds", "speed-up"], rows))?;
+    costs.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let row = |(seconds, id): &(f64, String)| {
+        vec![id.clone(), format!("{seconds:.2}"), format!("{:.0} %", 100.0 * seconds / one)]
+    };
+    let rows = costs.iter().take(COSTLIEST).map(row).collect();
+    page.add(&table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
+    Ok(())
 }
 
 fn markdown(table: &Table) -> String {

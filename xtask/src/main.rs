@@ -5,6 +5,7 @@
 
 mod bench;
 mod completions;
+mod drift;
 mod equilibria;
 mod exit;
 mod explain;
@@ -48,6 +49,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
     Bench(bench::Arguments),
+    Drift(drift::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -64,6 +66,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => exit::code(sweep::run(&arguments)),
         Command::Merge(arguments) => exit::code(merge::run(&arguments)),
         Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
+        Command::Drift(arguments) => exit::status(drift::drift(&arguments)),
         Command::Completions(arguments) => exit::code(completions::run(&arguments)),
     }
 }

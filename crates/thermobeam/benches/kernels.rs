@@ -107,17 +107,13 @@ fn energy_scale(bencher: Bencher<'_, '_>, elements: usize) {
 #[divan::bench(args = SIZES)]
 fn balance(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, old, new) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
 }
 
 #[divan::bench(args = SIZES)]
 fn rounding(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, old, new) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
 }
 
 #[divan::bench(args = SIZES)]

@@ -64,6 +64,8 @@ pub struct Stepping {
 }
 
 /// A running simulation, standing at one time level.
+///
+/// It holds 392 bytes an element by Newton's method, 256 where nothing is heated, and 248 by the fixed point.
 pub struct Simulation {
     problem: Problem,
     lengths: Vec<f64>,

@@ -77,3 +77,30 @@ fn the_counter_counts() {
     let info = allocation_counter::measure(|| drop(std::hint::black_box(vec![0u8; 100])));
     assert_eq!(info.count_total, 1);
 }
+
+/// Bytes that a simulation on so many elements holds, its data included.
+fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
+    let problem = Problem {
+        mesh: Mesh::uniform(elements).unwrap(),
+        initial: Initial::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
+        ..thrown(heated)
+    };
+    let settings = Settings { solver, ..Settings::default() };
+    let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: false };
+    let mut kept = None;
+    let info = allocation_counter::measure(|| {
+        kept = Some(Simulation::new(problem.clone(), stepping).unwrap());
+    });
+    assert!(kept.is_some());
+    info.bytes_current
+}
+
+#[test]
+fn memory_grows_with_the_elements_as_documented() {
+    for (solver, heated, documented) in
+        [(Solver::Newton, true, 392), (Solver::Newton, false, 256), (Solver::FixedPoint, true, 248)]
+    {
+        let per_element = (bytes(3000, solver, heated) - bytes(1000, solver, heated)) as f64 / 2000.0;
+        assert!((per_element - f64::from(documented)).abs() < 1.0, "{solver:?}, heated: {heated}: {per_element}");
+    }
+}

@@ -28,6 +28,7 @@ pub mod law;
 mod library;
 pub mod method;
 mod report;
+mod timed;
 
 use crate::march::Family;
 use crate::outcome::Outcome;
@@ -37,6 +38,7 @@ use crate::yardstick::{Quantity, Reference, Yardstick};
 use law::GridPoint;
 use method::{METHODS, Measurement, Method};
 use std::sync::OnceLock;
+pub use timed::Timed;
 
 /// Name of the kind.
 pub const WORK_PRECISION: &str = "work-precision";
@@ -70,19 +72,6 @@ pub struct WorkPrecision {
     advantages: Vec<Advantage>,
 }
 
-/// A run with its seconds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Timed {
-    /// The method's name.
-    pub method: &'static str,
-    /// Elements.
-    pub elements: usize,
-    /// Time steps.
-    pub steps: usize,
-    /// Errors and cost.
-    pub measurement: Measurement,
-}
-
 impl WorkPrecision {
     /// Equidistant times at which the error is measured.
     fn observations(&self) -> usize {
@@ -107,20 +96,6 @@ impl WorkPrecision {
         let mut yardstick = Yardstick::new(&self.family, &on, self.reference()?)?;
         let mut run = |&steps: &usize| method.run(&on, &mut yardstick, [steps, self.observations()], self.tolerance);
         self.steps.iter().map(&mut run).collect()
-    }
-
-    /// All runs with their seconds, on this thread, one after the other: for benchmarks only, no outcome holds them.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] of the first run that does not come to its end.
-    pub fn timed(&self) -> Result<Vec<Timed>, CaseFailure> {
-        let mut timed = vec![];
-        for (method, elements) in self.grid() {
-            let runs = self.measure(&method, elements)?;
-            let row = |(&steps, measurement)| Timed { method: method.name, elements, steps, measurement };
-            timed.extend(self.steps.iter().zip(runs).map(row));
-        }
-        Ok(timed)
     }
 
     /// The grid of one method in one quantity; NaN where a run failed.

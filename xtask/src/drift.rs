@@ -1,0 +1,292 @@
+//! `drift`: the guarded numbers again, by programs that round differently; what the baseline's tolerances are for.
+//!
+//! The number of threads must not change a bit. Fused multiply-adds and the optimiser may: each moves a rounding error
+//! here and there, which is all that another machine or another compiler does. No number may come out farther from this
+//! program's than its tolerance.
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::{env, fs};
+
+use serde::Deserialize;
+use thermobeam_study::outcome::Table;
+use thermobeam_study::study_file::Tier;
+use thermobeam_study::{atomic, provenance};
+
+use crate::{output, screen, selection, workspace};
+
+/// Compare the guarded numbers of other builds and thread counts with this one's; writes reports/drift.md
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Tier of the studies
+    #[arg(long, value_parser = selection::tier_parser(), default_value = Tier::Quick.name())]
+    tier: Tier,
+}
+
+/// A way to the same numbers.
+struct Variant {
+    name: &'static str,
+    /// Arguments of `cargo build`, and RUSTFLAGS; `None` is the program that runs.
+    build: Option<(&'static [&'static str], &'static str)>,
+    /// Its folder below `target`.
+    folder: &'static str,
+    jobs: usize,
+    /// Whether not a bit may differ.
+    same_bits: bool,
+}
+
+const SHIPPED: Variant = Variant { name: "release, 1 thread", build: None, folder: "", jobs: 1, same_bits: true };
+
+const VARIANTS: [Variant; 5] = [
+    Variant { name: "release, 2 threads", jobs: 2, ..SHIPPED },
+    Variant { name: "release, 7 threads", jobs: 7, ..SHIPPED },
+    Variant {
+        name: "release, without fused multiply-add",
+        build: Some((&["--release"], "-C target-feature=-fma")),
+        folder: "drift-no-fma",
+        same_bits: false,
+        ..SHIPPED
+    },
+    Variant {
+        name: "release, for any x86-64 (neither FMA nor AVX)",
+        build: Some((&["--release"], "-C target-cpu=x86-64")),
+        folder: "drift-any",
+        same_bits: false,
+        ..SHIPPED
+    },
+    Variant {
+        name: "debug",
+        build: Some((&[], "-C target-cpu=x86-64-v3")),
+        folder: "drift-debug",
+        same_bits: false,
+        ..SHIPPED
+    },
+];
+
+/// Of the record that `study --format json` prints: what is compared.
+#[derive(Deserialize)]
+struct Record {
+    studies: Vec<StudyRecord>,
+}
+
+#[derive(Deserialize)]
+struct StudyRecord {
+    id: String,
+    verdict: String,
+    quantities: Vec<Guarded>,
+}
+
+#[derive(Deserialize)]
+struct Guarded {
+    name: String,
+    /// `null` where it is not finite.
+    value: Option<f64>,
+    tolerance: Option<f64>,
+}
+
+/// Value and tolerance by study and name, and the studies that do not pass.
+#[derive(Debug, Default, PartialEq)]
+struct Numbers {
+    values: BTreeMap<String, (f64, f64)>,
+    not_passing: Vec<String>,
+}
+
+impl Numbers {
+    fn parse(json: &str) -> serde_json::Result<Self> {
+        let record: Record = serde_json::from_str(json)?;
+        let mut numbers = Self::default();
+        for study in record.studies {
+            if study.verdict != "pass" {
+                numbers.not_passing.push(study.id.clone());
+            }
+            for Guarded { name, value, tolerance } in study.quantities {
+                let both = (value.unwrap_or(f64::NAN), tolerance.unwrap_or(f64::NAN));
+                numbers.values.insert(format!("{}: {name}", study.id), both);
+            }
+        }
+        Ok(numbers)
+    }
+}
+
+/// How far one run's numbers lie from another's.
+#[derive(Debug, PartialEq)]
+struct Distance {
+    same_bits: usize,
+    of: usize,
+    /// Median and largest relative difference of those that differ.
+    median: f64,
+    largest: f64,
+    /// The largest in units of its tolerance, and whose it is.
+    strain: f64,
+    strained: String,
+}
+
+impl Distance {
+    fn between(ours: &Numbers, theirs: &Numbers) -> Self {
+        let mut differences = vec![];
+        let (mut strain, mut strained) = (0.0, "none".to_owned());
+        for (name, &(value, tolerance)) in &ours.values {
+            let other = theirs.values.get(name).map_or(f64::NAN, |(other, _)| *other);
+            if other.to_bits() == value.to_bits() {
+                continue;
+            }
+            let relative = (other - value).abs() / value.abs();
+            differences.push(relative);
+            // NaN is as far away as can be.
+            if !(relative / tolerance <= strain) {
+                (strain, strained) = (relative / tolerance, name.clone());
+            }
+        }
+        let of = ours.values.len().max(theirs.values.len());
+        differences.sort_by(f64::total_cmp);
+        let median = differences.get(differences.len() / 2).copied().unwrap_or(0.0);
+        let largest = differences.last().copied().unwrap_or(0.0);
+        Self { same_bits: ours.values.len() - differences.len(), of, median, largest, strain, strained }
+    }
+
+    /// Whether it is what the variant promises.
+    fn is_kept(&self, same_bits: bool) -> bool {
+        if same_bits { self.same_bits == self.of } else { self.strain <= 1.0 }
+    }
+}
+
+/// Runs the command.
+pub(crate) fn drift(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+    let root = workspace::root()?;
+    let listed = workspace::studies(&root)?;
+    let files: Vec<PathBuf> =
+        listed.into_iter().filter(|listed| listed.header.tier <= arguments.tier).map(|listed| listed.path).collect();
+    let own = env::current_exe()?;
+    let ours = run(&own, SHIPPED.jobs, &files)?;
+    let mut rows = vec![];
+    let mut kept = ours.not_passing.is_empty();
+    for variant in VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")) {
+        let program = match variant.build {
+            None => own.clone(),
+            Some((options, flags)) => build(&root, options, flags, &root.join("target").join(variant.folder))?,
+        };
+        let theirs = run(&program, variant.jobs, &files)?;
+        let distance = Distance::between(&ours, &theirs);
+        let good = distance.is_kept(variant.same_bits) && theirs.not_passing == ours.not_passing;
+        kept &= good;
+        rows.push(row(variant, &distance, &theirs.not_passing, good));
+    }
+    let head = ["variant", "promised", "same bits", "median", "largest", "largest / tolerance", "of", "verdict"];
+    let title = "Guarded numbers against those of the release on one thread".to_owned();
+    let table = Table { title, head: head.map(str::to_owned).to_vec(), rows };
+    output::print(&screen::table(&head, &table.rows))?;
+    let file = root.join("reports/drift.md");
+    atomic::write(&file, page(&root, &table))?;
+    output::print(&format!("written to {}\n", file.display()))?;
+    Ok(if kept { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: bool) -> Vec<String> {
+    let Distance { same_bits, of, median, largest, strain, strained } = distance;
+    let verdict = match (good, not_passing) {
+        (true, _) => "pass".to_owned(),
+        (false, []) => "fail".to_owned(),
+        (false, studies) => format!("fail: {}", studies.join(", ")),
+    };
+    vec![
+        variant.name.to_owned(),
+        if variant.same_bits { "same bits" } else { "within tolerance" }.to_owned(),
+        format!("{same_bits} of {of}"),
+        format!("{median:.1e}"),
+        format!("{largest:.1e}"),
+        format!("{strain:.1e}"),
+        strained.clone(),
+        verdict,
+    ]
+}
+
+fn page(root: &Path, table: &Table) -> String {
+    let machine = provenance::Provenance::collect(root, "cargo xtask drift".to_owned(), 1, &[]);
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    format!(
+        "# Drift\n\nWritten by `cargo xtask drift` on {}, {}. Differences are relative; `median` is that of the numbers that \
+         differ.\n\n## {}\n\n{}|{}\n{}",
+        machine.cpu.as_deref().unwrap_or("an unknown CPU"),
+        machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
+        table.title,
+        line(&table.head),
+        " --- |".repeat(table.head.len()),
+        table.rows.iter().map(|row| line(row)).collect::<String>()
+    )
+}
+
+/// The guarded numbers by a program.
+fn run(program: &Path, jobs: usize, files: &[PathBuf]) -> Result<Numbers, Box<dyn Error>> {
+    let output = Command::new(program)
+        .args(["study", "--format", "json", "--jobs", &jobs.to_string()])
+        .args(files)
+        .output()
+        .map_err(|error| format!("{}: {error}", program.display()))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    Numbers::parse(&text).map_err(|error| {
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        format!("{} printed no record: {error}\n{complaint}", program.display()).into()
+    })
+}
+
+/// Builds this program differently.
+fn build(root: &Path, options: &[&str], flags: &str, folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let flags =
+        if flags.contains("target-cpu") { flags.to_owned() } else { format!("-C target-cpu=x86-64-v3 {flags}") };
+    let status = Command::new(cargo)
+        .current_dir(root)
+        .args(["build", "--quiet", "--package", "xtask", "--target-dir"])
+        .arg(folder)
+        .args(options)
+        .env("RUSTFLAGS", flags)
+        .status()?;
+    if !status.success() {
+        return Err(format!("cargo could not build {}", folder.display()).into());
+    }
+    let profile = if options.contains(&"--release") { "release" } else { "debug" };
+    let program = folder.join(profile).join(format!("xtask{}", env::consts::EXE_SUFFIX));
+    fs::metadata(&program).map_err(|error| format!("{}: {error}", program.display()))?;
+    Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(values: &[(&str, &str)]) -> Numbers {
+        let quantity =
+            |(name, value): &(&str, &str)| format!(r#"{{"name": "{name}", "value": {value}, "tolerance": 1e-3}}"#);
+        let quantities: Vec<String> = values.iter().map(quantity).collect();
+        let json = format!(
+            r#"{{"schema": 1, "studies": [{{"id": "s", "verdict": "pass", "quantities": [{}]}}]}}"#,
+            quantities.join(", ")
+        );
+        Numbers::parse(&json).unwrap()
+    }
+
+    #[test]
+    fn a_difference_of_one_bit_is_seen_and_measured_in_tolerances() {
+        let ours = numbers(&[("a", "1.0"), ("b", "2.0")]);
+        let same = Distance::between(&ours, &numbers(&[("a", "1.0"), ("b", "2.0")]));
+        assert!(same.is_kept(true) && same.is_kept(false), "{same:?}");
+        let bit = Distance::between(&ours, &numbers(&[("a", "1.0000000000000002"), ("b", "2.0")]));
+        assert!(!bit.is_kept(true) && bit.is_kept(false), "{bit:?}");
+        assert_eq!((bit.same_bits, bit.strained.as_str()), (1, "s: a"));
+        let far = Distance::between(&ours, &numbers(&[("a", "1.0"), ("b", "2.004")]));
+        assert!(!far.is_kept(false) && (far.strain - 2.0).abs() < 1e-9, "{far:?}");
+    }
+
+    #[test]
+    fn what_is_missing_or_not_finite_is_never_kept() {
+        let ours = numbers(&[("a", "1.0"), ("b", "2.0")]);
+        for theirs in [numbers(&[("a", "1.0")]), numbers(&[("a", "1.0"), ("b", "null")])] {
+            let distance = Distance::between(&ours, &theirs);
+            assert!(!distance.is_kept(true) && !distance.is_kept(false), "{distance:?}");
+        }
+        let more = Distance::between(&numbers(&[("a", "1.0")]), &ours);
+        assert!(!more.is_kept(true), "{more:?}");
+    }
+}

@@ -81,6 +81,7 @@ fn every_result_is_held_by_tests_and_studies_that_exist() {
 
 #[test]
 fn a_function_that_is_no_test_holds_nothing() {
-    let source = "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
+    let source =
+        "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
     assert_eq!(tests_of(source).collect::<Vec<_>>(), ["a_law", "another"]);
 }

@@ -10,6 +10,7 @@ mod equilibria;
 mod exit;
 mod explain;
 mod github;
+mod history;
 mod list;
 mod merge;
 mod new;

@@ -56,7 +56,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     file.write_all(template.text(&arguments.name).as_bytes()).map_err(unusable)?;
     if !arguments.quiet {
         let path = path.display();
-        output::print(&format!("wrote {path}\nnow  cargo xtask {command} {path}\n"))?;
+        let mut text = format!("wrote {path}\nnow  cargo xtask {command} {path}\n");
+        if arguments.what == What::Study {
+            text += &format!("and  cargo xtask explain {path}\n");
+        }
+        output::print(&text)?;
     }
     Ok(Verdict::Pass)
 }

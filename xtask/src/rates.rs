@@ -130,7 +130,12 @@ fn text(table: &RateTable, rates: &[(String, RateVerdict)]) -> String {
     }
     text.push('\n');
     for (name, rate) in rates {
-        let _ = writeln!(text, "{name}: {}: {}", rate.verdict, rate.reason);
+        // The judge's own words, that the order is no positive number, would puzzle whoever has named none.
+        let reason = if rate.order.is_nan() { "no order is claimed" } else { rate.reason.as_str() };
+        let _ = writeln!(text, "{name}: {}: {reason}", rate.verdict);
+    }
+    if rates.iter().any(|(_, rate)| rate.order.is_nan()) {
+        text.push_str("\nclaim what theory says: --order P for all columns, --order NAME=P for one\n");
     }
     text
 }

@@ -73,6 +73,12 @@ impl Bar {
     }
 }
 
+/// Columns of the terminal; `None` where standard output is none.
+pub(crate) fn width() -> Option<usize> {
+    let terminal = console::Term::stdout();
+    terminal.size_checked().map(|(_, columns)| usize::from(columns)).filter(|_| io::stdout().is_terminal())
+}
+
 /// Whether colours are seen: on a terminal, unless `NO_COLOR` is set to anything.
 fn colours() -> bool {
     io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())

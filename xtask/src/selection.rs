@@ -47,8 +47,11 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&StudyHeader], tier: Tier) -> 
     if outside > 0 {
         return format!("`{word}` matches no study in the tier {}, and {outside} with --tier full", tier.name());
     }
+    // A list that fills the screen helps nobody.
+    const FEW: usize = 12;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
-    format!("`{word}` matches no study; allowed is {}, or a pattern such as '*-space'", ids.join(", "))
+    let allowed = if ids.len() <= FEW { ids.join(", ") } else { "what `cargo xtask list` shows".to_owned() };
+    format!("`{word}` matches no study; allowed is {allowed}, or a pattern such as '*-space'")
 }
 
 #[cfg(test)]

@@ -67,3 +67,35 @@ fn outside_a_workspace_there_is_nothing_to_verify() {
     let folder = tempfile::tempdir().unwrap();
     unusable(&folder, &["verify"], "found no folder with Cargo.toml and studies/");
 }
+
+#[test]
+fn the_list_tells_the_last_verdict_whichever_record_has_it() {
+    let scenes = [("a.toml", &study("a", "equilibrium")), ("b.toml", &study("b", "energy"))];
+    let root = workspace(&scenes.map(|(name, text)| (name, text.as_str())));
+    let list = |arguments: &[&str]| {
+        let output = xtask(root.path(), &[&["list"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let verdict = |id: &str| {
+        let text = list(&[id]);
+        text.lines().nth(1).unwrap().split("  ").filter(|cell| !cell.is_empty()).nth(3).unwrap().trim().to_owned()
+    };
+    assert_eq!((verdict("a"), verdict("b")), ("never run".to_owned(), "never run".to_owned()));
+    let record = |path: &str, id: &str, verdict: &str| {
+        let path = root.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, format!("{{\"studies\": [{{\"id\": \"{id}\", \"verdict\": \"{verdict}\"}}]}}")).unwrap();
+    };
+    record("reports/results.json", "a", "pass");
+    assert_eq!((verdict("a"), verdict("b")), ("pass".to_owned(), "never run".to_owned()));
+    record("reports/local/partial/results.json", "a", "fail");
+    assert_eq!(verdict("a"), "fail");
+    assert!(!list(&["a"]).contains("\u{1b}") && list(&["--tier", "quick"]).lines().count() == 3);
+    assert_eq!(list(&["b*"]).lines().count(), 2);
+    assert_eq!(xtask(root.path(), &["list", "c"]).status.code(), Some(2));
+    fs::write(root.path().join("reports/results.json"), "{").unwrap();
+    let broken = xtask(root.path(), &["list"]);
+    let error = String::from_utf8_lossy(&broken.stderr).into_owned();
+    assert!(broken.status.code() == Some(2) && error.contains("results.json: "), "{error}");
+}

@@ -48,6 +48,21 @@ fn bounds(node: Node<'_, '_>) -> [f64; 4] {
 }
 
 #[test]
+fn every_figure_is_in_the_gallery() {
+    let (plots, gallery) = (include_str!("../src/plots/mod.rs"), include_str!("figures/mod.rs"));
+    let exported = plots.lines().filter(|line| line.starts_with("pub use ")).flat_map(|line| {
+        let names = line.split(['{', '}']).nth(1).unwrap_or_default();
+        names.split(", ").filter(|name| name.starts_with(char::is_lowercase))
+    });
+    let figures: Vec<_> = exported.collect();
+    assert!(figures.len() >= 10);
+    for figure in figures {
+        assert!(gallery.contains(&format!(", {figure}(")), "{figure} is not in the gallery");
+        assert!(plots.contains(&format!("//! | [`{figure}`] | ")), "{figure} has no row at the head of plots/mod.rs");
+    }
+}
+
+#[test]
 fn every_figure_is_well_formed_and_free_of_nan() {
     for (name, svg) in figures::gallery() {
         let doc = parse(&svg);

@@ -112,8 +112,8 @@ impl Balance {
             - beam.a * beam.theta_a * sums.rotation_change;
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
-        // Backward Euler loses (2 - inertia)/2 of the squared jump: all of it, or nothing for the midpoint rule.
-        let inertial = 0.5 * (2.0 - scheme.inertia) * sums.jump;
+        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule nothing.
+        let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
     }
 }

@@ -29,7 +29,7 @@
 //!
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
 //! one [`scheme`] by one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Beside it, exact
-//! answers: [`equilibrium`], [`vibration`], [`contraction`]. The crate does no input or output and starts no threads; a
+//! answers: [`equilibrium`], [`vibration`], [`contraction`]. What all of them must obey is derived in [`theory`]. The crate does no input or output and starts no threads; a
 //! failure is a value ([`error`]), and after it the simulation stands where it stood.
 //!
 //! ```
@@ -79,3 +79,11 @@ pub mod solve;
 mod stumpff;
 pub mod tridiagonal;
 pub mod vibration;
+
+/// [energy]: crate::energy
+/// [contraction]: crate::contraction
+/// [equilibrium]: crate::equilibrium
+/// [vibration]: crate::vibration
+// The links above are for rustdoc; those at the end of the file are for readers of the file.
+#[doc = include_str!("../THEORY.md")]
+pub mod theory {}

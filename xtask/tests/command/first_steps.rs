@@ -1,8 +1,5 @@
 use std::path::Path;
 
-use thermobeam_study::study;
-use thermobeam_study::verdict::Verdict;
-
 use crate::{Folder, ended, xtask};
 
 #[test]
@@ -11,11 +8,13 @@ fn a_new_study_passes_as_it_is() {
     let ended = ended(xtask().args(["new", "study", "my-own.1", "--dir"]).arg(folder.path("")));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.contains("cargo xtask study"), "{}", ended.stdout);
-    let study = study::read(&folder.path("my-own.1.toml")).expect("a study");
-    assert_eq!(study.header().id, "my-own.1");
-    let results: Vec<_> = (0..study.cases().len()).map(|index| study.run(index)).collect();
-    let outcome = study.conclude(&results);
-    assert_eq!(outcome.verdict, Verdict::Pass, "{}", outcome.summary);
+    let study = crate::ended(xtask().arg("study").arg(folder.path("my-own.1.toml")));
+    assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
+    assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
+    // Each table once.
+    for title in ["\nRates\n", "\nErrors"] {
+        assert_eq!(study.stdout.matches(title).count(), 1, "{}", study.stdout);
+    }
 }
 
 #[test]
@@ -63,6 +62,15 @@ fn studies_norms_reasons_and_files_are_explained() {
     assert_eq!((unknown.status, unknown.stdout.as_str()), (Some(2), ""));
     assert!(unknown.stderr.contains("did you mean theorem-3.4-space?"), "{}", unknown.stderr);
     assert_eq!(explain("missing.toml").status, Some(2));
+    let contents = ended(xtask().arg("explain"));
+    assert!(
+        contents.status == Some(0) && contents.stdout.contains("displacement, superclose\n"),
+        "{}",
+        contents.stdout
+    );
+    // From anywhere in the workspace, not only from its root.
+    let below = ended(xtask().args(["explain", "energy-decay"]).current_dir(studies.join("scenes")));
+    assert_eq!(below.status, Some(0), "{}", below.stderr);
 }
 
 #[test]

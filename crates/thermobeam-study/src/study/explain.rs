@@ -115,25 +115,45 @@ fn reason_text(reason: Reason) -> (&'static str, &'static str) {
 /// A norm, a reason or a kind, in words; `None` where there is none of that name.
 pub fn term(name: &str) -> Option<String> {
     if let Some(norm) = Norm::ALL.into_iter().find(|norm| norm.name() == name) {
-        return Some(format!("{name}, a norm: {}.\nThe maximum over all time levels counts.\n", norm_text(norm)));
+        let mut text = format!("{name}, a norm\n");
+        section(&mut text, "what it measures", &format!("{}.", norm_text(norm)));
+        section(&mut text, "when", "The maximum over all time levels counts.");
+        return Some(text);
     }
     for reason in REASONS {
         let (known, text) = reason_text(reason);
         if known == name {
-            return Some(format!("{name}, a reason for {}: {}.\n{text}\n", reason.verdict(), reason.text()));
+            let mut words = format!("{name}, a reason for {}\n", reason.verdict());
+            section(&mut words, "in short", &format!("{}.", reason.text()));
+            section(&mut words, "what it means", text);
+            return Some(words);
         }
     }
     let kind = KINDS.iter().find(|kind| kind.name == name)?;
-    let mut text = format!("{name}, a kind of study.\n");
+    let mut text = format!("{name}, a kind of study\n");
     describe(&mut text, kind, None);
     Some(text)
 }
 
 /// The names that [`term`] knows.
 pub fn terms() -> Vec<&'static str> {
+    groups().into_iter().flat_map(|(_, names)| names).collect()
+}
+
+/// The names that [`term`] knows, group by group.
+pub fn contents() -> String {
+    let mut text = "what can be explained\n".to_owned();
+    for (title, names) in groups() {
+        section(&mut text, title, &names.join(", "));
+    }
+    text
+}
+
+fn groups() -> [(&'static str, Vec<&'static str>); 3] {
     let norms = Norm::ALL.iter().map(|norm| norm.name());
     let reasons = REASONS.iter().map(|&reason| reason_text(reason).0);
-    norms.chain(reasons).chain(KINDS.iter().map(|kind| kind.name)).collect()
+    let kinds = KINDS.iter().map(|kind| kind.name);
+    [("norms", norms.collect()), ("reasons for a verdict", reasons.collect()), ("kinds of study", kinds.collect())]
 }
 
 /// A study file in words; `None` where its kind has no row in this file.
@@ -258,11 +278,20 @@ mod tests {
     }
 
     #[test]
+    fn every_kind_of_study_has_its_words() {
+        let words: BTreeSet<_> = KINDS.iter().map(|kind| kind.name).collect();
+        let kinds: BTreeSet<_> = crate::study::kinds().collect();
+        assert_eq!(words, kinds);
+    }
+
+    #[test]
     fn every_term_has_one_meaning() {
         let names = terms();
         assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
         for name in names {
-            assert!(term(name).is_some_and(|text| text.starts_with(name)), "{name}");
+            let text = term(name).unwrap_or_else(|| panic!("{name}"));
+            assert!(text.starts_with(name) && text.lines().all(|line| line.chars().count() <= 100), "{text}");
+            assert!(contents().contains(name));
         }
         assert_eq!(term("magic"), None);
         assert_eq!(meant(Path::new("nowhere"), "superclosed").as_deref(), Some("superclose"));

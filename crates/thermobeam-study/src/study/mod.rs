@@ -151,11 +151,16 @@ pub fn headers(paths: &[PathBuf]) -> Result<Vec<StudyHeader>, InputError> {
     Ok(headers)
 }
 
+/// The names of all kinds of study.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    KINDS.iter().map(|(name, _)| *name)
+}
+
 /// The reader for a kind.
 fn reader(path: &Path, kind: &str) -> Result<Reader, InputError> {
     let known = KINDS.iter().find(|(name, _)| *name == kind);
     known.map(|(_, reader)| *reader).ok_or_else(|| {
-        let names: Vec<String> = KINDS.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        let names: Vec<String> = kinds().map(|name| format!("\"{name}\"")).collect();
         refuse(path, "kind", &format!("\"{kind}\""), &names.join(", "))
     })
 }

@@ -7,6 +7,8 @@
 //! | --- | --- | --- | --- |
 //! | `euler-crank-nicolson` | v at the new level | `M (V - v0)/dt` | g at the new level |
 //! | `midpoint` | v at the middle | `2 M (V - v0)/dt`, because `v = 2 V - v0` | the discrete gradient of G |
+//!
+//! Any `V = c v + (1 - c) v0` with ½ <= c <= 1 is a row, too: its inertia is 1/c, its order 1 for c > ½.
 
 /// How the contact force enters a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +26,7 @@ pub struct Scheme {
     pub name: &'static str,
     /// Order in dt that theory gives (for smooth solutions).
     pub order: f64,
-    /// The factor of `M (V - v0)/dt`: 1 where V is the new velocity, 2 where V is the mean velocity.
+    /// The factor of `M (V - v0)/dt`, from 1, where V is the new velocity, to 2, where V is the mean velocity.
     pub inertia: f64,
     /// How the contact force enters.
     pub contact: ContactRule,

@@ -89,6 +89,8 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) new: Vec<[T; B]>,
     /// (v, w, -) at the old level and room for the new one; kept only where V is not the new velocity itself.
     velocity: [Vec<[T; B]>; 2],
+    /// The scheme's inertia: `v = v0 + weight (V - v0)`.
+    weight: T,
     /// X: the present step's first, then those of the steps before.
     pub(super) ring: [Vec<[T; B]>; 4],
     pub(super) middle: Vec<[T; B]>,
@@ -149,6 +151,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             known: 1,
             old,
             velocity,
+            weight: T::splat(scheme.inertia),
             controls,
             frozen: vec![None; cases.len()],
             scalars,
@@ -373,9 +376,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         if let [old, new] = &mut self.velocity
             && !old.is_empty()
         {
-            // V is the mean velocity: v = 2 V - v0.
+            // Written so that it is v = 2 V - v0 to the bit where V is the mean velocity.
+            let (weight, rest) = (self.weight, T::splat(1.0) - self.weight);
             for ((new, old), x) in new.iter_mut().zip(old.iter()).zip(&self.ring[0]) {
-                *new = std::array::from_fn(|c| x[c] + x[c] - old[c]);
+                *new = std::array::from_fn(|c| weight * x[c] + rest * old[c]);
             }
             std::mem::swap(old, new);
         }

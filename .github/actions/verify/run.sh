@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Runs `cargo xtask verify` as a step of GitHub Actions, and tells the steps after it where the report is.
+#
+# Reads TIER and IDS; writes `status` and, where a report was written, `report` to GITHUB_OUTPUT; ends as verify does. The
+# report is a copy of the files that this run wrote, and of no others that the checkout had. The summary of the job and its
+# annotations are the program's own doing.
+set -euo pipefail
+
+# Patterns are for the program, not for the shell.
+set -f
+# shellcheck disable=SC2206
+ids=(${IDS:-})
+tier=${TIER:-quick}
+
+if [ "${#ids[@]}" -gt 0 ]; then
+    report=reports/local/partial
+elif [ "$tier" = full ]; then
+    report=reports/full
+else
+    report=reports
+fi
+
+status=0
+cargo xtask verify --tier "$tier" ${ids[@]+"${ids[@]}"} || status=$?
+echo "status=$status" >>"$GITHUB_OUTPUT"
+# With any other status nothing was written.
+if [ "$status" -le 1 ]; then
+    copy=$(mktemp -d "$RUNNER_TEMP/thermobeam-report-XXXXXX")
+    while read -r file; do
+        mkdir -p "$(dirname "$copy/$file")"
+        cp "$report/$file" "$copy/$file"
+    done <"$report/manifest.txt"
+    cp reports/local/provenance.json "$copy"
+    echo "report=$copy" >>"$GITHUB_OUTPUT"
+fi
+exit "$status"

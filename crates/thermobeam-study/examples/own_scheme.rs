@@ -1,0 +1,75 @@
+//! A time scheme of one's own, judged by the studies that judge the others.
+//!
+//! A scheme is a row of data. What fits no row is judged by its errors, as in the example `own_rates`.
+//!
+//! `cargo run -p thermobeam-study --example own_scheme`
+
+use std::error::Error;
+
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::{ContactRule, Scheme};
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::Settings;
+use thermobeam_study::study::{Study, convergence::Convergence};
+use thermobeam_study::study_file::ConvergenceSpec;
+use thermobeam_study::verdict::Verdict;
+
+/// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
+/// discrete gradient. It damps half as much as the paper's, and is of first order all the same.
+const MINE: Scheme = Scheme {
+    name: "three-quarters",
+    order: 1.0,
+    inertia: 4.0 / 3.0,
+    contact: ContactRule::DiscreteGradient,
+    source: "V = 3/4 v + 1/4 v0",
+};
+
+const STUDY: &str = r#"
+    study = { id = "my-scheme", claim = "The order of a scheme in time", tier = "quick" }
+    exact.u = [{ x = "0.3*sin(1.3*pi*x)", t = "cos(3*t) + 0.2*t" }]
+    exact.phi = [{ x = "0.4*x*exp(-x)", t = "sin(2*t) + 0.5" }]
+    refine = { axis = "time", isolate = true, elements = 8, steps = [64, 128, 256, 512, 1024], t_end = 1.0, tolerance = 1e-13 }
+    expect = [{ norm = "superclose", order = 1.0, tolerance = 0.02 }]
+"#;
+
+/// The verdict on an order in dt.
+fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
+    let mut spec = ConvergenceSpec::parse(STUDY, "my-scheme.toml")?;
+    (spec.refine.scheme, spec.expect[0].order) = (scheme, order);
+    let study = Convergence::new(spec);
+    let results: Vec<_> = (0..study.cases().len()).map(|case| study.run(case)).collect();
+    let outcome = study.conclude(&results);
+    Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
+}
+
+/// The largest residual of the energy's balance over a swing between the obstacles.
+fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
+    let mesh = Mesh::uniform(50)?;
+    let initial = Initial { u_t: mesh.nodes().to_vec(), ..Initial::at_rest(&mesh, 0.0) };
+    let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
+    let stepping = Stepping { scheme, settings: Settings::default(), dt: 1e-3, loaded: false };
+    let mut simulation = Simulation::new(problem, stepping)?;
+    let (mut old, mut largest) = (simulation.level(), 0.0_f64);
+    for _ in 0..2000 {
+        simulation.advance()?;
+        let new = simulation.level();
+        largest = largest.max(simulation.balance(&old, &new).residual.abs());
+        old = new;
+    }
+    Ok(largest)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (first, second) = (judged(MINE, 1.0)?, judged(MINE, 2.0)?);
+    println!("claimed 1: {}, {}\nclaimed 2: {}, {}", first.0, first.1, second.0, second.1);
+    let residual = balance(MINE)?;
+    println!("balance of the energy: {residual:.1e}");
+    assert!((first.0, second.0) == (Verdict::Pass, Verdict::Fail) && residual < 1e-11);
+    Ok(())
+}
+
+#[test]
+fn it_runs() {
+    main().unwrap();
+}

@@ -1,0 +1,87 @@
+//! What THEORY.md says holds a result must exist: each name is that of a test function or of a study.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const THEORY: &str = include_str!("../THEORY.md");
+
+/// The crates and the studies around this crate; `None` where it is tested without them.
+fn workspace() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.join("studies").is_dir().then_some(root)
+}
+
+/// The names in back quotes of each paragraph that begins with **Held by**, section by section.
+fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let sections = text.split("\n## ").skip(1);
+    sections
+        .map(|section| {
+            let title = section.lines().next().unwrap_or_default();
+            let held = section.split("\n\n").filter(|paragraph| paragraph.trim_start().starts_with("**Held by**"));
+            (title, held.flat_map(|paragraph| paragraph.split('`').skip(1).step_by(2)).collect())
+        })
+        .collect()
+}
+
+fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    for path in entries {
+        if path.is_dir() {
+            files(&path, extension, found);
+        } else if path.extension().is_some_and(|end| end == extension) {
+            found.push(path);
+        }
+    }
+}
+
+/// The functions that are marked as tests.
+fn tests_of(source: &str) -> impl Iterator<Item = String> {
+    let marked = source.split("#[test]").skip(1);
+    marked.filter_map(|rest| {
+        let (_, rest) = rest.split_once("fn ")?;
+        Some(rest.split(['(', '<']).next()?.trim().to_owned())
+    })
+}
+
+fn known(root: &Path) -> BTreeSet<String> {
+    let mut sources = vec![];
+    for part in ["thermobeam/src", "thermobeam/tests", "thermobeam-study/src", "thermobeam-study/tests"] {
+        files(&root.join("crates").join(part), "rs", &mut sources);
+    }
+    let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
+    let tests = sources.iter().flat_map(|path| tests_of(&read(path)).collect::<Vec<_>>());
+    let mut studies = vec![];
+    files(&root.join("studies"), "toml", &mut studies);
+    let id = |path: &PathBuf| {
+        let text = read(path);
+        let line = text.lines().find(|line| line.starts_with("id = "))?;
+        line.split('"').nth(1).map(str::to_owned)
+    };
+    tests.chain(studies.iter().filter_map(id)).collect()
+}
+
+/// What is cited and is neither a test nor a study.
+fn missing(text: &str, known: &BTreeSet<String>) -> Vec<String> {
+    let names = cited(text).into_iter().flat_map(|(_, names)| names);
+    names.filter(|&name| !known.contains(name)).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_result_is_held_by_tests_and_studies_that_exist() {
+    for (title, names) in cited(THEORY) {
+        assert!(!names.is_empty(), "nothing holds \"{title}\"");
+    }
+    let Some(root) = workspace() else { return };
+    let known = known(&root);
+    assert_eq!(missing(THEORY, &known), Vec::<String>::new());
+    let renamed = THEORY.replace("`energy-decay`", "`energy-rise`").replace("`no_frequency_is_missed`", "`none_is`");
+    assert_eq!(missing(&renamed, &known), ["energy-rise", "none_is"]);
+}
+
+#[test]
+fn a_function_that_is_no_test_holds_nothing() {
+    let source =
+        "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
+    assert_eq!(tests_of(source).collect::<Vec<_>>(), ["a_law", "another"]);
+}

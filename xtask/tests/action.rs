@@ -1,0 +1,93 @@
+//! The script of the GitHub action, run as the runner would, with a `cargo` that only pretends.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// Notes its arguments, writes a report and ends with STATUS.
+const CARGO: &str = r#"#!/usr/bin/env bash
+printf '%s\n' "$@" >arguments
+if [ "$STATUS" -le 1 ]; then
+    mkdir -p "$PLACE/figures" reports/local
+    echo new >"$PLACE/README.md"
+    echo new >"$PLACE/figures/a b.svg"
+    printf 'README.md\nfigures/a b.svg\n' >"$PLACE/manifest.txt"
+    echo new >reports/local/provenance.json
+fi
+exit "$STATUS"
+"#;
+
+struct Ran {
+    folder: TempDir,
+    status: Option<i32>,
+    arguments: String,
+    output: String,
+}
+
+/// * `place`: where the pretended run puts its report.
+fn run(tier: &str, ids: &str, status: i32, place: &str) -> Ran {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir_all(at("bin")).unwrap();
+    fs::write(at("bin/cargo"), CARGO).unwrap();
+    fs::set_permissions(at("bin/cargo"), fs::Permissions::from_mode(0o755)).unwrap();
+    // A checkout has the report of an earlier run.
+    fs::create_dir_all(at("reports")).unwrap();
+    for stale in ["README.md", "stale.svg"] {
+        fs::write(at("reports").join(stale), "old\n").unwrap();
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/actions/verify/run.sh");
+    let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
+    let mut command = Command::new("bash");
+    command.arg(script.canonicalize().unwrap()).current_dir(folder.path());
+    command.envs([("PATH", path.as_str()), ("TIER", tier), ("IDS", ids), ("PLACE", place)]);
+    command.env("STATUS", status.to_string()).env("RUNNER_TEMP", folder.path()).env("GITHUB_OUTPUT", at("output"));
+    let status = command.output().unwrap().status.code();
+    let text = |name: &str| fs::read_to_string(at(name)).unwrap_or_default();
+    Ran { status, arguments: text("arguments"), output: text("output"), folder }
+}
+
+impl Ran {
+    fn report(&self) -> Option<&str> {
+        self.output.lines().find_map(|line| line.strip_prefix("report="))
+    }
+}
+
+#[test]
+fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
+    for (tier, ids, place) in
+        [("quick", "", "reports"), ("full", "", "reports/full"), ("quick", "a-space  b-*", "reports/local/partial")]
+    {
+        for status in [0, 1] {
+            let ran = run(tier, ids, status, place);
+            assert_eq!(ran.status, Some(status));
+            assert!(ran.output.starts_with(&format!("status={status}\n")), "{}", ran.output);
+            let report = Path::new(ran.report().unwrap());
+            assert!(report.starts_with(ran.folder.path()));
+            for new in ["README.md", "figures/a b.svg", "provenance.json"] {
+                assert_eq!(fs::read_to_string(report.join(new)).unwrap(), "new\n", "{new}");
+            }
+            assert!(!report.join("stale.svg").exists());
+        }
+    }
+}
+
+#[test]
+fn where_nothing_was_written_no_old_report_is_handed_on() {
+    for status in [2, 101] {
+        let ran = run("quick", "", status, "reports");
+        assert_eq!((ran.status, ran.report()), (Some(status), None));
+        assert_eq!(ran.output, format!("status={status}\n"));
+    }
+}
+
+#[test]
+fn patterns_reach_the_program_as_they_are() {
+    // In the folder of the pretended run there is a file that the pattern would match.
+    let ran = run("quick", "a-space reports/*", 0, "reports/local/partial");
+    assert_eq!(ran.arguments, "xtask\nverify\n--tier\nquick\na-space\nreports/*\n");
+}

@@ -1,0 +1,29 @@
+//! ARCHITECTURE.md is the map: every file or folder of the sources has its place on it.
+
+use std::fs;
+use std::path::Path;
+
+/// What a folder of sources holds and a map does not name: `x.rs` and `x/` stand for each other.
+fn missing(map: &str, names: &[String]) -> Vec<String> {
+    let named = |name: &str| map.contains(&format!("`{name}.rs`")) || map.contains(&format!("`{name}/`"));
+    names.iter().filter(|name| !named(name)).cloned().collect()
+}
+
+/// The modules of a folder, but for the crate's root.
+fn modules(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let names = names.map(|name| name.trim_end_matches(".rs").to_owned());
+    names.filter(|name| name != "lib" && name != "main").collect()
+}
+
+#[test]
+fn every_file_is_on_the_map() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let map = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
+    for sources in ["crates/thermobeam/src", "crates/thermobeam-study/src", "xtask/src"] {
+        let modules = modules(&root.join(sources));
+        assert!(modules.len() > 10);
+        assert_eq!(missing(&map, &modules), Vec::<String>::new(), "of {sources} in ARCHITECTURE.md");
+    }
+    assert_eq!(missing(&map, &["mesh".to_owned(), "lost".to_owned()]), ["lost"]);
+}

@@ -2,7 +2,9 @@
 //!
 //! The same outcomes give the same bytes. Nothing here knows of times or machines.
 
+mod html;
 mod markdown;
+mod page;
 mod section;
 mod tables;
 mod words;
@@ -33,7 +35,7 @@ pub struct Findings<'f> {
     pub changes: &'f [Change],
     /// The verdict on all.
     pub verdict: Verdict,
-    /// Another report to point to: its title, and its path from this one.
+    /// Another report to point to: its title, and the path of its folder from this one's.
     pub see_also: Option<(&'f str, &'f str)>,
 }
 
@@ -47,6 +49,7 @@ impl Findings<'_> {
         let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
         let mut set = ReportSet::default();
         set.add("README.md", self.readme())?;
+        set.add("index.html", self.page())?;
         set.add("results.json", record::json(&record)?)?;
         set.add("junit.xml", junit(self.finished, self.changes).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
@@ -61,12 +64,17 @@ impl Findings<'_> {
         let link = |id: &str| format!("[{}](#{})", cell(id), markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
         page += &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.command);
-        if let Some((title, path)) = self.see_also {
-            page += &format!(" See also [{}]({path}).", text(title));
+        if let Some((title, folder)) = self.see_also {
+            page += &format!(" See also [{}]({folder}/README.md).", text(title));
         }
         page += &format!("\n\n{}{}", self.overview(link), self.moved());
         page.extend(self.finished.iter().map(section::section));
         page
+    }
+
+    /// The same as one page that needs nothing else.
+    pub fn page(&self) -> String {
+        page::page(self)
     }
 
     /// What of the report fits on one page of a continuous integration: no links, no sections.

@@ -41,7 +41,7 @@ pub fn animation(figure: &Animation) -> String {
     canvas.draw(Layer::plain(), |pen| stage.draw_scenery(pen, figure));
     canvas.raw(&stage.moving_parts(figure, &frames));
     let title = figure.title.clone().unwrap_or_else(|| "Motion of the beam between its obstacles".into());
-    canvas.finish(&title)
+    canvas.finish(&title, "")
 }
 
 /// `(t, displacement at the points to draw)`, thinned, without frames that are incomplete.

@@ -6,6 +6,7 @@ use super::colour::ColourScale;
 use super::heat::hatch;
 use super::legend::{Entry, Swatch};
 use super::marker::Marks;
+use super::readable;
 use super::sheet::Sheet;
 use super::style::{self, Dash, Look, WHITE, look};
 use super::surface::{Lattice, Surface};
@@ -85,11 +86,15 @@ fn draw_boundaries(sheet: &mut Sheet, figure: &ParameterMap) {
             let look = boundary_look(k);
             let (dash, colour, width) = if rim { (Dash::Solid, WHITE, 6.0) } else { (look.dash, look.colour, 3.0) };
             let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
-            sheet.canvas.draw(Layer::clipped(sheet.plot).dashed(dash), |pen| {
-                for line in positions.split(Option::is_none) {
-                    let line: Vec<Point> = line.iter().flatten().copied().collect();
-                    pen.line(&line, colour, width);
-                }
+            let layer = Layer::clipped(sheet.plot).dashed(dash);
+            let data = (!rim).then_some(series.points.as_slice());
+            sheet.canvas.group(&readable::series(&series.label, data), |canvas| {
+                canvas.draw(layer, |pen| {
+                    for line in positions.split(Option::is_none) {
+                        let line: Vec<Point> = line.iter().flatten().copied().collect();
+                        pen.line(&line, colour, width);
+                    }
+                });
             });
         }
     }

@@ -11,6 +11,7 @@ mod explain;
 mod github;
 mod list;
 mod merge;
+mod moved;
 mod new;
 mod output;
 mod progress;

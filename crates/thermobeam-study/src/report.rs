@@ -13,6 +13,7 @@ use std::io;
 
 use crate::baseline::Change;
 use crate::junit::junit;
+use crate::outcome::Figure;
 use crate::record::{self, Precision, Record, committed};
 use crate::runner::Finished;
 use crate::shelf::ReportSet;
@@ -21,6 +22,9 @@ use markdown::{cell, text};
 
 pub use tables::tables;
 pub use words::{can_be_blessed, key_numbers, sentence};
+
+/// The figure that is put beside the report as `beam.svg`: others show it, and need a name that studies do not change.
+const FRONT_PICTURE: &str = "section-5-beam.svg";
 
 /// What is reported on.
 #[derive(Debug, Clone, Copy)]
@@ -53,10 +57,17 @@ impl Findings<'_> {
         set.add("results.json", record::json(&record)?)?;
         set.add("junit.xml", junit(self.finished, self.changes).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
-        for figure in self.finished.iter().flat_map(|finished| &finished.outcome.figures) {
+        if let Some(beam) = self.figures().find(|figure| figure.file == FRONT_PICTURE) {
+            set.add("beam.svg", beam.svg.as_str())?;
+        }
+        for figure in self.figures() {
             set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
         }
         Ok(set)
+    }
+
+    fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.finished.iter().flat_map(|finished| &finished.outcome.figures)
     }
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
@@ -102,7 +113,7 @@ impl Findings<'_> {
         }
         let row = |change: &Change| vec![cell(&change.study), cell(&change.name), cell(&change.movement.to_string())];
         let rows = self.changes.iter().map(row).collect();
-        let table = markdown::table(&["study", "quantity", "change"], rows);
+        let table = section::untitled(&["study", "quantity", "change"], rows, "numbers");
         let bless = if can_be_blessed(self.finished) {
             format!("\nIf it is meant: `{} --bless`.\n", self.command)
         } else {

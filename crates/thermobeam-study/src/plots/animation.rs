@@ -123,7 +123,8 @@ impl Stage {
 
     fn draw_obstacles(&self, pen: &Pen<'_>, figure: &Animation) {
         let Some((g1, g2)) = figure.obstacles else { return };
-        let (left, right) = (PLOT.right - 22.0, PLOT.right + 34.0);
+        // The obstacles are there for the free end alone.
+        let (left, right) = (PLOT.right - 8.0, PLOT.right + 34.0);
         for (name, g, far) in [("g₁", g1, PLOT.bottom), ("g₂", g2, PLOT.top)] {
             let Some(near) = self.u.px(g) else { continue };
             let block = Rect { left, right, top: near.min(far), bottom: near.max(far) };

@@ -158,6 +158,11 @@
     });
   };
 
+  // What moves stands still for those who want it so.
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    for (const picture of document.querySelectorAll("figure > svg")) picture.pauseAnimations();
+  }
+
   for (const picture of document.querySelectorAll("svg[data-plot]")) {
     // A picture with parts to be operated is more than an image to assistive technology.
     picture.setAttribute("role", "group");

@@ -39,9 +39,20 @@ fn titled(Table { title, head, rows }: &Table, passes: bool) -> String {
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
     }
-    let open = if passes { "" } else { " open=\"\"" };
-    let (title, count) = (phrase(title), rows.len());
-    format!("<details{open}>\n<summary><b>{title}</b>: {count} rows</summary>\n\n{lines}\n</details>\n")
+    folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
+}
+
+/// What can be unfolded under a summary, which is HTML.
+fn folded(summary: &str, lines: &str, open: bool) -> String {
+    let open = if open { " open=\"\"" } else { "" };
+    format!("<details{open}>\n<summary>{summary}</summary>\n\n{lines}\n</details>\n")
+}
+
+/// A table without a title; folded under how many rows of what it has if they are many.
+pub(super) fn untitled(head: &[&str], rows: Vec<Vec<String>>, what: &str) -> String {
+    let count = rows.len();
+    let lines = table(head, rows);
+    if count <= MOST_ROWS { lines } else { folded(&format!("{count} {what}"), &lines, false) }
 }
 
 fn cells(row: &[String]) -> Vec<String> {

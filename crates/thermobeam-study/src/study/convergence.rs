@@ -8,7 +8,7 @@ mod grid;
 
 use crate::design::{Disagreement, Prepared};
 use crate::document::InputError;
-use crate::outcome::{LevelErrors, Outcome, Quantity, Table};
+use crate::outcome::{LevelErrors, Outcome, Quantity};
 use crate::study::{Case, CaseFailure, Measured, Study};
 use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Norm, StudyHeader};
 use crate::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
@@ -143,7 +143,6 @@ impl Study for Convergence {
                 failures.join("; ")
             );
         }
-        outcome.tables.push(error_table(&levels));
         outcome.quantities.extend(guarded_errors(&levels));
         outcome.levels = levels;
         outcome
@@ -184,17 +183,6 @@ fn summary(rates: &[(String, RateVerdict)]) -> String {
         })
         .collect();
     list.join("; ")
-}
-
-fn error_table(levels: &[LevelErrors]) -> Table {
-    let mut head = vec!["n".to_owned(), "steps".to_owned()];
-    head.extend(Norm::ALL.map(|norm| norm.name().to_owned()));
-    let row = |level: &LevelErrors| {
-        let mut row = vec![level.elements.to_string(), level.steps.to_string()];
-        row.extend(level.errors.iter().map(|(_, error)| format!("{error:.3e}")));
-        row
-    };
-    Table { title: "Errors, maximum over all time levels".to_owned(), head, rows: levels.iter().map(row).collect() }
 }
 
 fn guarded_errors(levels: &[LevelErrors]) -> Vec<Quantity> {

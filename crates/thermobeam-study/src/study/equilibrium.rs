@@ -145,7 +145,8 @@ impl Study for EndStates {
             tables: vec![self.table(&ends)],
             figures: vec![self.figure(&ends, &rates)],
             quantities: quantities(&ends),
-            ..Outcome::new(self.summary(&ends), rates, checks)
+            headline: format!("largest error at the finest mesh {:.1e}, of {} ends", worst(&ends), ends.len()),
+            ..Outcome::new(summary(&ends), rates, checks)
         }
     }
 }
@@ -274,11 +275,15 @@ impl EndStates {
             }),
         }
     }
+}
 
-    fn summary(&self, ends: &[Ends<'_>]) -> String {
-        let worst = ends.iter().map(|ends| keep_larger(ends.finest("u"), ends.finest("φ"))).fold(0.0, keep_larger);
-        format!("{} long runs end in exact steady states, the farthest {worst:.1e} away", ends.len())
-    }
+fn summary(ends: &[Ends<'_>]) -> String {
+    format!("{} long runs end in exact steady states, the farthest {:.1e} away", ends.len(), worst(ends))
+}
+
+/// The largest error of all ends at the finest mesh.
+fn worst(ends: &[Ends<'_>]) -> f64 {
+    ends.iter().map(|ends| keep_larger(ends.finest("u"), ends.finest("φ"))).fold(0.0, keep_larger)
 }
 
 fn through_the_last(points: &[(f64, f64)], rate: f64) -> PowerLaw {

@@ -32,6 +32,7 @@ pub(super) fn outcome(
         tables: vec![force_table(study, forces), rest_table(study, &rests)],
         figures: each().flat_map(|((scene, diagram), rests)| figures(study, scene, diagram, rests)).collect(),
         quantities: quantities(study, diagrams, forces),
+        headline: format!("buckling and lift-off at β = {}", events.join(", ")),
         ..Outcome::new(summary, rates, checks)
     }
 }

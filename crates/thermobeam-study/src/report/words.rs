@@ -69,9 +69,9 @@ fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1) {
-        // Rates are shown with three decimals: nothing can be said to be closer.
-        let farthest = distances.into_iter().fold(0.001, f64::max);
-        parts.push(format!("{} rates within {farthest:.3} of their orders", rates.len()));
+        // Rates are kept with four decimals: nothing can be said to be closer.
+        let farthest = distances.into_iter().fold(1e-4, f64::max);
+        parts.push(format!("{} rates within {farthest:.4} of their orders", rates.len()));
     }
     parts
 }
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn rates_that_hold_are_told_with_the_farthest_from_its_order() {
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
-        assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.020 of their orders");
+        assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders");
     }
 
     #[test]

@@ -16,6 +16,7 @@ use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
+use crate::record::decimals;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study_file::StudyHeader;
@@ -191,11 +192,11 @@ impl EndStates {
             error <= self.error && extrapolated <= EXTRAPOLATED * self.error && same_side,
             format!("{} comes to rest in the exact steady state, to {:.0e}", ends.scene.name, self.error),
             format!(
-                "largest error at {elements} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {:.10} for {:.10}",
+                "largest error at {elements} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
                 ends.finest("u"),
                 ends.finest("φ"),
-                ends.extrapolated("u_tip", &self.elements),
-                ends.finest("exact_u_tip")
+                decimals(ends.extrapolated("u_tip", &self.elements), 10),
+                decimals(ends.finest("exact_u_tip"), 10)
             ),
         )
     }
@@ -234,11 +235,11 @@ impl EndStates {
             vec![
                 ends.scene.name.clone(),
                 contact_of(ends.finest("contact")).map_or("?", name_of).to_owned(),
-                format!("{:.10}", ends.finest("u_tip")),
-                format!("{:.10}", ends.extrapolated("u_tip", &self.elements)),
-                format!("{:.10}", ends.finest("exact_u_tip")),
-                format!("{:.10}", ends.extrapolated("phi_tip", &self.elements)),
-                format!("{:.10}", ends.finest("exact_phi_tip")),
+                decimals(ends.finest("u_tip"), 10),
+                decimals(ends.extrapolated("u_tip", &self.elements), 10),
+                decimals(ends.finest("exact_u_tip"), 10),
+                decimals(ends.extrapolated("phi_tip", &self.elements), 10),
+                decimals(ends.finest("exact_phi_tip"), 10),
                 format!("{:.0}", ends.finest("t_rest")),
             ]
         };

@@ -7,6 +7,7 @@ use super::branches::Event;
 use super::{BifurcationStudy, CLOSE, family_name};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{Bifurcation, Branch, Guide, Series, bifurcation};
+use crate::record::decimals;
 use crate::scene::Scene;
 use crate::study::Measured;
 use crate::verdict::RateVerdict;
@@ -55,7 +56,7 @@ fn rest_table(study: &BifurcationStudy, rests: &[&[Measured]]) -> Table {
         let mut row = vec![format!("{}", study.betas[k])];
         row.extend(rests.iter().flat_map(|rests| {
             let m = &rests[k];
-            [format!("{:.8}", m.value("u_tip")), format!("{:.8}", m.value("exact_u_tip"))]
+            [decimals(m.value("u_tip"), 8), decimals(m.value("exact_u_tip"), 8)]
         }));
         row
     };

@@ -8,8 +8,8 @@ use crate::study::Measured;
 
 /// The time that is shown: both obstacles are hit several times.
 pub(super) const SPAN: f64 = 6.0;
-/// Frames at most; what lies between two is interpolated.
-const FRAMES: usize = 120;
+/// Parts into which the time is divided, with a frame at each end; what lies between two frames is interpolated.
+const PARTS: usize = 100;
 /// Seconds that one run of the animation takes: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
 
@@ -24,7 +24,7 @@ impl Shapes {
     /// For a beam with so many nodes and a time step.
     pub(super) fn new(nodes: usize, dt: f64) -> Self {
         let steps = (SPAN / dt).round() as usize;
-        Self { steps, stride: steps.div_ceil(FRAMES - 1).max(1), nodes: vec![vec![]; nodes] }
+        Self { steps, stride: (steps / PARTS).max(1), nodes: vec![vec![]; nodes] }
     }
 
     /// Keeps the level after so many steps, if it is one of the frames.

@@ -13,6 +13,7 @@ mod github;
 mod history;
 mod list;
 mod merge;
+mod moved;
 mod new;
 mod output;
 mod progress;

@@ -14,7 +14,7 @@ use thermobeam_study::verification::{self, Request, Scope, Verification};
 
 use crate::screen::{self, Bar};
 use crate::workspace::{self, Listed};
-use crate::{github, selection};
+use crate::{github, moved, selection};
 
 /// Run the studies in `studies/` and write `reports/`
 #[derive(Debug, clap::Args)]
@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
     /// No progress bar, and of the table only what does not pass
     #[arg(long)]
     quiet: bool,
+    /// Every number that is not what it was, not only the worst of each study
+    #[arg(long, conflicts_with = "quiet")]
+    verbose: bool,
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -51,7 +54,7 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> 
     let verification = verification::verify(&studies, &request, &|progress| bar.show(progress));
     bar.clear();
     let verification = verification?;
-    screen::print(&text(&verification, &request, arguments.quiet))?;
+    screen::print(&text(&verification, &request, arguments))?;
     github::announce(&verification.findings(&request.scope, &request.scope.command()))?;
     Ok(screen::exit(verification.verdict))
 }
@@ -65,7 +68,8 @@ fn scope(arguments: &Arguments, all: &[Listed]) -> Scope {
 }
 
 /// The table, what moved, what became of the blessing, where the reports are, and the verdict last.
-fn text(found: &Verification, request: &Request, quiet: bool) -> String {
+fn text(found: &Verification, request: &Request, arguments: &Arguments) -> String {
+    let quiet = arguments.quiet;
     let shown = found.finished.iter().filter(|finished| !quiet || finished.outcome.verdict != Verdict::Pass);
     let rows: Vec<Vec<String>> = shown.map(row).collect();
     let mut text = String::new();
@@ -73,9 +77,7 @@ fn text(found: &Verification, request: &Request, quiet: bool) -> String {
         text += &screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
         text += "\n";
     }
-    for change in &found.changes {
-        text += &format!("baseline: {change}\n");
-    }
+    text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
         Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
@@ -85,7 +87,8 @@ fn text(found: &Verification, request: &Request, quiet: bool) -> String {
         None => {}
     }
     if !quiet {
-        text += &format!("report: {}\n", below(&found.reports.join("README.md"), &request.root));
+        let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
+        text += &format!("report: {page}, {readme}\n");
         if matches!(request.scope, Scope::Selection(_)) {
             text += "a selection leaves the committed report as it is\n";
         }

@@ -9,6 +9,8 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
+    /// The numbers to read first, in a few words; empty where the rates are what was claimed.
+    pub headline: String,
     /// Errors of each level of a convergence study.
     pub levels: Vec<LevelErrors>,
     /// Rates judged, each with its norm.
@@ -93,6 +95,7 @@ impl Outcome {
         Self {
             verdict: Verdict::worst(verdicts),
             summary: summary.into(),
+            headline: String::new(),
             levels: vec![],
             rates,
             checks,

@@ -14,7 +14,7 @@ use crate::outcome::{Check, LevelErrors, Outcome, Quantity};
 use crate::runner::Finished;
 use crate::verdict::{RateVerdict, Verdict};
 
-pub use number::{committed, committed_rate, error_text, plain_text, rate_text};
+pub use number::{committed, committed_rate, decimals, error_text, plain_text, rate_text};
 
 /// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
 pub const SCHEMA: u32 = 1;

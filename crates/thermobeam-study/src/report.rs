@@ -2,7 +2,9 @@
 //!
 //! The same outcomes give the same bytes. Nothing here knows of times or machines.
 
+mod html;
 mod markdown;
+mod page;
 mod section;
 mod tables;
 mod words;
@@ -11,6 +13,7 @@ use std::io;
 
 use crate::baseline::Change;
 use crate::junit::junit;
+use crate::outcome::Figure;
 use crate::record::{self, Precision, Record, committed};
 use crate::runner::Finished;
 use crate::shelf::ReportSet;
@@ -19,6 +22,9 @@ use markdown::{cell, text};
 
 pub use tables::tables;
 pub use words::{can_be_blessed, key_numbers, sentence};
+
+/// The figure that is put beside the report as `beam.svg`: others show it, and need a name that studies do not change.
+const FRONT_PICTURE: &str = "section-5-beam.svg";
 
 /// What is reported on.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +39,7 @@ pub struct Findings<'f> {
     pub changes: &'f [Change],
     /// The verdict on all.
     pub verdict: Verdict,
-    /// Another report to point to: its title, and its path from this one.
+    /// Another report to point to: its title, and the path of its folder from this one's.
     pub see_also: Option<(&'f str, &'f str)>,
 }
 
@@ -47,13 +53,21 @@ impl Findings<'_> {
         let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
         let mut set = ReportSet::default();
         set.add("README.md", self.readme())?;
+        set.add("index.html", self.page())?;
         set.add("results.json", record::json(&record)?)?;
         set.add("junit.xml", junit(self.finished, self.changes).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
-        for figure in self.finished.iter().flat_map(|finished| &finished.outcome.figures) {
+        if let Some(beam) = self.figures().find(|figure| figure.file == FRONT_PICTURE) {
+            set.add("beam.svg", beam.svg.as_str())?;
+        }
+        for figure in self.figures() {
             set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
         }
         Ok(set)
+    }
+
+    fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.finished.iter().flat_map(|finished| &finished.outcome.figures)
     }
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
@@ -61,12 +75,17 @@ impl Findings<'_> {
         let link = |id: &str| format!("[{}](#{})", cell(id), markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
         page += &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.command);
-        if let Some((title, path)) = self.see_also {
-            page += &format!(" See also [{}]({path}).", text(title));
+        if let Some((title, folder)) = self.see_also {
+            page += &format!(" See also [{}]({folder}/README.md).", text(title));
         }
         page += &format!("\n\n{}{}", self.overview(link), self.moved());
         page.extend(self.finished.iter().map(section::section));
         page
+    }
+
+    /// The same as one page that needs nothing else.
+    pub fn page(&self) -> String {
+        page::page(self)
     }
 
     /// What of the report fits on one page of a continuous integration: no links, no sections.
@@ -94,7 +113,7 @@ impl Findings<'_> {
         }
         let row = |change: &Change| vec![cell(&change.study), cell(&change.name), cell(&change.movement.to_string())];
         let rows = self.changes.iter().map(row).collect();
-        let table = markdown::table(&["study", "quantity", "change"], rows);
+        let table = section::untitled(&["study", "quantity", "change"], rows, "numbers");
         let bless = if can_be_blessed(self.finished) {
             format!("\nIf it is meant: `{} --bless`.\n", self.command)
         } else {

@@ -179,7 +179,7 @@ fn write_reports(found: &Verification, request: &Request, shelf: &Shelf, folder:
     let scope = &request.scope;
     let command = scope.command();
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
-    let see_also = has_full.then_some(("the report on the full tier", "full/README.md"));
+    let see_also = has_full.then_some(("the report on the full tier", "full"));
     shelf.publish(&Findings { see_also, ..found.findings(scope, &command) }.files()?)?;
     let provenance = Provenance::collect(&request.root, command, request.jobs.get(), &found.finished);
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)

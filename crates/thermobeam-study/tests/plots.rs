@@ -266,7 +266,7 @@ fn series_differ_without_colour() {
     let doc = parse(&svg);
     let dashes = |colour: &'static str| {
         let of_colour = elements(&doc, "polyline").filter(move |n| n.attribute("stroke") == Some(colour));
-        of_colour.filter_map(|n| n.parent()?.parent()?.attribute("stroke-dasharray")).count()
+        of_colour.filter_map(|n| n.parent()?.attribute("stroke-dasharray")).count()
     };
     assert_eq!(dashes("#0072B2"), 0);
     assert!(dashes("#D55E00") >= 2);
@@ -304,4 +304,44 @@ fn a_missing_cell_is_noted_unless_it_is_marked() {
     assert!(!texts(&parameter_map(&map)).iter().any(|t| t.contains("not drawn")));
     map.marked.clear();
     assert!(texts(&parameter_map(&map)).iter().any(|t| t.contains("non-finite points not drawn")));
+}
+
+#[test]
+fn what_is_drawn_can_be_read_back() {
+    let svg = convergence(&figures::space_errors());
+    let doc = parse(&svg);
+    let root = doc.root_element();
+    let words = |name: &str| root.attribute(name).unwrap().split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let plot: Vec<f64> = words("data-plot").iter().map(|v| v.parse().unwrap()).collect();
+    let place = |axis: &str, value: f64, from: f64, to: f64| {
+        let words = words(axis);
+        assert_eq!(words[0], "log");
+        let ends: Vec<f64> = words[1..].iter().map(|v| v.parse().unwrap()).collect();
+        from + (value.log10() - ends[0]) / (ends[1] - ends[0]) * (to - from)
+    };
+    let is_velocity = |n: &Node<'_, '_>| n.attribute("data-series").is_some_and(|name| name.starts_with("velocity"));
+    let group = elements(&doc, "g").find(|n| is_velocity(n) && n.has_attribute("data-points")).unwrap();
+    let markers: Vec<_> = group.descendants().filter(|n| n.has_tag_name("circle")).collect();
+    let points: Vec<&str> = group.attribute("data-points").unwrap().split(' ').collect();
+    assert_eq!((markers.len(), points.len()), (10, 10));
+    for (marker, point) in markers.iter().zip(points) {
+        let (x, y) = point.split_once(',').unwrap();
+        let at = (
+            place("data-x", x.parse().unwrap(), plot[0], plot[2]),
+            place("data-y", y.parse().unwrap(), plot[3], plot[1]),
+        );
+        assert!((at.0 - number(*marker, "cx")).abs() < 2.0 && (at.1 - number(*marker, "cy")).abs() < 2.0, "{point}");
+    }
+}
+
+#[test]
+fn every_curve_belongs_to_an_entry_of_the_legend() {
+    for (name, svg) in figures::gallery() {
+        let doc = parse(&svg);
+        let named = |attribute: &'static str| elements(&doc, "g").filter_map(move |n| n.attribute(attribute));
+        let entries: Vec<&str> = named("data-entry").collect();
+        assert!(named("data-series").all(|series| entries.contains(&series)), "{name}: {entries:?}");
+        let has_curves = !matches!(name, "surface" | "space-time" | "animation");
+        assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
+    }
 }

@@ -49,6 +49,21 @@ pub enum Movement {
     },
 }
 
+impl Movement {
+    /// What to look at first: by how many times the tolerance a number has moved. What cannot be compared comes ahead of
+    /// all, but for what is only new.
+    pub fn weight(&self) -> f64 {
+        match *self {
+            Self::Moved { from, to, tolerance } => {
+                let times = (to - from).abs() / (tolerance * from.abs());
+                if times.is_nan() { f64::INFINITY } else { times }
+            }
+            Self::Tolerance { .. } | Self::Vanished { .. } => f64::INFINITY,
+            Self::New { .. } => 0.0,
+        }
+    }
+}
+
 /// Whether a number is what it was. Nothing meets NaN or infinity, and a tolerance that is neither is no tolerance.
 pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
     tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()

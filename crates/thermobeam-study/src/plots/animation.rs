@@ -41,7 +41,7 @@ pub fn animation(figure: &Animation) -> String {
     canvas.draw(Layer::plain(), |pen| stage.draw_scenery(pen, figure));
     canvas.raw(&stage.moving_parts(figure, &frames));
     let title = figure.title.clone().unwrap_or_else(|| "Motion of the beam between its obstacles".into());
-    canvas.finish(&title)
+    canvas.finish(&title, "")
 }
 
 /// `(t, displacement at the points to draw)`, thinned, without frames that are incomplete.
@@ -123,7 +123,8 @@ impl Stage {
 
     fn draw_obstacles(&self, pen: &Pen<'_>, figure: &Animation) {
         let Some((g1, g2)) = figure.obstacles else { return };
-        let (left, right) = (PLOT.right - 22.0, PLOT.right + 34.0);
+        // The obstacles are there for the free end alone.
+        let (left, right) = (PLOT.right - 8.0, PLOT.right + 34.0);
         for (name, g, far) in [("g₁", g1, PLOT.bottom), ("g₂", g2, PLOT.top)] {
             let Some(near) = self.u.px(g) else { continue };
             let block = Rect { left, right, top: near.min(far), bottom: near.max(far) };

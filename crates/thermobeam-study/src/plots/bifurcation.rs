@@ -67,7 +67,15 @@ fn curve(branch: &Branch, look: Look) -> Curve {
     };
     let dash = dash(branch.stable);
     let look = Look { dash, marker: Marker::Circle, ..look };
-    Curve { label: None, points: branch.points.clone(), look, width: 2.6, marks, is_data: true }
+    Curve {
+        name: entry_label(&branch.label, branch.stable),
+        is_listed: false,
+        points: branch.points.clone(),
+        look,
+        width: 2.6,
+        marks,
+        is_data: true,
+    }
 }
 
 fn dash(stable: bool) -> Dash {
@@ -76,13 +84,18 @@ fn dash(stable: bool) -> Dash {
 
 fn end_states(series: &Series, look: Look) -> Curve {
     Curve {
-        label: Some(series.label.clone()),
+        name: series.label.clone(),
+        is_listed: true,
         points: series.points.clone(),
         look: Look { colour: style::INK, ..look },
         width: 0.0,
         marks: Marks::Open,
         is_data: true,
     }
+}
+
+fn entry_label(label: &str, stable: bool) -> String {
+    format!("{label}, {}", if stable { "stable" } else { "unstable" })
 }
 
 /// Colour says which contact state, dashes say whether it is stable.
@@ -94,7 +107,7 @@ fn entries(labels: &[&str], branches: &[Branch]) -> Vec<Entry> {
         for stable in [true, false] {
             if branches.iter().any(|b| b.label == *label && b.stable == stable) {
                 let look = Look { dash: dash(stable), ..look(k) };
-                entries.push(line(look, format!("{label}, {}", if stable { "stable" } else { "unstable" })));
+                entries.push(line(look, entry_label(label, stable)));
             }
         }
     }

@@ -17,7 +17,8 @@ pub struct Contraction {
 /// Draws measured over predicted contraction, log-log, with the identity and the region of divergence.
 pub fn contraction(figure: &Contraction) -> String {
     let curve = |(k, series): (usize, &Series)| Curve {
-        label: Some(series.label.clone()),
+        name: series.label.clone(),
+        is_listed: true,
         points: series.points.clone(),
         look: look(k),
         width: 0.0,
@@ -45,7 +46,8 @@ pub fn contraction(figure: &Contraction) -> String {
 fn identity(xy: &Xy) -> Curve {
     let x = xy.x_ruler();
     Curve {
-        label: Some("measured = predicted".into()),
+        name: "measured = predicted".into(),
+        is_listed: true,
         points: [x.lo, x.hi].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec(),
         look: Look { colour: style::MUTED, dash: Dash::Long, ..look(0) },
         width: 1.6,

@@ -92,7 +92,8 @@ pub fn convergence(figure: &Convergence) -> String {
 fn baselines(series: &[ErrorSeries]) -> impl Iterator<Item = Curve> {
     let with_baseline = series.iter().enumerate().filter(|(_, s)| !s.baseline.is_empty());
     with_baseline.enumerate().map(|(nth, (k, s))| Curve {
-        label: (nth == 0).then(|| "baseline (ring)".to_owned()),
+        name: "baseline (ring)".to_owned(),
+        is_listed: nth == 0,
         points: s.baseline.clone(),
         look: look(k),
         width: 0.0,
@@ -108,7 +109,8 @@ fn curves(series: &ErrorSeries, look: Look) -> (Vec<Curve>, Entry) {
         label: label(series),
     };
     let marked = Curve {
-        label: None,
+        name: label(series),
+        is_listed: false,
         points: series.points.clone(),
         look,
         width: style::LINE,
@@ -118,7 +120,8 @@ fn curves(series: &ErrorSeries, look: Look) -> (Vec<Curve>, Entry) {
     let Some(fit) = series.fit else { return (vec![marked], entry(look, style::LINE)) };
     let solid = Look { dash: Dash::Solid, ..look };
     let line = Curve {
-        label: None,
+        name: label(series),
+        is_listed: false,
         points: fitted_line(&series.points, fit),
         look: solid,
         width: style::THIN,

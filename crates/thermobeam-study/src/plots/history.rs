@@ -27,7 +27,8 @@ pub struct History {
 /// Draws quantities over time.
 pub fn history(figure: &History) -> String {
     let curve = |(k, series): (usize, &Series)| Curve {
-        label: Some(series.label.clone()),
+        name: series.label.clone(),
+        is_listed: true,
         points: series.points.clone(),
         look: look(k),
         width: style::LINE,
@@ -62,7 +63,8 @@ pub struct Iterations {
 /// Draws iterations per step as steps, from zero.
 pub fn iterations(figure: &Iterations) -> String {
     let curve = |(k, series): (usize, &Series)| Curve {
-        label: Some(series.label.clone()),
+        name: series.label.clone(),
+        is_listed: true,
         points: steps(&series.points),
         look: look(k),
         width: style::LINE,

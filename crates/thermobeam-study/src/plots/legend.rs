@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
 use super::heat::hatch;
 use super::marker::Marks;
+use super::readable;
 use super::style::{self, Look, TICK_SIZE, text_width};
 use plotters::style::RGBColor;
 
@@ -59,7 +60,7 @@ impl Legend {
         for (k, entry) in self.entries.iter().enumerate() {
             let x = left + (k % self.columns) as f64 * self.column_width;
             let y = top + ((k / self.columns) as f64 + 0.5) * ROW_HEIGHT;
-            self.draw_entry(canvas, entry, x, y);
+            canvas.group(&readable::entry(&entry.label), |canvas| self.draw_entry(canvas, entry, x, y));
         }
     }
 

@@ -17,6 +17,8 @@
 //! | [`work_precision`] | error against run time |
 //! | [`animation`] | the beam between its obstacles, moving |
 //!
+//! What is drawn can be read back: `readable` writes names and values into the picture, for a page that shows them.
+//!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
 //! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
 //!
@@ -43,6 +45,7 @@ mod history;
 mod legend;
 mod marker;
 mod parameter_map;
+mod readable;
 mod ruler;
 mod sheet;
 mod slopes;

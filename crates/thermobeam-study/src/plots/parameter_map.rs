@@ -6,9 +6,13 @@ use super::colour::ColourScale;
 use super::heat::hatch;
 use super::legend::{Entry, Swatch};
 use super::marker::Marks;
+use super::readable;
 use super::sheet::Sheet;
 use super::style::{self, Dash, Look, WHITE, look};
 use super::surface::{Lattice, Surface};
+
+/// A boundary with fewer points is drawn as points.
+const FEWEST_FOR_A_LINE: usize = 6;
 
 /// A map over two parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +50,11 @@ fn is_marked(figure: &ParameterMap, lattice: &Lattice, k: usize, j: usize) -> bo
 
 fn entries(figure: &ParameterMap) -> Vec<Entry> {
     let boundary = |(k, series): (usize, &Series)| Entry {
-        swatch: Swatch::Line { look: boundary_look(k), width: 3.0, marks: Marks::None },
+        swatch: if is_sparse(series) {
+            Swatch::Line { look: boundary_look(k), width: 0.0, marks: Marks::Open }
+        } else {
+            Swatch::Line { look: boundary_look(k), width: 3.0, marks: Marks::None }
+        },
         label: series.label.clone(),
     };
     let mut entries: Vec<Entry> = figure.boundaries.iter().enumerate().map(boundary).collect();
@@ -54,6 +62,11 @@ fn entries(figure: &ParameterMap) -> Vec<Entry> {
         entries.push(Entry { swatch: Swatch::Hatch(style::NO_VALUE), label: figure.marked_label.clone() });
     }
     entries
+}
+
+/// Whether a boundary is known at a few points only: a line between them would claim what nobody has looked at.
+fn is_sparse(series: &Series) -> bool {
+    series.points.len() < FEWEST_FOR_A_LINE
 }
 
 /// Black or vermilion on a white rim: both stand out on all of the colour scale.
@@ -85,11 +98,21 @@ fn draw_boundaries(sheet: &mut Sheet, figure: &ParameterMap) {
             let look = boundary_look(k);
             let (dash, colour, width) = if rim { (Dash::Solid, WHITE, 6.0) } else { (look.dash, look.colour, 3.0) };
             let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
-            sheet.canvas.draw(Layer::clipped(sheet.plot).dashed(dash), |pen| {
-                for line in positions.split(Option::is_none) {
-                    let line: Vec<Point> = line.iter().flatten().copied().collect();
-                    pen.line(&line, colour, width);
+            let layer = Layer::clipped(sheet.plot).dashed(dash);
+            let data = (!rim).then_some(series.points.as_slice());
+            sheet.canvas.group(&readable::series(&series.label, data), |canvas| {
+                if is_sparse(series) {
+                    let at = positions.iter().flatten().filter(|_| !rim);
+                    canvas
+                        .draw(Layer::plain(), |pen| at.for_each(|&at| look.marker.draw(pen, at, colour, Marks::Open)));
+                    return;
                 }
+                canvas.draw(layer, |pen| {
+                    for line in positions.split(Option::is_none) {
+                        let line: Vec<Point> = line.iter().flatten().copied().collect();
+                        pen.line(&line, colour, width);
+                    }
+                });
             });
         }
     }

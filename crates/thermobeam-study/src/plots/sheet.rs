@@ -4,6 +4,7 @@ use super::Guide;
 use super::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect};
 use super::legend::{Entry, Legend, elide};
 use super::marker::tick;
+use super::readable;
 use super::ruler::{Ruler, Ticks, power_of_ten};
 use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
 
@@ -137,7 +138,8 @@ impl Sheet {
         });
         self.draw_foot();
         let Plan { title, x_label, y_label, .. } = self.plan;
-        self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")))
+        let attributes = readable::axes(&self.plot, (&x_label, &self.x), (&y_label, &self.y));
+        self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")), &attributes)
     }
 
     fn draw_foot(&mut self) {

@@ -21,7 +21,8 @@ pub struct WorkPrecision {
 /// Draws error over cost, log-log: the lower and the further left, the better.
 pub fn work_precision(figure: &WorkPrecision) -> String {
     let curve = |(k, series): (usize, &Series)| Curve {
-        label: Some(series.label.clone()),
+        name: series.label.clone(),
+        is_listed: true,
         points: series.points.clone(),
         look: look(k),
         width: style::LINE,

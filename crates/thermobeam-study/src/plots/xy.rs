@@ -4,6 +4,7 @@ use super::canvas::{Anchor, Layer, Point, Rect};
 use super::decimate::{lines, merge_intervals};
 use super::legend::{Entry, Swatch};
 use super::marker::Marks;
+use super::readable;
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Plan, Sheet, guide_margin};
 use super::style::{self, Look, TICK_SIZE};
@@ -17,8 +18,10 @@ const ENVELOPE_COLUMNS: usize = 3200;
 /// A curve and how to draw it.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
-    /// Name in the legend; curves without one have no entry.
-    pub(super) label: Option<String>,
+    /// The entry of the legend that it belongs to.
+    pub(super) name: String,
+    /// Whether that entry is to be made from the curve; several curves may share one.
+    pub(super) is_listed: bool,
     pub(super) points: Vec<(f64, f64)>,
     pub(super) look: Look,
     /// Line width in px; 0 for markers alone.
@@ -114,9 +117,9 @@ impl Xy {
 
     fn entries(&self) -> Vec<Entry> {
         let mut entries = self.legend.clone();
-        entries.extend(self.curves.iter().filter_map(|c| {
+        entries.extend(self.curves.iter().filter(|c| c.is_listed).map(|c| {
             let swatch = Swatch::Line { look: c.look, width: c.width, marks: c.marks };
-            c.label.clone().map(|label| Entry { swatch, label })
+            Entry { swatch, label: c.name.clone() }
         }));
         if !self.phases.intervals.is_empty() {
             entries.push(Entry { swatch: Swatch::Fill(style::SHADE), label: self.phases.label.clone() });
@@ -159,15 +162,19 @@ impl Xy {
                 0.0 => Default::default(),
                 _ => lines(&positions, columns).into_iter().partition(|line| line.len() == 1),
             };
-            sheet.canvas.draw(Layer::clipped(sheet.plot).dashed(curve.look.dash), |pen| {
-                lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
-            });
-            // Not clipped: a marker on the frame stays whole.
-            sheet.canvas.draw(Layer::plain(), |pen| {
-                alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
-                for &at in positions.iter().flatten() {
-                    curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
-                }
+            let attributes = readable::series(&curve.name, curve.is_data.then_some(&curve.points));
+            let line_layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
+            sheet.canvas.group(&attributes, |canvas| {
+                canvas.draw(line_layer, |pen| {
+                    lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
+                });
+                // Not clipped: a marker on the frame stays whole.
+                canvas.draw(Layer::plain(), |pen| {
+                    alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
+                    for &at in positions.iter().flatten() {
+                        curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
+                    }
+                });
             });
         }
     }

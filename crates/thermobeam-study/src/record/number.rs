@@ -43,6 +43,12 @@ pub fn rate_text(rate: Option<f64>) -> String {
     rate.map_or_else(|| "-".to_owned(), |rate| format!("{:.3}", committed_rate(rate)))
 }
 
+/// A number with so many decimals; one that is rounded to nothing shows no sign.
+pub fn decimals(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    if text.parse() == Ok(0.0) { text.replace('-', "") } else { text }
+}
+
 /// Any other number as reports show it: like an error where it is very small or large, plainly elsewhere.
 pub fn plain_text(value: f64) -> String {
     let value = committed(value);
@@ -57,6 +63,13 @@ pub fn plain_text(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign() {
+        assert_eq!(decimals(-4e-10, 8), "0.00000000");
+        assert_eq!(decimals(-4e-8, 8), "-0.00000004");
+        assert_eq!(decimals(f64::NAN, 2), "NaN");
+    }
 
     #[test]
     fn committed_numbers_keep_what_machines_agree_on() {

@@ -1,9 +1,9 @@
 //! The tables of one study, as plain text: the same ones for report and terminal.
 
 use crate::outcome::{Check, LevelErrors, Outcome, Table};
-use crate::record::{committed_rate, error_text, rate_text};
+use crate::record::{committed_rate, error_text, plain_text, rate_text};
 use crate::runner::{FailedCase, Finished};
-use crate::verdict::RateVerdict;
+use crate::verdict::{RateVerdict, Verdict};
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
 pub fn tables(Finished { outcome, failed_cases, .. }: &Finished) -> Vec<Table> {
@@ -24,17 +24,40 @@ fn rates(outcome: &Outcome) -> Table {
         let interval = rate.interval.map(|[low, high]| format!("{} to {}", decimals(low), decimals(high)));
         [
             norm.clone(),
-            rate.order.to_string(),
+            format!("{} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
             rate_text(rate.fitted),
             interval.unwrap_or_else(|| "-".to_owned()),
             rate_text(rate.extrapolated),
             pairwise.join(", "),
+            levels(rate),
             rate.verdict.name().to_owned(),
             rate.reason.clone(),
         ]
     };
-    let head = ["norm", "order", "fitted", "95 % interval", "extrapolated", "pairwise", "verdict", "reason"];
-    table("Rates", head, outcome.rates.iter().map(row))
+    let head = [
+        "error in",
+        "order claimed",
+        "rate",
+        "95 % interval",
+        "extrapolated",
+        "from level to level",
+        "levels used",
+        "verdict",
+        "reason",
+    ];
+    let mut rates = table("Rates", head, outcome.rates.iter().map(row));
+    // That a rate agrees is what all other columns say; a reason is worth its room where one does not.
+    if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+        rates.head.pop();
+        rates.rows.iter_mut().for_each(|row| drop(row.pop()));
+    }
+    rates
+}
+
+/// The levels that the rate was fitted to, counted from the coarsest.
+fn levels(rate: &RateVerdict) -> String {
+    let all = if rate.pairwise.is_empty() { 0 } else { rate.pairwise.len() + 1 };
+    if rate.used.is_empty() { "-".to_owned() } else { format!("{}-{} of {all}", rate.used.start + 1, rate.used.end) }
 }
 
 fn checks(checks: &[Check]) -> Table {
@@ -60,7 +83,7 @@ fn errors(levels: &[LevelErrors]) -> Table {
     };
     let head = ["elements", "steps"].into_iter().chain(norms.iter().map(|norm| norm.as_str()));
     Table {
-        title: "Errors".to_owned(),
+        title: "Errors, maximum over all time levels".to_owned(),
         head: head.map(str::to_owned).collect(),
         rows: levels.iter().map(row).collect(),
     }

@@ -129,7 +129,9 @@ impl Study for RuleCalibration {
                 checks.push(Check::that(fail <= self.false_fail && coverage >= self.coverage, claim, evidence));
             }
         }
-        let mut outcome = Outcome::new(summary(measured), vec![], checks);
+        let summary = summary(measured);
+        let headline = summary.clone();
+        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         outcome.tables.push(Table {
             title: "The rule on error sequences of known order; a wrong claim is 0.1 off at a tolerance of 0.05"
                 .to_owned(),
@@ -146,7 +148,7 @@ fn summary(measured: &Measured) -> String {
         key.map_or(f64::NAN, |(_, value)| 100.0 * value)
     };
     format!(
-        "over all declared families {:.2} % false pass, {:.2} % false fail, {:.1} % coverage",
+        "{:.2} % false pass, {:.2} % false fail, {:.1} % of the intervals hold the truth",
         of("false pass"),
         of("false fail"),
         of("coverage")

@@ -213,14 +213,16 @@ impl Study for Controls {
             let cell = |verdict: Option<Verdict>| verdict.map_or("not there", Verdict::name).to_owned();
             rows.push([vec![fault.name().to_owned()], verdicts.into_iter().map(cell).collect()].concat());
         }
-        let unseen = checks.iter().filter(|check| check.verdict != Verdict::Pass).count();
-        let summary =
-            format!("{} controls, coefficients off by {:e}: {unseen} unseen", checks.len() - 1, self.relative);
-        let mut outcome = Outcome::new(summary, vec![], checks);
+        // The first check is on the studies without a fault.
+        let unseen = checks.iter().skip(1).filter(|check| check.verdict != Verdict::Pass).count();
+        let faults = checks.len().saturating_sub(1);
+        let headline = format!("{} of {faults} planted faults seen", faults.saturating_sub(unseen));
+        let summary = format!("{headline}, coefficients being off by {:e}", self.relative);
+        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         let mut head = vec!["fault".to_owned()];
         head.extend(self.studies.iter().map(|spec| spec.id.clone()));
         outcome.tables.push(Table {
-            title: "Verdict of each study under each fault (`fail` is what is wanted)".to_owned(),
+            title: "Verdict of each study under each fault: `fail` is what is wanted, `not there` a term that the study has not".to_owned(),
             head,
             rows,
         });

@@ -188,7 +188,10 @@ impl Study for EnergyDecay {
             "{} runs: largest increase of the energy {worst_increase:.1e}, largest residual of the balance {worst_residual:.1e} of the initial energy",
             results.len()
         );
-        let mut outcome = Outcome::new(summary, vec![], checks);
+        let headline = format!(
+            "largest residual {worst_residual:.1e} of the energy, largest change in a step {worst_increase:.1e}"
+        );
+        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         let head = ["run", "initial energy", "largest increase", "largest residual"].map(str::to_owned).to_vec();
         outcome.tables.push(Table {
             title: "Balance over all steps, in units of the initial energy".to_owned(),
@@ -204,7 +207,7 @@ impl EnergyDecay {
     fn figures(&self, cases: &[Case], results: &[Result<Measured, CaseFailure>]) -> Vec<Figure> {
         // The scenes by the first scheme: random beams and further schemes would only crowd the picture.
         let shown = self.scenes.len() * self.schemes.len();
-        let series = |name: &str| {
+        let series = |name: &str, relative: bool| {
             cases[..shown]
                 .iter()
                 .zip(results)
@@ -212,7 +215,9 @@ impl EnergyDecay {
                 .filter_map(|(case, result)| {
                     let measured = result.as_ref().ok()?;
                     let label = case.label.split(',').next().unwrap_or_default().to_owned();
-                    Some(plots::Series { label, points: measured.curve(name).to_vec() })
+                    let unit = if relative { measured.value("scale") } else { 1.0 };
+                    let points = measured.curve(name).iter().map(|&(t, value)| (t, value / unit)).collect();
+                    Some(plots::Series { label, points })
                 })
                 .collect::<Vec<_>>()
         };
@@ -224,15 +229,15 @@ impl EnergyDecay {
         vec![
             figure(
                 "energy",
-                "The energy never rises.",
-                plots::Axis::linear("energy E (dimensionless)"),
-                series("energy"),
+                "The energy never rises. Its unit is its size at the beginning.",
+                plots::Axis::linear("energy E / initial energy"),
+                series("energy", true),
             ),
             figure(
                 "balance",
                 "Residual of the energy balance, largest in each group of steps, in units of the initial energy.",
                 plots::Axis::log("residual / initial energy"),
-                series("residual"),
+                series("residual", false),
             ),
         ]
     }

@@ -16,6 +16,7 @@ use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
+use crate::record::decimals;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study_file::StudyHeader;
@@ -145,7 +146,8 @@ impl Study for EndStates {
             tables: vec![self.table(&ends)],
             figures: vec![self.figure(&ends, &rates)],
             quantities: quantities(&ends),
-            ..Outcome::new(self.summary(&ends), rates, checks)
+            headline: format!("largest error at the finest mesh {:.1e}, of {} ends", worst(&ends), ends.len()),
+            ..Outcome::new(summary(&ends), rates, checks)
         }
     }
 }
@@ -190,11 +192,11 @@ impl EndStates {
             error <= self.error && extrapolated <= EXTRAPOLATED * self.error && same_side,
             format!("{} comes to rest in the exact steady state, to {:.0e}", ends.scene.name, self.error),
             format!(
-                "largest error at {elements} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {:.10} for {:.10}",
+                "largest error at {elements} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
                 ends.finest("u"),
                 ends.finest("φ"),
-                ends.extrapolated("u_tip", &self.elements),
-                ends.finest("exact_u_tip")
+                decimals(ends.extrapolated("u_tip", &self.elements), 10),
+                decimals(ends.finest("exact_u_tip"), 10)
             ),
         )
     }
@@ -233,11 +235,11 @@ impl EndStates {
             vec![
                 ends.scene.name.clone(),
                 contact_of(ends.finest("contact")).map_or("?", name_of).to_owned(),
-                format!("{:.10}", ends.finest("u_tip")),
-                format!("{:.10}", ends.extrapolated("u_tip", &self.elements)),
-                format!("{:.10}", ends.finest("exact_u_tip")),
-                format!("{:.10}", ends.extrapolated("phi_tip", &self.elements)),
-                format!("{:.10}", ends.finest("exact_phi_tip")),
+                decimals(ends.finest("u_tip"), 10),
+                decimals(ends.extrapolated("u_tip", &self.elements), 10),
+                decimals(ends.finest("exact_u_tip"), 10),
+                decimals(ends.extrapolated("phi_tip", &self.elements), 10),
+                decimals(ends.finest("exact_phi_tip"), 10),
                 format!("{:.0}", ends.finest("t_rest")),
             ]
         };
@@ -274,11 +276,15 @@ impl EndStates {
             }),
         }
     }
+}
 
-    fn summary(&self, ends: &[Ends<'_>]) -> String {
-        let worst = ends.iter().map(|ends| keep_larger(ends.finest("u"), ends.finest("φ"))).fold(0.0, keep_larger);
-        format!("{} long runs end in exact steady states, the farthest {worst:.1e} away", ends.len())
-    }
+fn summary(ends: &[Ends<'_>]) -> String {
+    format!("{} long runs end in exact steady states, the farthest {:.1e} away", ends.len(), worst(ends))
+}
+
+/// The largest error of all ends at the finest mesh.
+fn worst(ends: &[Ends<'_>]) -> f64 {
+    ends.iter().map(|ends| keep_larger(ends.finest("u"), ends.finest("φ"))).fold(0.0, keep_larger)
 }
 
 fn through_the_last(points: &[(f64, f64)], rate: f64) -> PowerLaw {

@@ -125,7 +125,8 @@ impl Study for FixedPoint {
         checks.extend(judged.checks);
         checks.extend(compared.checks);
         let summary = format!("{}; {}", judged.summary, compared.summary);
-        let mut outcome = Outcome::new(summary, vec![], checks);
+        let headline = summary.clone();
+        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         outcome.tables = vec![judged.table, compared.table];
         outcome.figures = vec![
             contraction::figure(&self.header.id, &grid, contractions),

@@ -158,13 +158,13 @@ pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
-/// `rate 1.000 (order 1)` for each, and how many hold.
+/// `tip 1.000 (order 1)` for each.
 pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
     let one = |(name, rate): &(String, RateVerdict)| match rate.fitted {
         Some(fitted) => format!("{name} {fitted:.3} (order {})", rate.order),
         None => format!("{name} {} ({})", rate.verdict, rate.kind.text()),
     };
-    format!("rates: {}", rates.iter().map(one).collect::<Vec<_>>().join(", "))
+    rates.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]

@@ -160,7 +160,8 @@ impl Study for Sensitivity {
         let summary = format!("every coefficient is seen from {:e} on, most from far less", self.at_most);
         let failed = checks.iter().any(|check| check.verdict != Verdict::Pass);
         let summary = if failed { "some coefficient is not seen".to_owned() } else { summary };
-        let mut outcome = Outcome::new(summary, vec![], checks);
+        let headline = summary.clone();
+        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         let mut head = vec!["coefficient".to_owned()];
         head.extend(self.studies.iter().map(|spec| spec.id.clone()));
         outcome.tables.push(Table {

@@ -24,6 +24,12 @@ pub(super) struct Watch {
     pub(super) drift: f64,
 }
 
+/// A share of what is allowed, in words.
+pub(super) fn of_allowed(share: f64) -> String {
+    let share = if share < 0.01 && share > 0.0 { format!("{share:.0e}") } else { format!("{share:.2}") };
+    format!("{share} of what is allowed")
+}
+
 impl Watch {
     /// From a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {

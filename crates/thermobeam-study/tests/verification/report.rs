@@ -1,7 +1,8 @@
 use roxmltree::Document;
 use thermobeam_study::baseline::Baseline;
 use thermobeam_study::junit::junit;
-use thermobeam_study::report::Findings;
+use thermobeam_study::outcome::Quantity;
+use thermobeam_study::report::{Findings, tables};
 use thermobeam_study::runner::Finished;
 use thermobeam_study::verdict::Verdict;
 
@@ -111,4 +112,37 @@ fn words_that_xml_and_markdown_reserve_do_no_harm() {
 fn the_same_outcomes_give_the_same_bytes() {
     let files = || with(&several(), |findings| findings.files().unwrap());
     assert_eq!(files(), files());
+}
+
+#[test]
+fn a_reason_is_given_where_a_rate_does_not_hold() {
+    let studies = finished(vec![study("good", Does::Converge), study("bad", Does::Stay)]);
+    let heads: Vec<bool> =
+        studies.iter().map(|finished| tables(finished)[0].head.contains(&"reason".to_owned())).collect();
+    assert_eq!(heads, [false, true]);
+    let rates = &tables(&studies[0])[0];
+    assert_eq!(rates.head.len(), rates.rows[0].len());
+    assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.000"]);
+    assert_eq!(rates.rows[0][6], "1-5 of 5");
+}
+
+#[test]
+fn the_picture_for_the_front_page_has_a_name_of_its_own() {
+    let mut studies = finished(vec![study("a", Does::Converge)]);
+    let has_beam = |studies: &[Finished]| {
+        let files = with(studies, |findings| findings.files().unwrap());
+        files.files().any(|(path, bytes)| path == "beam.svg" && bytes == b"<svg/>")
+    };
+    assert!(!has_beam(&studies));
+    studies[0].outcome.figures[0].file = "section-5-beam.svg".to_owned();
+    assert!(has_beam(&studies));
+}
+
+#[test]
+fn many_numbers_that_moved_are_folded() {
+    let mut studies = finished(vec![study("a", Does::Converge)]);
+    let one = studies[0].outcome.quantities[0].clone();
+    assert!(with(&studies, |findings| findings.readme()).contains("baseline\n\n| study"));
+    studies[0].outcome.quantities = (0..100).map(|i| Quantity { name: format!("q{i}"), ..one.clone() }).collect();
+    assert!(with(&studies, |findings| findings.readme()).contains("<summary>100 numbers</summary>"));
 }

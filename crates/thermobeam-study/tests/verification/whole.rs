@@ -68,7 +68,7 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let mut request = request(root.path(), &["a", "b", "c"]);
     run(studies(), &request);
     let first = committed(&reports);
-    assert_eq!(first.len(), 5 + 3);
+    assert_eq!(first.len(), 6 + 3);
     for count in [1, 4] {
         request.jobs = jobs(count);
         run(studies(), &request);

@@ -7,6 +7,7 @@ use super::branches::Event;
 use super::{BifurcationStudy, CLOSE, family_name};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{Bifurcation, Branch, Guide, Series, bifurcation};
+use crate::record::decimals;
 use crate::scene::Scene;
 use crate::study::Measured;
 use crate::verdict::RateVerdict;
@@ -32,6 +33,7 @@ pub(super) fn outcome(
         tables: vec![force_table(study, forces), rest_table(study, &rests)],
         figures: each().flat_map(|((scene, diagram), rests)| figures(study, scene, diagram, rests)).collect(),
         quantities: quantities(study, diagrams, forces),
+        headline: format!("buckling and lift-off at β = {}", events.join(", ")),
         ..Outcome::new(summary, rates, checks)
     }
 }
@@ -54,7 +56,7 @@ fn rest_table(study: &BifurcationStudy, rests: &[&[Measured]]) -> Table {
         let mut row = vec![format!("{}", study.betas[k])];
         row.extend(rests.iter().flat_map(|rests| {
             let m = &rests[k];
-            [format!("{:.8}", m.value("u_tip")), format!("{:.8}", m.value("exact_u_tip"))]
+            [decimals(m.value("u_tip"), 8), decimals(m.value("exact_u_tip"), 8)]
         }));
         row
     };

@@ -38,7 +38,7 @@ pub(super) fn conclude(spec: &ConvergenceSpec, levels: &[LevelErrors]) -> Outcom
         }
     }
     let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
-    let mut outcome = Outcome::new(summary, vec![], checks);
+    let mut outcome = Outcome { headline: headline(&rows), ..Outcome::new(summary, vec![], checks) };
     outcome.tables.push(Table {
         title: "Fit of e² = (C_h h^p)² + (C_t dt^q)²".to_owned(),
         head: [
@@ -58,6 +58,15 @@ pub(super) fn conclude(spec: &ConvergenceSpec, levels: &[LevelErrors]) -> Outcom
     outcome.quantities = quantities;
     outcome.figures = spec.expect.iter().map(|e| figures::surface(spec, levels, e.norm.name())).collect();
     outcome
+}
+
+/// The observed orders of each norm.
+fn headline(rows: &[Vec<String>]) -> String {
+    let one = |row: &Vec<String>| match &row[..] {
+        [norm, p, _, q, ..] => format!("{norm}: order {p} in h, {q} in dt"),
+        _ => String::new(),
+    };
+    rows.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// Both orders by equivalence: the interval inside the band passes, outside fails, else nothing is known.

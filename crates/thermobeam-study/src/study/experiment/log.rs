@@ -6,6 +6,7 @@ use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
 use super::Until;
+use super::motion::Shapes;
 use crate::scene::Scene;
 use crate::study::steady::{code_of, exact_states, keep_larger, nearest, start};
 use crate::study::{CaseFailure, Measured};
@@ -21,6 +22,7 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
     let mut simulation = start(scene)?;
     let (mut old, mut log) = (simulation.level(), Log::new(scene));
     log.add_point(&simulation, &old);
+    log.shapes.add(0, 0.0, &old);
     let mut new = old.clone();
     let window = (until.window / scene.dt).round().max(1.0) as usize;
     let mut fall = 0.0;
@@ -86,6 +88,7 @@ struct Log<'a> {
     energy: Vec<(f64, f64)>,
     u_tip: Vec<(f64, f64)>,
     phi_tip: Vec<(f64, f64)>,
+    shapes: Shapes,
 }
 
 impl<'a> Log<'a> {
@@ -101,6 +104,7 @@ impl<'a> Log<'a> {
             energy: vec![],
             u_tip: vec![],
             phi_tip: vec![],
+            shapes: Shapes::new(scene.mesh.nodes().len(), scene.dt),
         }
     }
 
@@ -111,6 +115,7 @@ impl<'a> Log<'a> {
         if t <= self.scene.t_end + 0.5 * self.scene.dt {
             self.add_motion(t, [old, new]);
         }
+        self.shapes.add(step, t, new);
         // Beyond the figures' span only slow, smooth motion is left.
         let thinning = if t <= self.scene.t_end { 1 } else { 10 };
         if step.is_multiple_of(thinning * self.stride) {
@@ -163,6 +168,7 @@ impl<'a> Log<'a> {
         for (name, points) in [("energy", self.energy), ("u_tip", self.u_tip), ("phi_tip", self.phi_tip)] {
             measured.series.push((name.to_owned(), points));
         }
+        self.shapes.hand_over(&mut measured);
         measured
     }
 }

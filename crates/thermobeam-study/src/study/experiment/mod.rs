@@ -27,6 +27,7 @@
 
 mod claims;
 mod log;
+mod motion;
 mod report;
 mod resting;
 mod spec;

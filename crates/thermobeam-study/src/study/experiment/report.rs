@@ -1,7 +1,7 @@
 //! Tables, figures and guarded numbers.
 
 use super::log::straight_energy;
-use super::{Experiment, Experiments, Group, of_group, resting, summary};
+use super::{Experiment, Experiments, Group, motion, of_group, resting, summary};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{Axis, Guide, History, Series, history};
 use crate::study::Measured;
@@ -17,6 +17,7 @@ pub(super) fn outcome(study: &Experiments, runs: &[Measured], rests: &[Measured]
         tables: vec![table(study, runs), resting::table(&study.betas, rests)],
         figures: figures(study, runs),
         quantities: quantities(study, runs),
+        headline: summary(&checks),
         ..Outcome::new(summary(&checks), vec![], checks)
     }
 }
@@ -85,7 +86,13 @@ fn figures(study: &Experiments, runs: &[Measured]) -> Vec<Figure> {
         caption: caption.into(),
         svg,
     };
-    vec![
+    // The middle one moves without axial force at rest.
+    let beam = first.get(first.len() / 2).map(|(experiment, run)| {
+        let caption =
+            format!("The experiment at {}, θ_A = 0, in motion up to t = {}.", beta_label(experiment), motion::SPAN);
+        figure("beam", &caption, motion::draw(experiment, run))
+    });
+    let drawn = vec![
         figure(
             "figure-2",
             "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.",
@@ -106,7 +113,8 @@ fn figures(study: &Experiments, runs: &[Measured]) -> Vec<Figure> {
             tip(&third),
         ),
         figure("decay", "Energy above that of the straight beam until each run is steady, θ_A = 0.", decay(&first)),
-    ]
+    ];
+    beam.into_iter().chain(drawn).collect()
 }
 
 /// How much of the runs a figure shows.

@@ -4,7 +4,9 @@ use super::{End, Extreme, Extremes};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis, Series};
 use crate::study::complete::{all_ran, or_nothing};
+use crate::study::watch::of_allowed;
 use crate::study::{CaseFailure, Measured, Study, max_or_nan};
+use crate::verdict::Verdict;
 
 pub(super) fn outcome(study: &Extremes, results: &[Result<Measured, CaseFailure>]) -> Outcome {
     let cases = study.cases();
@@ -14,10 +16,13 @@ pub(super) fn outcome(study: &Extremes, results: &[Result<Measured, CaseFailure>
     let worst = measured.iter().map(|m| m.value("open")).filter(|open| !open.is_nan()).fold(0.0, max_or_nan);
     let steps: f64 = measured.iter().map(|m| m.value("steps")).sum();
     let summary = format!(
-        "{} scenes at the edge, {steps} steps: each ends as claimed, and no balance is open by more than {worst:.2} of what is allowed",
-        cases.len()
+        "{} scenes at the edge, {steps} steps: each ends as claimed, and no balance is open by more than {}",
+        cases.len(),
+        of_allowed(worst),
     );
-    let mut outcome = Outcome::new(summary, vec![], checks);
+    let ended = checks.iter().skip(1).filter(|check| check.verdict == Verdict::Pass).count();
+    let headline = format!("{ended} of {} end as claimed; largest residual {}", cases.len(), of_allowed(worst));
+    let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
     let head = [
         "case",
         "elements",
@@ -48,9 +53,10 @@ fn judge(extreme: &Extreme, m: &Measured) -> Check {
     let lawful = steps == 0.0 || (risen <= 1.0 && open <= 1.0);
     let drifted = extreme.drift.is_none_or(|bound| drift <= bound);
     let way = format!(
-        "; rise {:.1e}, residual {:.1e} of the energy ({open:.2} of what is allowed); sum of all residuals {drift:.1e}",
+        "; rise {:.1e}, residual {:.1e} of the energy ({}); sum of all residuals {drift:.1e}",
         m.value("rise"),
         m.value("residual"),
+        of_allowed(open),
     );
     let way = if steps == 0.0 { "" } else { &way };
     let evidence = format!("{} after {steps} steps{way}", End::name_of(end));

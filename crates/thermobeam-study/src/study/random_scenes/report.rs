@@ -5,6 +5,7 @@ use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis, ParameterMap, Surface};
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::energy::wild;
+use crate::study::watch::of_allowed;
 use crate::study::{CaseFailure, Measured, Study, max_or_nan};
 
 /// Exceptions listed.
@@ -30,7 +31,13 @@ pub(super) fn outcome(study: &RandomScenes, results: &[Result<Measured, CaseFail
         worst("residual"),
         sum("exceptions"),
     );
-    let mut outcome = Outcome::new(summary, vec![], checks);
+    let headline = format!(
+        "{scenes} scenes: {} answers, {} typed errors; largest residual {:.1e} of the energy",
+        sum(ANSWER),
+        sum(INDEFINITE) + sum(LIMIT) + sum(NOT_FINITE),
+        worst("residual"),
+    );
+    let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
     outcome.tables = vec![counts(&sum), exceptions(study, &measured)];
     outcome.figures = vec![figure(&study.header.id, &measured)];
     outcome.quantities = vec![
@@ -60,12 +67,12 @@ fn claims(scenes: f64, sum: &dyn Fn(&str) -> f64, worst: &dyn Fn(&str) -> f64) -
         Check::that(
             risen <= 1.0,
             "the energy never rises by more than rounding errors explain",
-            format!("largest rise {rise:.1e} of the energy, {risen:.2} of what is allowed"),
+            format!("largest rise {rise:.1e} of the energy, {}", of_allowed(risen)),
         ),
         Check::that(
             open <= 1.0,
             "the balance closes to 1e-12 of the energy, or to what rounding errors explain",
-            format!("largest residual {residual:.1e} of the energy, {open:.2} of what is allowed"),
+            format!("largest residual {residual:.1e} of the energy, {}", of_allowed(open)),
         ),
         Check::that(
             exceptions <= RARE * scenes,
@@ -135,8 +142,8 @@ fn figure(id: &str, measured: &[Measured]) -> Figure {
     let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();
     let cells = Surface {
         title: None,
-        x: Axis::log("time step dt"),
-        y: Axis::log("shortest element"),
+        x: Axis::log("time step dt (dimensionless)"),
+        y: Axis::log("shortest element (dimensionless)"),
         z: Axis::log("largest residual / energy"),
         x_values: centres(dt_range),
         y_values: centres(h_range),

@@ -6,6 +6,7 @@ use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{
     Axis, Contraction, Convergence, ErrorSeries, Guide, History, Series, contraction, convergence, history,
 };
+use crate::record::rate_text;
 use crate::study::Measured;
 use crate::verdict::RateVerdict;
 
@@ -15,15 +16,12 @@ pub(super) fn outcome(
     rates: Vec<(String, RateVerdict)>,
     checks: Vec<Check>,
 ) -> Outcome {
-    let observed: Vec<String> = rates
-        .iter()
-        .map(|(name, rate)| format!("{name} {}", rate.fitted.map_or("unknown".to_owned(), |rate| format!("{rate:.3}"))))
-        .collect();
+    let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();
     Outcome {
         tables: vec![penetration_table(study, found), solver_table(study, found)],
         figures: figures(study, found),
         quantities: quantities(study, found),
-        ..Outcome::new(format!("orders in ε: {}", observed.join(", ")), rates, checks)
+        ..Outcome::new(format!("orders in ε: {}", observed.join("; ")), rates, checks)
     }
 }
 

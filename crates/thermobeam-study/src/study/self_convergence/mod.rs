@@ -253,9 +253,9 @@ impl Study for SelfConvergence {
             ladders[1].figure(file, &format!("No exact solution: {}", self.scene.name), caption.into(), &both),
             self.tip_figure(results),
         ];
-        let mut tables = vec![rate_table("Rates claimed", &claimed), self.values(results)];
+        let mut tables = vec![self.values(results)];
         if !shown.is_empty() {
-            tables.insert(1, rate_table("Rates shown, not claimed: not needed for a pass", &shown));
+            tables.insert(0, rate_table("Rates shown, not claimed: not needed for a pass", &shown));
         }
         let quantities = ladder::rate_quantities(&claimed).chain(self.quantities(results)).collect();
         Outcome { tables, figures, quantities, ..Outcome::new(ladder::summary(&claimed), claimed, checks) }

@@ -77,7 +77,7 @@ impl Maps<'_> {
         let values = self.rows.iter().map(|row| dts.iter().map(|&dt| value(row, dt)).collect()).collect();
         let cells = Surface {
             title: None,
-            x: Axis::log("time step dt"),
+            x: Axis::log("time step dt (dimensionless)"),
             y: self.second_axis(),
             z,
             x_values: dts.clone(),
@@ -95,10 +95,10 @@ impl Maps<'_> {
 
     fn second_axis(&self) -> Axis {
         match self.study.over {
-            Parameter::Epsilon => Axis::log("compliance ε"),
-            Parameter::Beta => Axis::linear("axial force at rest β"),
-            Parameter::Zeta => Axis::log("viscosity ζ"),
-            Parameter::Width => Axis::log("mesh width h"),
+            Parameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
+            Parameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
+            Parameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
+            Parameter::Width => Axis::log("mesh width h (dimensionless)"),
         }
     }
 

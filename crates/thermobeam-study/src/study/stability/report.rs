@@ -4,6 +4,7 @@ use super::measure::{ALPHA, FAILED, GAMMA, ITERATIONS_OF_NEWTON, REFUSED};
 use super::{Parameter, Stability, figures};
 use crate::outcome::{Check, Outcome, Quantity, Table};
 use crate::study::complete::{all_ran, or_nothing};
+use crate::study::watch::of_allowed;
 use crate::study::{CaseFailure, Measured, Study, max_or_nan};
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
@@ -33,7 +34,12 @@ pub(super) fn outcome(study: &Stability, results: &[Result<Measured, CaseFailure
         100.0 * worst,
         largest(rows, "residual"),
     );
-    let mut outcome = Outcome::new(summary, vec![], checks);
+    let headline = format!(
+        "boundary within {:.2} % of alpha = 1, residual at most {:.1e} of the energy",
+        100.0 * worst,
+        largest(rows, "residual"),
+    );
+    let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
     outcome.tables = vec![boundaries(study, lines)];
     outcome.figures = figures::all(study, rows, lines);
     outcome.quantities = quantities(study, lines, converged as f64);
@@ -121,7 +127,7 @@ fn newton_is_quick(rows: &[Measured]) -> Check {
 
 fn energy(rows: &[Measured]) -> [Check; 2] {
     let evidence = |what: &str, share: &str| {
-        format!("{:.1e} of the energy, {:.2} of what is allowed", largest(rows, what), largest(rows, share))
+        format!("{:.1e} of the energy, {}", largest(rows, what), of_allowed(largest(rows, share)))
     };
     // A row in which the energy falls in every step has no share of a rise.
     let risen = rows.iter().all(|row| row.value("risen") <= 1.0);
@@ -165,7 +171,7 @@ fn boundaries(study: &Stability, lines: &[Measured]) -> Table {
             format!("{value:e}"),
             number(predicted, format!("{predicted:.4e}")),
             number(found, format!("{found:.4e}")),
-            number(found / predicted, format!("{:+.2} %", 100.0 * (found / predicted - 1.0))),
+            number(found / predicted, format!("{:+.3} %", 100.0 * (found / predicted - 1.0))),
             number(line.value("alpha"), format!("{:.4}", line.value("alpha"))),
             number(line.value("gamma"), format!("{:.1e}", line.value("gamma"))),
         ]

@@ -62,8 +62,9 @@ pub(super) fn conclude(study: &WorkPrecision, results: &[Result<Measured, CaseFa
     checks.extend(rows.iter().flat_map(|row| check_law(row, study.misfit)));
     let advantages: Vec<Check> = study.advantages.iter().map(|claim| check_advantage(claim, &rows)).collect();
     let summary = summary(&rows, &advantages);
+    let headline = advantages.first().map_or_else(|| summary.clone(), |check| check.evidence.clone());
     checks.extend(advantages);
-    let mut outcome = Outcome::new(summary, vec![], checks);
+    let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
     outcome.tables = Quantity::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
     outcome.tables.push(laws(&rows));
     outcome.figures = Quantity::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
@@ -120,14 +121,14 @@ fn check_advantage(claim: &Advantage, rows: &[Row]) -> Check {
     let cost = |method: &Method| find(rows, quantity, method).map_or(f64::NAN, |row| row.cost(error));
     let note = |method: &Method| match find(rows, quantity, method) {
         Some(row) if !row.is_extrapolated(error) => "",
-        _ => ", extrapolated along its law",
+        _ => " (extrapolated)",
     };
     let (cheap, dear) = (cost(&of), cost(&over));
     let ratio = dear / cheap;
     Check::that(
         ratio >= times,
         format!("{} {error:e}: {} is at least {times} times cheaper than {}", quantity.name(), of.name, over.name),
-        format!("{ratio:.0} times: {cheap:.2e} node-steps{} against {dear:.2e}{}", note(&of), note(&over)),
+        format!("{ratio:.0} times cheaper: {cheap:.2e} node-steps{} against {dear:.2e}{}", note(&of), note(&over)),
     )
 }
 
@@ -213,7 +214,7 @@ fn figure(study: &WorkPrecision, quantity: Quantity, rows: &[Row]) -> Figure {
         .collect();
     let svg = plots::work_precision(&plots::WorkPrecision {
         title: None,
-        x_label: Some("elements x solves".to_owned()),
+        x_label: Some("cost: elements × linear solves".to_owned()),
         y_label: format!("error, {}", quantity.name()),
         series,
     });

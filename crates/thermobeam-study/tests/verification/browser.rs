@@ -1,0 +1,68 @@
+//! The page in a browser, where there is one: what clicks and pointer do.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::page::{page_of, two};
+
+const CHROMIUM: &str = "/usr/bin/chromium";
+
+/// What is expected of the page, and a report in its title.
+const SCRIPT: &str = r##"
+const found = [];
+const expect = (what, holds) => { if (!holds) found.push(what); };
+addEventListener("load", () => {
+  const one = (selector, root = document) => root.querySelector(selector);
+  const study = document.getElementById("good-1.0");
+  expect("a link unfolds", study.open);
+  const first = () => one(".overview tbody tr").dataset.study;
+  one(".overview thead button").click();
+  expect("sorted by name", first() === "bad");
+  one(".overview thead button").click();
+  expect("sorted the other way round", first() === "good-1.0");
+  one(".controls select").value = "fail";
+  one(".controls select").dispatchEvent(new Event("input"));
+  expect("filtered", study.hidden && !document.getElementById("bad").hidden);
+  const picture = one("#bad svg[data-plot]");
+  const marker = one("[data-series='a<b'] circle", picture).getBoundingClientRect();
+  const at = { clientX: marker.x + marker.width / 2, clientY: marker.y + marker.height / 2, bubbles: true };
+  picture.dispatchEvent(new PointerEvent("pointermove", at));
+  const said = one(".reading").textContent;
+  expect("values: " + said, said.startsWith("a<b") && said.includes("mesh width h: 0.125") && said.includes("error: 0.125"));
+  one("[data-entry='a<b']", picture).dispatchEvent(new MouseEvent("click"));
+  expect("switched off", getComputedStyle(one("[data-series='a<b']", picture)).display === "none");
+  expect("the other one stays", getComputedStyle(one("[data-series='c']", picture)).display !== "none");
+  picture.dispatchEvent(new PointerEvent("pointermove", at));
+  expect("nothing to say", one(".reading").hidden);
+  for (const part of document.querySelectorAll("details")) part.open = true;
+  expect("nothing overflows", document.documentElement.scrollWidth <= innerWidth);
+  expect("nothing is loaded", performance.getEntriesByType("resource").length === 0);
+  document.title = found.length ? "WRONG " + found.join("; ") : "RIGHT";
+});
+addEventListener("error", event => found.push(event.message));
+addEventListener("securitypolicyviolation", event => found.push(event.violatedDirective));
+"##;
+
+#[test]
+fn the_page_does_what_it_offers() {
+    if !Path::new(CHROMIUM).exists() {
+        println!("skipped: there is no {CHROMIUM}");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("index.html");
+    let page = page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
+    std::fs::write(&file, page).expect("a file");
+    let output = Command::new(CHROMIUM)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
+        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
+        .args(["--window-size=500,800", "--virtual-time-budget=2000", "--dump-dom"])
+        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .arg(format!("file://{}#good-1.0", file.display()))
+        .output()
+        .expect("the browser starts");
+    let document = String::from_utf8_lossy(&output.stdout);
+    let title =
+        document.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>")).map(|(title, _)| title);
+    assert_eq!(title, Some("RIGHT"), "{}", String::from_utf8_lossy(&output.stderr));
+}

@@ -9,6 +9,7 @@ mod equilibria;
 mod exit;
 mod explain;
 mod github;
+mod interrupt;
 mod list;
 mod merge;
 mod new;
@@ -16,6 +17,7 @@ mod output;
 mod progress;
 mod rates;
 mod run;
+mod running;
 mod screen;
 mod selection;
 mod study;
@@ -52,7 +54,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match Xtask::parse().command {
+    let command = Xtask::parse().command;
+    interrupt::listen();
+    match command {
         Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
         Command::Study(arguments) => exit::status(study::study(&arguments)),
         Command::List(arguments) => exit::status(list::list(&arguments)),

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::join::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
 use crate::atomic;
+use crate::writing;
 
 /// What the folder is of.
 const MANIFEST: &str = "sweep.json";
@@ -136,12 +137,16 @@ impl Journal {
             found.agrees(manifest, folder)?;
         }
         atomic::prepare_folder(folder)?;
+        let _writing = writing::begin();
         let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let file = file.map_err(|error| atomic::naming(&path, &error))?;
         // A file system that has no locks cannot keep a second process out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(SweepError::Busy(folder.to_owned()));
+        }
+        for name in [MANIFEST, RESULTS] {
+            atomic::remove_leftovers(&folder.join(name))?;
         }
         if found.is_none() {
             let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
@@ -196,6 +201,7 @@ impl Journal {
     /// That of the operating system.
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
+        let _writing = writing::begin();
         self.file.write_all(whole.as_bytes()).map_err(|error| atomic::naming(&self.path, &error))?;
         self.done[line.case] = true;
         self.failed += usize::from(!line.passed);

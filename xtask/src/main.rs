@@ -12,6 +12,7 @@ mod github;
 mod interrupt;
 mod list;
 mod merge;
+mod mutants;
 mod new;
 mod output;
 mod progress;
@@ -50,6 +51,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
     Bench(bench::Arguments),
+    Mutants(mutants::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -68,6 +70,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => exit::code(sweep::run(&arguments)),
         Command::Merge(arguments) => exit::code(merge::run(&arguments)),
         Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
+        Command::Mutants(arguments) => exit::code(mutants::run(&arguments)),
         Command::Completions(arguments) => exit::code(completions::run(&arguments)),
     }
 }

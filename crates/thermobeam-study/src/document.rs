@@ -17,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 use crate::limits::FILE_BYTES;
 
 pub use error::{Complaint, InputError, Place};
-pub(crate) use field::Field;
+pub(crate) use field::{Field, shorten};
 pub(crate) use section::Section;
 
 /// A text and the name of the file that it comes from.

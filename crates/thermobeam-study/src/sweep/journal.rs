@@ -59,12 +59,21 @@ impl Manifest {
     /// That of a folder; `None` where there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
+        let damaged = |reason: String| SweepError::Damaged {
+            file: path.clone(),
+            line: None,
+            reason: format!("not that of a sweep: {reason}"),
+        };
         match std::fs::read(&path) {
-            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| SweepError::Damaged {
-                file: path,
-                line: None,
-                reason: format!("not that of a sweep: {error}"),
-            }),
+            Ok(bytes) => {
+                let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
+                // It will be quoted, and a terminal obeys control characters.
+                let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
+                match texts.iter().find(|text| text.contains(char::is_control)) {
+                    Some(text) => Err(damaged(format!("control characters in {text:?}"))),
+                    None => Ok(Some(read)),
+                }
+            }
             Err(error) if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
             Err(error) => Err(atomic::naming(&path, &error).into()),
         }

@@ -67,13 +67,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
     }
     let findings: Vec<_> = sample.iter().map(|mutant| (mutant, ledger.of(mutant))).collect();
-    let explained = |mutant| accepted.reason(mutant);
-    let page = report::page(&findings, &all, arguments.seed, &explained);
+    let page = report::page(&findings, &all, arguments.seed, &accepted);
     atomic::write(&root.join("reports/mutants.md"), &page)?;
     let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));
-    let bare = survivors.filter(|(mutant, _)| explained(mutant).is_none()).count();
+    let bare = survivors.filter(|(mutant, _)| accepted.reason(mutant).is_none()).count();
     let stale = accepted.stale(&all);
-    output::print(&format!("{}\nreport: reports/mutants.md\n", report::sentence(&findings, &explained)))?;
+    output::print(&format!("{}\nreport: reports/mutants.md\n", report::sentence(&findings, &accepted)))?;
     stale.iter().for_each(|entry| output::complain(&format!("{}: no such mutant: {entry}", accepted::FILE)));
     let is_open = findings.iter().any(|(_, judged)| judged.is_none());
     Ok(if bare == 0 && stale.is_empty() && !is_open { Verdict::Pass } else { Verdict::Fail })

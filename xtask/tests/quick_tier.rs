@@ -9,7 +9,11 @@ fn copied(from: &Path, to: &Path) {
     for entry in fs::read_dir(from).expect("a folder") {
         let path = entry.expect("an entry").path();
         let to = to.join(path.file_name().expect("a name"));
-        if path.is_dir() { copied(&path, &to) } else { drop(fs::copy(&path, to).expect("a copy")) }
+        if path.is_dir() {
+            copied(&path, &to);
+        } else {
+            fs::copy(&path, to).expect("a copy");
+        }
     }
 }
 

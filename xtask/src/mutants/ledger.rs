@@ -26,13 +26,13 @@ impl Ledger {
             Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
             text => text?,
         };
-        let mut known = HashMap::new();
+        let mut known: HashMap<_, [Option<Judged>; JUDGES.len()]> = HashMap::new();
         for (key, level, judged) in text.lines().filter_map(entry) {
             known.entry(key).or_insert([None; JUDGES.len()])[level] = Some(judged);
         }
         if again {
-            let missed = |judged: &mut Option<Judged>| *judged == Some(Judged::Missed);
-            known.values_mut().for_each(|levels| levels.iter_mut().filter(|j| missed(j)).for_each(|j| *j = None));
+            let levels = known.values_mut().flatten();
+            levels.filter(|judged| **judged == Some(Judged::Missed)).for_each(|judged| *judged = None);
         }
         let mut file = OpenOptions::new().create(true).append(true).open(&path)?;
         if !text.is_empty() && !text.ends_with('\n') {

@@ -57,7 +57,9 @@ pub(super) fn mutants(root: &Path) -> Result<Vec<Mutant>, Unusable> {
     for target in &TARGETS {
         let mut command = Command::new("cargo");
         command.args(["mutants", "--list", "--colors=never", "--package", target.package]).current_dir(root);
-        target.files.iter().for_each(|file| drop(command.args(["--file", file])));
+        for file in target.files {
+            command.args(["--file", file]);
+        }
         let output = command.output()?;
         if !output.status.success() {
             return Err(Unusable::because(&format!(

@@ -3,14 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use super::accepted::Accepted;
 use super::judge::Judged;
 use super::list::Mutant;
 
 /// A mutant of the sample and what became of it; `None` where it is still open.
 type Finding<'m> = (&'m Mutant, Option<Judged>);
-
-/// Why a mutant may survive.
-type Explained<'e> = dyn Fn(&Mutant) -> Option<&'e str> + 'e;
 
 /// How many came to which end.
 #[derive(Debug, Default, Clone, Copy)]
@@ -24,14 +22,14 @@ struct Counts {
 }
 
 impl Counts {
-    fn of<'f>(findings: impl IntoIterator<Item = &'f Finding<'f>>, explained: &Explained<'_>) -> Self {
+    fn of<'f>(findings: impl IntoIterator<Item = &'f Finding<'f>>, accepted: &Accepted) -> Self {
         let mut counts = Self::default();
         for (mutant, judged) in findings {
             *match judged {
                 Some(Judged::Caught) => &mut counts.caught,
                 Some(Judged::Timeout) => &mut counts.timeout,
                 Some(Judged::Unviable) => &mut counts.unviable,
-                Some(Judged::Missed) if explained(mutant).is_some() => &mut counts.accepted,
+                Some(Judged::Missed) if accepted.reason(mutant).is_some() => &mut counts.accepted,
                 Some(Judged::Missed) => &mut counts.missed,
                 None => &mut counts.open,
             } += 1;
@@ -55,8 +53,8 @@ impl Counts {
 }
 
 /// The outcome in one line.
-pub(super) fn sentence(findings: &[Finding<'_>], explained: &Explained<'_>) -> String {
-    let counts = Counts::of(findings, explained);
+pub(super) fn sentence(findings: &[Finding<'_>], accepted: &Accepted) -> String {
+    let counts = Counts::of(findings, accepted);
     let Counts { caught, timeout, accepted, missed, unviable, open } = counts;
     format!(
         "{} mutants: {caught} caught, {timeout} timed out, {accepted} accepted with a reason, {missed} missed, \
@@ -67,7 +65,7 @@ pub(super) fn sentence(findings: &[Finding<'_>], explained: &Explained<'_>) -> S
 }
 
 /// The page.
-pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, explained: &Explained<'_>) -> String {
+pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted: &Accepted) -> String {
     let mut page = "# Mutation testing\n\nWritten by `cargo xtask mutants`. One mistake at a time is planted in the \
                     solver and in the code of fits, verdicts and exact solutions; it is caught where a test of its own \
                     package fails, or else the quick tier of `verify`.\n\n"
@@ -82,9 +80,9 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, explaine
     let mut files: BTreeMap<&str, Vec<&Finding<'_>>> = BTreeMap::new();
     findings.iter().for_each(|finding| files.entry(&finding.0.file).or_default().push(finding));
     for (file, findings) in files {
-        let _ = writeln!(page, "| {file} | {} |", Counts::of(findings, explained).cells());
+        let _ = writeln!(page, "| {file} | {} |", Counts::of(findings, accepted).cells());
     }
-    let _ = writeln!(page, "| **all** | {} |", Counts::of(findings, explained).cells());
+    let _ = writeln!(page, "| **all** | {} |", Counts::of(findings, accepted).cells());
     page +=
         "\nA mutant that times out has been noticed. Noticed is the share of those that compile.\n\n## Survivors\n\n";
     let survivors: Vec<_> = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed)).collect();
@@ -94,7 +92,7 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, explaine
     }
     page += "| file | mutation | line | reason |\n| --- | --- | --- | --- |\n";
     for (mutant, _) in survivors {
-        let reason = explained(mutant).unwrap_or("**none**");
+        let reason = accepted.reason(mutant).unwrap_or("**none**");
         let cell = |text: &str| text.replace('|', "\\|");
         let (what, code) = (cell(&mutant.what), cell(&mutant.code));
         let _ = writeln!(page, "| {} | {what} | `{code}` | {} |", mutant.file, cell(reason));

@@ -7,7 +7,8 @@ use std::process::ExitCode;
 use crate::output;
 
 /// For the end of `--help`.
-pub(crate) const HELP: &str = "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used.";
+pub(crate) const HELP: &str =
+    "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
 
 /// A command that had usable input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,14 +11,17 @@ mod exit;
 mod explain;
 mod github;
 mod history;
+mod interrupt;
 mod list;
 mod merge;
 mod moved;
+mod mutants;
 mod new;
 mod output;
 mod progress;
 mod rates;
 mod run;
+mod running;
 mod screen;
 mod selection;
 mod study;
@@ -52,11 +55,14 @@ enum Command {
     Merge(merge::Arguments),
     Bench(bench::Arguments),
     Drift(drift::Arguments),
+    Mutants(mutants::Arguments),
     Completions(completions::Arguments),
 }
 
 fn main() -> ExitCode {
-    match Xtask::parse().command {
+    let command = Xtask::parse().command;
+    interrupt::listen();
+    match command {
         Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
         Command::Study(arguments) => exit::status(study::study(&arguments)),
         Command::List(arguments) => exit::status(list::list(&arguments)),
@@ -69,6 +75,7 @@ fn main() -> ExitCode {
         Command::Merge(arguments) => exit::code(merge::run(&arguments)),
         Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
         Command::Drift(arguments) => exit::status(drift::drift(&arguments)),
+        Command::Mutants(arguments) => exit::code(mutants::run(&arguments)),
         Command::Completions(arguments) => exit::code(completions::run(&arguments)),
     }
 }

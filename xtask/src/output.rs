@@ -31,6 +31,11 @@ pub(crate) fn print_json(object: &impl Serialize) -> io::Result<()> {
 
 /// Prints an error to standard error.
 pub(crate) fn complain(message: &str) {
+    tell(&format!("error: {message}"));
+}
+
+/// Prints something that is no result to standard error.
+pub(crate) fn tell(message: &str) {
     // Where standard error is closed there is nobody left to tell.
-    let _ = writeln!(io::stderr(), "error: {message}");
+    let _ = writeln!(io::stderr(), "{message}");
 }

@@ -14,6 +14,7 @@ use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
 
 use crate::exit::{Outcome, Unusable, Verdict};
+use crate::interrupt;
 use crate::output::{self, Format};
 use crate::progress;
 
@@ -74,6 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         None => Recording::Summary,
     };
     let bar = progress::bar(&scene.name, scene.steps, arguments.quiet);
+    let (told, steps) = (bar.clone(), scene.steps);
+    interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
     let run = simulator.run(recording, &mut |step| bar.set_position(step as u64));
     bar.finish_and_clear();
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;

@@ -1,7 +1,6 @@
 //! `study`: runs study files from anywhere, compares them with no baseline and writes nothing.
 
 use std::error::Error;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -12,7 +11,8 @@ use thermobeam_study::runner::{self, Finished};
 use thermobeam_study::study;
 use thermobeam_study::verdict::Verdict;
 
-use crate::screen::{self, Bar};
+use crate::running::{Limits, Watched};
+use crate::screen;
 
 /// Run study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -23,9 +23,8 @@ pub(crate) struct Arguments {
     /// What to print
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Number of threads [default: all of the machine]
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
@@ -40,9 +39,9 @@ enum Format {
 pub(crate) fn study(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     study::headers(&arguments.files)?;
     let studies = arguments.files.iter().map(|path| study::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let bar = Bar::new(true);
-    let finished = runner::run(&studies, screen::jobs(arguments.jobs), &|progress| bar.show(progress));
-    bar.clear();
+    let watched = Watched::new(&studies, true);
+    let finished = runner::run(&studies, arguments.limits.effort(), &|progress| watched.show(progress));
+    watched.clear();
     let finished = finished?;
     let verdict = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     screen::print(&match arguments.format {

@@ -10,6 +10,7 @@ use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Manifest, Share, Sweep};
 
 use crate::exit::{Outcome, Verdict};
+use crate::interrupt;
 use crate::output;
 use crate::progress;
 
@@ -81,6 +82,11 @@ fn to_folder(
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
     let begun = pending.len();
     let bar = progress::counting(&sweep.name, begun, "cases", arguments.quiet);
+    let (told, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
+    interrupt::say(move || {
+        let done = before + told.position() as usize;
+        format!("{done} of {cases} cases are kept in {place}; --resume goes on from there")
+    });
     let start = Instant::now();
     let journal = journaled(sweep, pending, arguments.jobs, journal, &bar)?;
     let took = start.elapsed();

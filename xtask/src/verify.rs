@@ -1,7 +1,6 @@
 //! `verify`: the main job.
 
 use std::error::Error;
-use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -12,7 +11,8 @@ use thermobeam_study::study_file::Tier;
 use thermobeam_study::verdict::Verdict;
 use thermobeam_study::verification::{self, Request, Scope, Verification};
 
-use crate::screen::{self, Bar};
+use crate::running::{Limits, Watched};
+use crate::screen;
 use crate::workspace::{self, Listed};
 use crate::{github, moved, selection};
 
@@ -22,9 +22,8 @@ pub(crate) struct Arguments {
     /// Tier of studies; full holds quick
     #[arg(long, value_parser = selection::tier_parser(), default_value = "quick")]
     tier: Tier,
-    /// Number of threads [default: all of the machine]
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
+    #[command(flatten)]
+    limits: Limits,
     /// Take the new numbers for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
@@ -48,11 +47,11 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> 
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant).map(|(listed, _)| listed);
     let studies = meant.map(|listed| study::read(&listed.path)).collect::<Result<Vec<_>, _>>()?;
 
-    let (jobs, bless) = (screen::jobs(arguments.jobs), arguments.bless);
-    let request = Request { scope: scope(arguments, &all), jobs, bless, root };
-    let bar = Bar::new(!arguments.quiet);
-    let verification = verification::verify(&studies, &request, &|progress| bar.show(progress));
-    bar.clear();
+    let (effort, bless) = (arguments.limits.effort(), arguments.bless);
+    let request = Request { scope: scope(arguments, &all), effort, bless, root };
+    let watched = Watched::new(&studies, !arguments.quiet);
+    let verification = verification::verify(&studies, &request, &|progress| watched.show(progress));
+    watched.clear();
     let verification = verification?;
     screen::print(&text(&verification, &request, arguments))?;
     github::announce(&verification.findings(&request.scope, &request.scope.command()))?;

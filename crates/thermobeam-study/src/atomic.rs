@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::writing;
+
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
 /// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
@@ -22,6 +24,7 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 /// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     let naming = |error: io::Error| naming(path, &error);
+    let _writing = writing::begin();
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(naming)?;
     }
@@ -43,6 +46,35 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder).map_err(naming)?;
     let probe = name_beside(&folder.join("probe"))?;
     fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
+}
+
+/// Removes what writers of `path` that were killed have left beside it. Call it where no other process writes this file.
+///
+/// # Errors
+/// That of the operating system.
+pub(crate) fn remove_leftovers(path: &Path) -> io::Result<()> {
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
+        return Ok(());
+    };
+    let is_leftover = |found: &str| {
+        let number =
+            found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)).and_then(|rest| rest.strip_prefix('.'));
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        number
+            .and_then(|number| number.split_once('-'))
+            .is_some_and(|(process, count)| digits(process) && digits(count))
+    };
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries.map_err(|error| naming(folder, &error))?,
+    };
+    for entry in entries {
+        let entry = entry.map_err(|error| naming(folder, &error))?;
+        if entry.file_name().to_str().is_some_and(is_leftover) {
+            fs::remove_file(entry.path()).map_err(|error| naming(&entry.path(), &error))?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes a file and waits until it is on the disk.
@@ -92,6 +124,19 @@ mod tests {
         fs::create_dir_all(taken.join("full")).unwrap();
         assert!(write(&taken, "bytes").is_err());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".a.json.17-0", ".a.json.17-x", ".b.json.17-0", "a.json", ".a.json.-0", "a.json.17-0"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_leftovers(&folder.path().join("a.json")).unwrap();
+        remove_leftovers(&folder.path().join("nowhere/a.json")).unwrap();
+        let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, [".a.json.-0", ".a.json.17-x", ".b.json.17-0", "a.json", "a.json.17-0"]);
     }
 
     #[test]

@@ -37,7 +37,9 @@
 //! The generator is splitmix64, so the same seed gives the same numbers on every machine with the same libm.
 
 use crate::fit::Level;
+use crate::time_limit::{Patience, TimeUp};
 use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, Verdict};
+use thiserror::Error;
 
 use crate::random::SplitMix;
 
@@ -205,15 +207,34 @@ impl Calibration {
     }
 }
 
+/// What judging a sample costs, in elements advanced by a step.
+const ELEMENTS_OF_A_SAMPLE: usize = 1000;
+
+/// Why there is no calibration.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CalibrationError {
+    /// The rule cannot be set up as it is declared.
+    #[error(transparent)]
+    Judge(#[from] JudgeError),
+    /// The limit on the time of a case was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
+}
+
 /// Judges `samples` sequences, dealt to the families in turn.
-pub fn calibrate(samples: usize, seed: u64) -> Result<Calibration, JudgeError> {
+///
+/// # Errors
+/// [`CalibrationError`].
+pub fn calibrate(samples: usize, seed: u64) -> Result<Calibration, CalibrationError> {
     let judge = Judge::new(TOLERANCE)?;
     let mut random = SplitMix::new(seed);
     let tally = |family: &Family| Tally { family: family.name, declared: family.declared, ..Tally::default() };
     let mut families: Vec<Tally> = FAMILIES.iter().map(tally).collect();
     let name = |name| Tally { family: name, declared: true, ..Tally::default() };
     let mut by_levels = LEVEL_NAMES.map(name).to_vec();
+    let mut patience = Patience::new(ELEMENTS_OF_A_SAMPLE);
     for k in 0..samples {
+        patience.check(k, || k as f64)?;
         let (index, turn) = (k % FAMILIES.len(), k / FAMILIES.len());
         let family = &FAMILIES[index];
         let sample = Sample::draw(family, turn, &mut random);

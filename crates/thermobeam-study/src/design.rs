@@ -14,6 +14,7 @@ use crate::exact::errors::ErrorMeter;
 use crate::exact::sources::{BoundaryLoads, Sources, nodal};
 use crate::study::CaseFailure;
 use crate::study_file::{Axis, ConvergenceSpec, Manufactured, Product};
+use crate::time_limit::Patience;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
@@ -104,7 +105,9 @@ impl<'a> Prepared<'a> {
         self.meter.lift(&self.mesh, disagreement.beam.theta_a);
         let mut case = DesignCase::new(self, steps, disagreement)?;
         let mut worst = [0.0_f64; 8];
+        let mut patience = Patience::of(&case.simulation);
         for n in 1..=steps {
+            patience.before_step_of(&case.simulation)?;
             let errors = case.step(n)?;
             for (worst, error) in worst.iter_mut().zip(errors) {
                 *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };

@@ -14,12 +14,11 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-pub use error::{Complaint, InputError, Place};
-pub(crate) use field::Field;
-pub(crate) use section::Section;
+use crate::limits::FILE_BYTES;
 
-/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
-const MAX_BYTES: u64 = 10_000_000;
+pub use error::{Complaint, InputError, Place};
+pub(crate) use field::{Field, shorten};
+pub(crate) use section::Section;
 
 /// A text and the name of the file that it comes from.
 #[derive(Debug, Clone, Copy)]
@@ -48,9 +47,9 @@ pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
     let unreadable = |error: std::io::Error| fail(Complaint::Unreadable { reason: error.to_string() });
     let mut bytes = Vec::new();
     // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
-    File::open(path).and_then(|f| f.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(fail(Complaint::TooLarge { allowed: MAX_BYTES }));
+    File::open(path).and_then(|f| f.take(FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > FILE_BYTES {
+        return Err(fail(Complaint::TooLarge { allowed: FILE_BYTES }));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();

@@ -66,6 +66,7 @@ pub mod expression;
 pub mod fit;
 pub mod free_vibration;
 pub mod junit;
+mod limits;
 pub mod march;
 mod nearest;
 pub mod outcome;
@@ -87,8 +88,10 @@ pub mod study;
 pub mod study_file;
 pub mod sweep;
 pub mod template;
+pub mod time_limit;
 pub mod verdict;
 pub mod verification;
+pub mod writing;
 pub mod yardstick;
 
 /// The code of the README, held by the doc tests.

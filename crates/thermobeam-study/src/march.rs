@@ -12,6 +12,7 @@ use crate::scene::Scene;
 use crate::simulate;
 use crate::study::CaseFailure;
 use crate::study_file::Manufactured;
+use crate::time_limit::Patience;
 use std::time::{Duration, Instant};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -168,7 +169,8 @@ impl OnMesh<'_> {
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
         let simulation = Simulation::new(self.problem.clone(), stepping)?;
         let level = Level::new(self.problem.mesh.nodes().len());
-        Ok(March { on: self, simulation, level, dt, factors: Factors::default(), wall: Duration::ZERO })
+        let patience = Patience::of(&simulation);
+        Ok(March { on: self, simulation, level, dt, factors: Factors::default(), wall: Duration::ZERO, patience })
     }
 }
 
@@ -180,6 +182,7 @@ pub struct March<'a> {
     dt: f64,
     factors: Factors,
     wall: Duration,
+    patience: Patience,
 }
 
 impl March<'_> {
@@ -189,6 +192,7 @@ impl March<'_> {
     /// [`CaseFailure`] with the solver's own words.
     pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
         for _ in 0..steps {
+            self.patience.before_step_of(&self.simulation)?;
             let middle = (self.simulation.step() as f64 + 0.5) * self.dt;
             if let Some(load) = self.simulation.load_mut() {
                 self.on.fill(middle, &mut self.factors, load);

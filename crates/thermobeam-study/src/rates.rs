@@ -102,15 +102,20 @@ fn cells(line: &str, separator: char) -> Vec<(usize, &str)> {
         .collect()
 }
 
+/// A cell as it is quoted: on one line, and no longer than can be read.
+fn shown(cell: &str) -> String {
+    format!("`{}`", document::shorten(cell))
+}
+
 fn names(cells: &[(usize, &str)], file: &str, line: usize) -> Result<Vec<String>, InputError> {
     let source = Source { file, line };
     let mut names: Vec<String> = vec![];
     for &(column, cell) in cells {
         if cell.is_empty() || cell.parse::<f64>().is_ok() {
-            return Err(source.complain(column, None, &format!("`{cell}`"), "a name in the first row"));
+            return Err(source.complain(column, None, &shown(cell), "a name in the first row"));
         }
         if names.iter().any(|name| name == cell) {
-            return Err(source.complain(column, None, &format!("`{cell}` a second time"), "each name once"));
+            return Err(source.complain(column, None, &format!("{} a second time", shown(cell)), "each name once"));
         }
         names.push(cell.to_owned());
     }
@@ -126,7 +131,7 @@ fn numbers(cells: &[(usize, &str)], names: &[String], source: Source<'_>) -> Res
         return Err(source.complain(1, None, &found, format!("{}, one for each name", names.len())));
     }
     let number = |(index, (&(column, cell), name)): (usize, (&(usize, &str), &String))| {
-        let refuse = |allowed: &str| source.complain(column, Some(name), &format!("`{cell}`"), allowed);
+        let refuse = |allowed: &str| source.complain(column, Some(name), &shown(cell), allowed);
         let value: f64 = cell.parse().map_err(|_| refuse("a number"))?;
         if index == 0 && !(value > 0.0 && value.is_finite()) {
             return Err(refuse("a step, a finite number > 0"));

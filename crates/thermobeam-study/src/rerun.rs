@@ -2,6 +2,7 @@
 
 use crate::expression::Expression;
 use crate::scene::Scene;
+use crate::time_limit::{Patience, TimeUp};
 use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
@@ -18,6 +19,9 @@ pub enum RunError {
     /// A step could not be done.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// The limit on the time of a case was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
 }
 
 impl From<MeshError> for RunError {
@@ -71,10 +75,12 @@ impl<'s> Rerun<'s> {
         let dt = self.t_end / self.steps as f64;
         let mut simulation = Simulation::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
         let mut level = simulation.level();
+        let mut patience = Patience::of(&simulation);
         let last = level.u.len() - 1;
         let mut trace = Trace { tip: [level.u[last]; 2], samples: Vec::with_capacity(samples) };
         let stride = self.steps / samples;
         for n in 1..=self.steps {
+            patience.before_step_of(&simulation)?;
             simulation.advance()?;
             simulation.observe(&mut level);
             let tip = level.u[last];

@@ -64,28 +64,44 @@ pub enum RunError {
     Threads(#[from] ThreadPoolBuildError),
 }
 
+/// What a run may take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Number of threads; no more than there are cases are started.
+    pub jobs: NonZeroUsize,
+    /// The longest that a case may take; `None` for as long as it takes.
+    pub case_limit: Option<Duration>,
+}
+
+impl From<NonZeroUsize> for Effort {
+    fn from(jobs: NonZeroUsize) -> Self {
+        Self { jobs, case_limit: None }
+    }
+}
+
 /// Runs all studies, costliest cases first, and judges them.
 ///
-/// * `jobs`: number of threads; no more than there are cases are started.
+/// * `effort`: threads and time, or the number of threads alone.
 /// * `progress`: called after every case, by one thread at a time.
 /// * Returns the studies in the order in which they were given.
 ///
 /// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A study that panics
-/// while listing its cases or judging them fails.
+/// while listing its cases or judging them fails; so does one of which a case was stopped at its limit.
 ///
 /// # Errors
 /// [`RunError`], before anything was run.
 pub fn run(
     studies: &[Box<dyn Study>],
-    jobs: NonZeroUsize,
+    effort: impl Into<Effort>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
+    let Effort { jobs, case_limit } = effort.into();
     refuse_duplicates(studies)?;
     let plans: Vec<Plan> = studies.iter().map(|study| caught(|| study.cases())).collect();
     let cases: usize = plans.iter().flatten().map(Vec::len).sum();
     // Threads without a case would only be started and ended.
     let pool = ThreadPoolBuilder::new().num_threads(jobs.get().min(cases.max(1))).build()?;
-    let results = run_cases(&pool, studies, &plans, progress);
+    let results = run_cases(&pool, studies, &plans, case_limit, progress);
     let planned = studies.par_iter().zip(&plans).zip(results);
     // Figures are drawn here, which takes its time too.
     Ok(pool.install(|| planned.map(|((study, plan), done)| conclude(study.as_ref(), plan, done)).collect()))
@@ -108,13 +124,14 @@ fn run_cases(
     pool: &ThreadPool,
     studies: &[Box<dyn Study>],
     plans: &[Plan],
+    limit: Option<Duration>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Vec<Vec<Done>> {
     let jobs = queue::costliest_first(plans.iter().map(|plan| plan.as_deref().unwrap_or(&[])));
     let counter = Counter::new(&jobs, progress);
     let run = |job: Job| {
         let study = &studies[job.study];
-        let done = job.time(|| match caught(|| study.run(job.case)) {
+        let done = job.time(limit, || match caught(|| study.run(job.case)) {
             Ok(result) => result,
             Err(reason) => Err(CaseFailure { reason }),
         });
@@ -130,14 +147,19 @@ fn run_cases(
 fn conclude(study: &dyn Study, plan: &Plan, done: Vec<Done>) -> Finished {
     let header = study.header().clone();
     let mut spent = queue::spent(&done);
+    let stopped: Vec<bool> = done.iter().map(|done| done.is_stopped).collect();
     let results: Vec<Result<Measured, CaseFailure>> = done.into_iter().map(|done| done.result).collect();
     let started = std::time::Instant::now();
-    let outcome = match plan {
+    let mut outcome = match plan {
         Ok(_) => caught(|| study.conclude(&results)).unwrap_or_else(|reason| broken("judge its results", &reason)),
         Err(reason) => broken("list its cases", reason),
     };
     spent.busy += started.elapsed();
     let cases = plan.as_deref().unwrap_or(&[]);
+    for ((case, result), _) in cases.iter().zip(&results).zip(&stopped).filter(|(_, stopped)| **stopped) {
+        let reason = result.as_ref().err().map_or("", |failure| &failure.reason);
+        outcome.checks.push(Check::that(false, format!("{} ends within the limit", case.label), reason));
+    }
     let failed_cases = cases.iter().zip(&results).filter_map(|(case, result)| match result {
         Ok(_) => None,
         Err(failure) => Some(FailedCase { label: case.label.clone(), reason: failure.reason.clone() }),

@@ -28,6 +28,7 @@ use thermobeam::solve::Settings;
 
 use crate::document::{self, Field, InputError, Section};
 use crate::expression::{Expression, NotFinite, Variable};
+use crate::limits;
 use crate::shared_tables as tables;
 
 /// Elements of a scene that does not say: the paper's number.
@@ -126,9 +127,9 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64, usize), InputError> {
     let field = time.require("dt", positive)?;
     let dt = field.number_where(positive, |dt| dt > 0.0)?;
     let quotient = t_end / dt;
-    if quotient > tables::MAX_STEPS as f64 {
+    if quotient > limits::STEPS as f64 {
         let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");
-        return Err(field.refuse(found, format!("at most {:e} steps", tables::MAX_STEPS as f64)));
+        return Err(field.refuse(found, format!("at most {:e} steps", limits::STEPS as f64)));
     }
     let steps = quotient.round();
     if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {

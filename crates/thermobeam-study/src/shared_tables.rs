@@ -6,21 +6,13 @@ use thermobeam::scheme::{self, Scheme};
 use thermobeam::solve::{Settings, Solver};
 
 use crate::document::{Field, InputError, Section};
+pub(crate) use crate::limits::elements;
 
 /// The keys of `[beam]`.
 pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];
 
 /// The keys of `[obstacles]`.
 pub(crate) const OBSTACLE_KEYS: [&str; 3] = ["epsilon", "g1", "g2"];
-
-/// Time steps of a run, a year's work or so: more is a slip of the pen.
-pub(crate) const MAX_STEPS: usize = 10_000_000_000;
-
-/// Bytes that a run needs per element: blocks of the matrix and of its factors, and the vectors of three fields.
-const BYTES_PER_ELEMENT: usize = 400;
-
-/// Bytes that a run may need.
-const MAX_BYTES: usize = 4 << 30;
 
 /// The coefficient of that name; it must be one of [`BEAM_KEYS`].
 pub(crate) fn beam_coefficient<'b>(beam: &'b mut Beam, key: &str) -> Option<&'b mut f64> {
@@ -103,19 +95,6 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
         settings.max_iterations = field.count(1..=usize::MAX)?;
     }
     Ok(settings)
-}
-
-/// A number of elements that fits into memory.
-pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
-    const GIB: f64 = (1u64 << 30) as f64;
-    let elements = field.count(1..=usize::MAX)?;
-    let most = MAX_BYTES / BYTES_PER_ELEMENT;
-    if elements <= most {
-        return Ok(elements);
-    }
-    let bytes = elements as f64 * BYTES_PER_ELEMENT as f64;
-    let found = format!("{elements}, which would take about {:.1} GiB of memory", bytes / GIB);
-    Err(field.refuse(found, format!("a whole number >= 1 and <= {most} ({:.0} GiB)", MAX_BYTES as f64 / GIB)))
 }
 
 /// A mesh whose nodes come from the map in `field`.

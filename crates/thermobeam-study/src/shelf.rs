@@ -11,6 +11,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::atomic;
+use crate::writing;
 
 /// The file that lists all files of the set, one a line.
 pub const MANIFEST: &str = "manifest.txt";
@@ -83,15 +84,24 @@ impl Shelf {
     /// # Errors
     /// What the file system says; an interrupted replacement is completed by the next one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
-        self.complete_interrupted()?;
-        let staging = self.workshop.join("staging");
-        remove_if_there(&staging)?;
+        let _writing = writing::begin();
+        self.tidy()?;
+        let staging = self.staging();
         for (path, bytes) in set.files() {
             write_new(&staging.join(path), bytes)?;
         }
         write_new(&staging.join(MANIFEST), set.manifest().as_bytes())?;
         fs::rename(&staging, self.pending())?;
         self.complete_interrupted()
+    }
+
+    /// Completes a replacement that was interrupted, and removes what was not yet one. Call it with the [`lock`] held.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn tidy(&self) -> io::Result<()> {
+        self.complete_interrupted()?;
+        remove_if_there(&self.staging())
     }
 
     /// Moves what is pending to its place. Nothing happens where nothing is pending.
@@ -121,6 +131,10 @@ impl Shelf {
             let _ = fs::remove_dir(folder);
         }
         Ok(())
+    }
+
+    fn staging(&self) -> PathBuf {
+        self.workshop.join("staging")
     }
 
     fn pending(&self) -> PathBuf {

@@ -42,6 +42,7 @@ mod values;
 use std::path::Path;
 
 use crate::document::{self, InputError};
+use crate::limits;
 use crate::scene::Scene;
 
 pub use case::Case;
@@ -56,7 +57,7 @@ use design::Design;
 use reader::Template;
 
 /// Cases of a sweep: more would take a machine longer than it lasts.
-pub const MOST_CASES: usize = 100_000_000;
+pub const MOST_CASES: usize = limits::SWEEP_CASES;
 
 /// A sweep file, read and validated.
 #[derive(Debug, Clone)]

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::io;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -12,11 +11,12 @@ use crate::baseline::{Baseline, BaselineError, Change, Refusal};
 use crate::provenance::Provenance;
 use crate::record;
 use crate::report::Findings;
-use crate::runner::{self, Finished, Progress, RunError};
+use crate::runner::{self, Effort, Finished, Progress, RunError};
 use crate::shelf::{Shelf, lock};
 use crate::study::Study;
 use crate::study_file::Tier;
 use crate::verdict::Verdict;
+use crate::writing;
 
 /// Which studies were asked for, and so where the reports go: a part never replaces the report on the whole.
 ///
@@ -88,8 +88,8 @@ fn quoted(word: &str) -> String {
 pub struct Request {
     /// Which studies these are.
     pub scope: Scope,
-    /// Number of threads.
-    pub jobs: NonZeroUsize,
+    /// Threads and time.
+    pub effort: Effort,
     /// Whether to take the new numbers for the baseline.
     pub bless: bool,
     /// The workspace: `reports/` and `studies/baseline.json` are below.
@@ -141,11 +141,14 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.root.join("studies").join("baseline.json");
     Baseline::read(&baseline_file)?;
-    let finished = runner::run(studies, request.jobs, progress)?;
+    tidy(request).map_err(|error| VerificationError::Reports { folder: request.root.join("reports"), error })?;
+    let finished = runner::run(studies, request.effort, progress)?;
 
     let folder = request.root.join("reports");
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     let _lock = lock(&folder.join("local").join("lock")).map_err(fail)?;
+    // A request to end the process waits until everything is written.
+    let _writing = writing::begin();
     // Another run may have blessed in the meantime: under the lock it is read again.
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
@@ -159,6 +162,23 @@ pub fn verify(
     let verification = Verification { finished, changes, verdict, blessing, reports: shelf.place.clone() };
     write_reports(&verification, request, &shelf, &folder).map_err(fail)?;
     Ok(verification)
+}
+
+/// Completes or clears away what a run that was killed has left, whatever that run was of.
+fn tidy(request: &Request) -> io::Result<()> {
+    let reports = request.root.join("reports");
+    let local = reports.join("local");
+    if !local.is_dir() {
+        return Ok(());
+    }
+    let _lock = lock(&local.join("lock"))?;
+    let _writing = writing::begin();
+    atomic::remove_leftovers(&request.root.join("studies").join("baseline.json"))?;
+    atomic::remove_leftovers(&local.join("provenance.json"))?;
+    let whole = |tier| Scope::Tier(tier, BTreeSet::new());
+    [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
+        .iter()
+        .try_for_each(|scope| scope.shelf(&reports).tidy())
 }
 
 /// Each study is judged on its own; the baseline can only make the whole worse.
@@ -181,6 +201,6 @@ fn write_reports(found: &Verification, request: &Request, shelf: &Shelf, folder:
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
     shelf.publish(&Findings { see_also, ..found.findings(scope, &command) }.files()?)?;
-    let provenance = Provenance::collect(&request.root, command, request.jobs.get(), &found.finished);
+    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
 }

@@ -4,9 +4,15 @@ mod accuracy;
 mod equilibria;
 mod failure;
 mod first_steps;
+mod interrupted;
+mod killed;
+#[cfg(unix)]
+mod mutants;
+mod places;
 mod rates;
 mod run;
 mod sweep;
+mod workspace;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -83,14 +83,19 @@ pub enum Complaint {
     NotFinite(NotFinite),
 }
 
+/// A name as it can be shown: a file may name anything, and a terminal obeys control characters.
+fn visible(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        f.write_str(&visible(&self.file))?;
         if let Some(Place { line, column }) = self.place {
             write!(f, ":{line}:{column}")?;
         }
         if let Some(field) = &self.field {
-            write!(f, ": {field}")?;
+            write!(f, ": {}", visible(field))?;
         }
         write!(f, ": {}", self.complaint)
     }

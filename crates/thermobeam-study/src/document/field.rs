@@ -162,7 +162,7 @@ fn whole(integer: &DeInteger<'_>) -> Option<i128> {
 }
 
 /// A piece of the file on one line, cut where a message would become unreadable.
-pub(super) fn shorten(text: &str) -> String {
+pub(crate) fn shorten(text: &str) -> String {
     const LONGEST: usize = 60;
     let line: String = text.chars().take(LONGEST).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if text.chars().nth(LONGEST).is_some() { format!("{line}...") } else { line }

@@ -2,10 +2,11 @@
 
 use std::cmp::Reverse;
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::Spent;
 use crate::study::{Case, CaseFailure, Measured};
+use crate::time_limit;
 
 /// How far a run has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Progress {
     pub done_cost: f64,
     /// Cost of all cases.
     pub cost: f64,
+    /// The study, by its place in the list, whose last case this was.
+    pub ended: Option<usize>,
 }
 
 /// One case of one study.
@@ -34,16 +37,21 @@ pub(super) struct Done {
     study: usize,
     case: usize,
     pub(super) result: Result<Measured, CaseFailure>,
+    /// Whether it was stopped at the limit on its time.
+    pub(super) is_stopped: bool,
     started: Instant,
     ended: Instant,
 }
 
 impl Job {
-    /// Runs it and looks at the clock before and after.
-    pub(super) fn time(&self, run: impl FnOnce() -> Result<Measured, CaseFailure>) -> Done {
+    /// Runs it, for as long as `limit` allows, and looks at the clock before and after.
+    pub(super) fn time(&self, limit: Option<Duration>, run: impl FnOnce() -> Result<Measured, CaseFailure>) -> Done {
         let started = Instant::now();
-        let result = run();
-        Done { study: self.study, case: self.case, result, started, ended: Instant::now() }
+        let (result, up) = time_limit::within(limit, run);
+        // Whatever a study makes of a run that was cut short: it is none.
+        let result = up.map_or(result, |up| Err(up.into()));
+        let (study, case, is_stopped) = (self.study, self.case, up.is_some());
+        Done { study, case, result, is_stopped, started, ended: Instant::now() }
     }
 }
 
@@ -86,20 +94,27 @@ pub(super) fn spent(done: &[Done]) -> Spent {
 
 /// Counts what is done and tells it.
 pub(super) struct Counter<'p> {
-    now: Mutex<Progress>,
+    /// How far it is, and the cases left of each study.
+    now: Mutex<(Progress, Vec<usize>)>,
     tell: &'p (dyn Fn(Progress) + Sync),
 }
 
 impl<'p> Counter<'p> {
     pub(super) fn new(jobs: &[Job], tell: &'p (dyn Fn(Progress) + Sync)) -> Self {
         let cost = jobs.iter().map(|job| job.cost).sum();
-        let now = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost };
-        Self { now: Mutex::new(now), tell }
+        let now = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None };
+        let studies = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
+        let mut left = vec![0; studies];
+        jobs.iter().for_each(|job| left[job.study] += 1);
+        Self { now: Mutex::new((now, left)), tell }
     }
 
     /// Tells while it holds the lock, so that what is told only grows.
     pub(super) fn count(&self, job: &Job) {
-        let mut now = self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let (now, left) = &mut *state;
+        left[job.study] -= 1;
+        now.ended = (left[job.study] == 0).then_some(job.study);
         now.done_cases += 1;
         now.done_cost += job.cost;
         (self.tell)(*now);

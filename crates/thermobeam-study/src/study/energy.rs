@@ -19,6 +19,7 @@ pub(super) use random::wild;
 
 use crate::document::{self, InputError, Section};
 use crate::expression::Variable;
+use crate::limits;
 use crate::outcome::{Check, Figure, Outcome, Table};
 use crate::plots;
 use crate::scene::Scene;
@@ -26,6 +27,7 @@ use crate::shared_tables as tables;
 use crate::simulate;
 use crate::study::{Case, CaseFailure, Measured, Study, max_or_nan};
 use crate::study_file::{StudyHeader, header};
+use crate::time_limit::Patience;
 use std::path::Path;
 use thermobeam::energy::Energy;
 use thermobeam::mesh::Mesh;
@@ -76,17 +78,20 @@ impl EnergyDecay {
         let elements = section.require("elements", "a number of elements")?;
         let mesh = Mesh::mapped(tables::elements(&elements)?, |s| map.as_ref().map_or(s, |map| map.eval(s)));
         let positive = "a finite number > 0";
-        let count =
-            |key: &str, least: usize| section.get(key).map_or(Ok(0), |field| field.count(least..=tables::MAX_STEPS));
+        let count = |key: &str| section.get(key).map_or(Ok(0), |field| field.count(0..=usize::MAX));
+        let random = count("random")?;
+        if let Some(field) = section.get("random") {
+            limits::cases(&field, &[random, schemes.len()])?;
+        }
         Ok(Self {
             header: header(root)?,
             scenes: scenes.iter().map(|file| Scene::read(folder.join(file.text()?))).collect::<Result<_, _>>()?,
             schemes: schemes.iter().map(|scheme| scheme.choice(&names)).collect::<Result<_, _>>()?,
             mesh: tables::checked_mesh(mesh, &elements)?,
             dt: section.require("dt", positive)?.number_where(positive, |dt| dt > 0.0)?,
-            steps: section.require("steps", "a number of steps")?.count(1..=tables::MAX_STEPS)?,
-            random: count("random", 0)?,
-            seed: count("seed", 0)? as u64,
+            steps: section.require("steps", "a number of steps")?.count(1..=limits::STEPS)?,
+            random,
+            seed: count("seed")? as u64,
             tolerance: section.require("tolerance", positive)?.number_where(positive, |t| t > 0.0)?,
         })
     }
@@ -131,7 +136,9 @@ impl Study for EnergyDecay {
         let (mut increase, mut residual) = (f64::NEG_INFINITY, 0.0_f64);
         let every = self.steps.div_ceil(POINTS);
         let mut peak = 0.0_f64;
+        let mut patience = Patience::of(&simulation);
         for step in 1..=self.steps {
+            patience.before_step_of(&simulation)?;
             simulation.advance()?;
             simulation.observe(&mut new);
             let balance = simulation.balance(&old, &new);

@@ -14,6 +14,7 @@ use super::steady::{
 use super::{Case, CaseFailure, Measured, Study};
 use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
+use crate::limits;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
 use crate::record::decimals;
@@ -76,13 +77,15 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
     expect.allow(&["tolerance", "error"])?;
     let tolerance = expect.require("tolerance", "a number > 0 and < 0.5")?;
     let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
+    let (dt, t_max) = (positive(&run, "dt")?, positive(&run, "t_max")?);
+    limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
     Ok(EndStates {
         header,
         scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, file)?,
         elements: mesh_sizes(&run)?,
-        dt: positive(&run, "dt")?,
+        dt,
         speed: positive(&run, "speed")?,
-        t_max: positive(&run, "t_max")?,
+        t_max,
         judge,
         error: positive(&expect, "error")?,
     })

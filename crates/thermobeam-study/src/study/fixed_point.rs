@@ -20,6 +20,7 @@ mod contraction;
 mod scene;
 
 use crate::document::{self, InputError, Section};
+use crate::limits;
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
@@ -64,14 +65,17 @@ impl FixedPoint {
                 .map(|item| item.number_where("a finite number > 0", |x| x > 0.0))
                 .collect::<Result<Vec<_>, _>>()
         };
+        let [dt, epsilon, zeta] = [list("dt")?, list("epsilon")?, list("zeta")?];
+        limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
         Ok(Self {
             header: header(root)?,
             scene: Scene::read(folder.join(section.require("scene", "a scene file beside this one")?.text()?))?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-            dt: list("dt")?,
-            epsilon: list("epsilon")?,
-            zeta: list("zeta")?,
-            steps: section.require("steps", "a number of steps")?.count(1..=tables::MAX_STEPS)?,
+            dt,
+            epsilon,
+            zeta,
+            // Each is a point of a figure.
+            steps: section.require("steps", "a number of steps")?.count(1..=limits::RECORDED_STEPS)?,
             tolerances: list("tolerances")?,
         })
     }

@@ -7,6 +7,7 @@ use super::ladder::{self, Family, Ladder};
 use super::{Case, CaseFailure, Measured, Study};
 use crate::document::{self, InputError, Section};
 use crate::expression::{Expression, Variable};
+use crate::limits;
 use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
 use crate::study_file::{Axis, StudyHeader, header};
@@ -60,7 +61,7 @@ impl Frequencies {
         let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
         let elements = increasing(&section)?;
         // A mesh has two frequencies per element, the upper ones of no use.
-        let count = section.require("count", "a whole number >= 1")?.count(1..=elements[0])?;
+        let count = section.require("count", "a whole number >= 1")?.count(1..=elements[0].min(limits::MODES))?;
         let study = Self {
             header: header(root)?,
             count,

@@ -12,6 +12,7 @@ use super::CaseFailure;
 use crate::document::{Field, InputError, Section};
 use crate::scene::Scene;
 use crate::simulate;
+use crate::time_limit::Patience;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(super) fn listed_scenes(field: &Field<'_>, study_file: &str) -> Result<Vec<Scene>, InputError> {
@@ -66,7 +67,9 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, Case
     let mut simulation = start(scene)?;
     let mut level = simulation.level();
     let mut moved = 0.0;
+    let mut patience = Patience::of(&simulation);
     while simulation.t() < t_max {
+        patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut level);
         // NaN is not slow.

@@ -6,6 +6,7 @@ use thermobeam::solve::Settings;
 
 use crate::document::{Field, InputError, Section};
 use crate::expression::{Expression, Variable};
+use crate::limits;
 use crate::random::SplitMix;
 use crate::shared_tables as tables;
 
@@ -124,7 +125,7 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let refine = Refine {
         axis,
         isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
-        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=tables::MAX_STEPS))?,
+        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
         grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
         t_end: section.require("t_end", positive)?.number_where(positive, |t_end| t_end > 0.0)?,
         perturbation: perturbation(&section)?,
@@ -133,6 +134,9 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         scheme: tables::scheme(&section)?,
         settings: tables::settings(&section)?,
     };
+    if refine.grid {
+        limits::cases(&section.require("elements", "a list")?, &[refine.elements.len(), refine.steps.len()])?;
+    }
     if axis == Axis::Both && !refine.grid && refine.elements.len() != refine.steps.len() {
         let found = format!("{} numbers of steps for {} of elements", refine.steps.len(), refine.elements.len());
         return Err(section.refuse("steps", found, "lists of the same length, or grid = true for all combinations"));

@@ -40,7 +40,7 @@ pub enum SweepError {
         reason: String,
     },
     /// A case is there twice.
-    #[error("case {case} is there twice: {} and {}", .first.display(), .second.display())]
+    #[error("{}: case {case} is there twice: here and in {}", .second.display(), .first.display())]
     Duplicate {
         /// Its number.
         case: usize,

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::join::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
 use crate::atomic;
+use crate::writing;
 
 /// What the folder is of.
 const MANIFEST: &str = "sweep.json";
@@ -58,12 +59,21 @@ impl Manifest {
     /// That of a folder; `None` where there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
+        let damaged = |reason: String| SweepError::Damaged {
+            file: path.clone(),
+            line: None,
+            reason: format!("not that of a sweep: {reason}"),
+        };
         match std::fs::read(&path) {
-            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| SweepError::Damaged {
-                file: path,
-                line: None,
-                reason: format!("not that of a sweep: {error}"),
-            }),
+            Ok(bytes) => {
+                let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
+                // It will be quoted, and a terminal obeys control characters.
+                let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
+                match texts.iter().find(|text| text.contains(char::is_control)) {
+                    Some(text) => Err(damaged(format!("control characters in {text:?}"))),
+                    None => Ok(Some(read)),
+                }
+            }
             Err(error) if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
             Err(error) => Err(atomic::naming(&path, &error).into()),
         }
@@ -136,12 +146,16 @@ impl Journal {
             found.agrees(manifest, folder)?;
         }
         atomic::prepare_folder(folder)?;
+        let _writing = writing::begin();
         let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let file = file.map_err(|error| atomic::naming(&path, &error))?;
         // A file system that has no locks cannot keep a second process out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(SweepError::Busy(folder.to_owned()));
+        }
+        for name in [MANIFEST, RESULTS] {
+            atomic::remove_leftovers(&folder.join(name))?;
         }
         if found.is_none() {
             let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
@@ -196,6 +210,7 @@ impl Journal {
     /// That of the operating system.
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
+        let _writing = writing::begin();
         self.file.write_all(whole.as_bytes()).map_err(|error| atomic::naming(&self.path, &error))?;
         self.done[line.case] = true;
         self.failed += usize::from(!line.passed);

@@ -7,6 +7,7 @@ use super::key::{KEYS, TABLES};
 use super::values::{self, Axis};
 use super::{Base, Case, Key, MOST_CASES, Sweep, content_hash};
 use crate::document::{self, Complaint, Field, InputError, Section};
+use crate::limits;
 use crate::scene::{Scene, stem};
 
 /// What every case has in common: TOML in which `{key}` stands for the case's value.
@@ -63,7 +64,8 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
         None => Design::Grid(values),
     };
     if design.cases() > MOST_CASES {
-        return Err(root.refuse("grid", "more combinations", format!("at most {MOST_CASES} cases")));
+        let (found, allowed) = limits::sweep_refusal(axes.iter().map(|axis| axis.values.len() as f64).product());
+        return Err(root.refuse("grid", found, allowed));
     }
     let fingerprint = content_hash(format!("{text}\0{}", base.text).as_bytes());
     Ok(Sweep { name: stem(&path.display().to_string()), base, template, keys, design, fingerprint })
@@ -106,7 +108,7 @@ fn quoted(field: &Field<'_>) -> Result<String, InputError> {
 /// Samples and seed of a Latin hypercube; `None` for a grid.
 fn samples(root: &Section<'_>) -> Result<Option<(usize, u64)>, InputError> {
     let Some(section) = root.section("latin")? else { return Ok(None) };
-    let samples = section.require("samples", "a number of cases")?.count(1..=MOST_CASES)?;
+    let samples = section.require("samples", "a number of cases")?.count(1..=limits::SWEEP_SAMPLES)?;
     let seed = section.require("seed", "a whole number >= 0")?.count(0..=usize::MAX)?;
     Ok(Some((samples, seed as u64)))
 }

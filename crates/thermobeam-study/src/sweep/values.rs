@@ -3,9 +3,7 @@
 use super::Key;
 use super::design::stratified;
 use crate::document::{Field, InputError};
-
-/// Values of one key of a grid.
-const MOST_VALUES: usize = 1_000_000;
+use crate::limits::SWEEP_VALUES;
 
 /// How values are spread between two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,7 +93,7 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<Axis<'a>, InputErro
     }
     let range = Range::read(&field, key, &["count"])?;
     let count = field.section()?.require("count", "a whole number >= 2")?;
-    let number = count.count(2..=MOST_VALUES)?;
+    let number = count.count(2..=SWEEP_VALUES)?;
     let mut values: Vec<f64> = (0..number).map(|i| range.at(i as f64 / (number - 1) as f64, key)).collect();
     values.dedup();
     if values.len() < number {

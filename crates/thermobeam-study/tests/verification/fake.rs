@@ -129,5 +129,5 @@ pub(crate) fn ids(ids: &[&str]) -> BTreeSet<String> {
 
 /// A verification of the quick tier in which there are these studies.
 pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
-    Request { scope: Scope::Tier(Tier::Quick, ids(known)), jobs: jobs(2), bless: false, root: root.to_owned() }
+    Request { scope: Scope::Tier(Tier::Quick, ids(known)), effort: jobs(2).into(), bless: false, root: root.to_owned() }
 }

@@ -70,7 +70,7 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let first = committed(&reports);
     assert_eq!(first.len(), 6 + 3);
     for count in [1, 4] {
-        request.jobs = jobs(count);
+        request.effort = jobs(count).into();
         run(studies(), &request);
         assert_eq!(committed(&reports), first, "{count} threads");
     }

@@ -5,6 +5,7 @@ use thermobeam::equilibrium::{Contact, Equilibrium};
 use crate::scene::Scene;
 use crate::study::CaseFailure;
 use crate::study::steady::exact_states;
+use crate::time_limit::Patience;
 
 /// Steady states that belong together, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +74,9 @@ pub(super) const HALVINGS: usize = 10;
 /// β at which the steady states cannot be told.
 pub(super) fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<Sample>, CaseFailure> {
     let mut samples: Vec<Sample> = Vec::new();
-    for &beta in betas {
+    let mut patience = Patience::of_long_rounds();
+    for (done, &beta) in betas.iter().enumerate() {
+        patience.check(done, || beta)?;
         let next = Sample::at(scene, beta)?;
         if let Some(last) = samples.last() {
             let mut between = Vec::new();

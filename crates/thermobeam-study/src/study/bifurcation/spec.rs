@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::BifurcationStudy;
 use crate::document::{self, Field, InputError, Section};
+use crate::limits;
 use crate::shared_tables as tables;
 use crate::study::steady::{listed_scenes, positive};
 use crate::study_file::StudyHeader;
@@ -36,6 +37,8 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
     let (meshes, judge) = buckling(root)?;
     let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
     rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
+    let t_max = rest.require("t_max", "a number")?;
+    limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
     Ok(BifurcationStudy {
         header,
         scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, file)?,

@@ -10,6 +10,7 @@ use super::motion::Shapes;
 use crate::scene::Scene;
 use crate::study::steady::{code_of, exact_states, keep_larger, nearest, start};
 use crate::study::{CaseFailure, Measured};
+use crate::time_limit::Patience;
 
 /// Points of a curve in a figure, about: more than a figure has columns.
 const POINTS: usize = 4000;
@@ -26,7 +27,9 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
     let mut new = old.clone();
     let window = (until.window / scene.dt).round().max(1.0) as usize;
     let mut fall = 0.0;
+    let mut patience = Patience::of(&simulation);
     while simulation.t() < until.t_max {
+        patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut new);
         let balance = simulation.balance(&old, &new);

@@ -6,6 +6,7 @@ use thermobeam::equilibrium::Contact;
 
 use super::{Experiment, Experiments, Group, Until};
 use crate::document::{self, Field, InputError, Section};
+use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study::steady::{at_resolution, listed_scene, listed_scenes, positive};
@@ -41,8 +42,10 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
     let until =
         Until { t_max: positive(&run, "t_max")?, window: positive(&run, "window")?, rate: positive(&run, "rate")? };
     let mut experiments = experiments(root, file)?;
+    let t_max = run.require("t_max", POSITIVE)?;
     for experiment in &mut experiments {
         refine(&run, &mut experiment.scene)?;
+        limits::steps_until(&t_max, until.t_max, experiment.scene.dt, limits::STEPS)?;
     }
     let (betas, rest) = steady(root)?;
     Ok(Experiments { header, experiments, until, betas, rest })
@@ -109,5 +112,6 @@ fn steady(root: &Section<'_>) -> Result<(Vec<f64>, super::ToRest), InputError> {
         speed: positive(&section, "speed")?,
         t_max: positive(&section, "t_max")?,
     };
+    limits::steps_until(&section.require("t_max", POSITIVE)?, rest.t_max, rest.dt, limits::STEPS)?;
     Ok((betas, rest))
 }

@@ -25,6 +25,7 @@ use crate::simulate;
 use crate::study::watch::{SOLVED, Watch};
 use crate::study::{Case, CaseFailure, Measured, Study};
 use crate::study_file::{StudyHeader, header};
+use crate::time_limit::Patience;
 use std::path::Path;
 use thermobeam::error::StepFailure;
 use thermobeam::simulation::{Simulation, Stepping};
@@ -177,7 +178,9 @@ fn run(scene: &Scene) -> Result<Measured, CaseFailure> {
     let mut watch = Watch::new(simulation.energy_scale(&old));
     let (mut end, mut done, mut contact, mut most) = (End::Answer, 0, 0, 0);
     let (mut drift, every) = (vec![], scene.steps.div_ceil(POINTS));
+    let mut patience = Patience::of(&simulation);
     for step in 1..=scene.steps {
+        patience.before_step_of(&simulation)?;
         match simulation.advance() {
             Ok(report) => most = most.max(report.iterations),
             Err(error) => {

@@ -6,6 +6,7 @@ use crate::plots;
 use crate::scene::Scene;
 use crate::simulate;
 use crate::study::{CaseFailure, Measured};
+use crate::time_limit::Patience;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::simulation::{Simulation, Stepping};
@@ -26,7 +27,9 @@ pub(super) fn compare(scene: &Scene, elements: usize, steps: usize, tolerance: f
     let (mut reference, mut level) = (newton.level(), fixed.level());
     let (mut distance, mut total, mut most) = (0.0_f64, 0, 0);
     let (mut iterations, mut contact) = (vec![], vec![]);
+    let mut patience = Patience::of(&newton);
     for _ in 0..steps {
+        patience.before_step_of(&newton)?;
         newton.advance()?;
         let report = fixed.advance()?;
         newton.observe(&mut reference);

@@ -18,12 +18,13 @@
 mod report;
 
 use crate::document::{self, InputError, Section};
+use crate::limits;
 use crate::outcome::Outcome;
-use crate::shared_tables as tables;
 use crate::study::energy::wild;
 use crate::study::watch::{CLOSED, SOLVED, Watch};
 use crate::study::{Case, CaseFailure, Measured, Study};
 use crate::study_file::{StudyHeader, header};
+use crate::time_limit::Patience;
 use std::path::Path;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::StepFailure;
@@ -80,7 +81,7 @@ impl RandomScenes {
         Ok(Self {
             header: header(root)?,
             batches: section.require("batches", number)?.count(1..=100_000)?,
-            steps: section.require("steps", number)?.count(1..=tables::MAX_STEPS)?,
+            steps: section.require("steps", number)?.count(1..=limits::STEPS)?,
             seed: section.require("seed", number)?.count(0..=u32::MAX as usize)? as u64,
         })
     }
@@ -173,7 +174,9 @@ impl RandomScenes {
         let mut watches: Vec<Watch> = (0..LANES).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
         let mut ends: [Option<&str>; LANES] = [None; LANES];
         let mut new = Level::new(group + 2);
-        for _ in 0..self.steps {
+        let mut patience = Patience::new(LANES * (group + 1));
+        for step in 0..self.steps {
+            patience.check(step, || step as f64 * dt[0])?;
             ensemble.advance();
             for k in (0..LANES).filter(|&k| ends[k].is_none()).collect::<Vec<_>>() {
                 if let Err(error) = ensemble.report(k) {

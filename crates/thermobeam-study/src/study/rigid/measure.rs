@@ -7,6 +7,7 @@ use super::theory::tip_compliance;
 use crate::scene::Scene;
 use crate::study::steady::{keep_larger, settle, start};
 use crate::study::{CaseFailure, Measured};
+use crate::time_limit::Patience;
 
 /// The scene with another compliance.
 pub(super) fn with_compliance(scene: &Scene, epsilon: f64) -> Scene {
@@ -30,7 +31,9 @@ pub(super) fn moving(scene: &Scene) -> Result<Measured, CaseFailure> {
     let tip = level.u.len() - 1;
     let (mut motion, mut force) = (vec![(0.0, level.u[tip])], 0.0);
     let (mut iterations, mut most_iterations) = (0, 0);
+    let mut patience = Patience::of(&simulation);
     for _ in 0..scene.steps {
+        patience.before_step_of(&simulation)?;
         let report = simulation.advance()?;
         simulation.observe(&mut level);
         iterations += report.iterations;
@@ -55,7 +58,9 @@ pub(super) fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<Measur
     let mut simulation = start(&Scene { settings, ..scene.clone() })?;
     let mut level = simulation.level();
     let (mut contraction, mut iterations, mut failed) = (f64::NAN, 0, f64::NAN);
+    let mut patience = Patience::of(&simulation);
     for _ in 0..scene.steps {
+        patience.before_step_of(&simulation)?;
         let was_in_contact = level.contact_force != 0.0;
         match simulation.advance() {
             Ok(report) => {
@@ -110,7 +115,9 @@ pub(super) fn impact(scene: &Scene) -> Result<Measured, CaseFailure> {
     let mut level = simulation.level();
     let tip = level.v.len() - 1;
     let (velocity, mut force, mut when) = (level.v[tip], 0.0, f64::NAN);
+    let mut patience = Patience::of(&simulation);
     for _ in 0..scene.steps {
+        patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut level);
         if !(level.contact_force <= force) {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{RigidStudy, at_resolution};
 use crate::document::{self, Field, InputError, Section};
+use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study::steady::{listed_scene, positive};
@@ -73,6 +74,12 @@ fn scene(section: &Section<'_>, file: &str, t_end: Option<f64>) -> Result<Scene,
     let scene = listed_scene(&section.require("scene", "a scene file")?, file)?;
     let field = section.require("elements", "a whole number >= 1")?;
     let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
+    let dt = section.require("dt", "a number")?;
+    // The moving beam's tip is kept at every step.
+    limits::steps_until(&dt, scene.t_end, positive(section, "dt")?, limits::RECORDED_STEPS)?;
+    if section.get("t_max").is_some() {
+        limits::steps_until(&dt, positive(section, "t_max")?, positive(section, "dt")?, limits::STEPS)?;
+    }
     at_resolution(&scene, tables::elements(&field)?, positive(section, "dt")?)
         .map_err(|error| field.refuse(error.to_string(), "a mesh"))
 }

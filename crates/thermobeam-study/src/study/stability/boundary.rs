@@ -2,6 +2,7 @@
 
 use super::measure::{axial_force, factors, fixed_point};
 use crate::study::{CaseFailure, Measured};
+use crate::time_limit::Patience;
 use thermobeam::simulation::Problem;
 
 /// Halvings of the logarithm of dt: to a ten-thousandth of a range of seven decades.
@@ -38,7 +39,9 @@ pub(super) fn find(problem: &Problem, [low, high]: [f64; 2]) -> Result<Measured,
 
 /// Whether the increments shrink, however slowly.
 fn contracts(problem: &Problem, dt: f64) -> Result<bool, CaseFailure> {
+    let mut patience = Patience::of_long_rounds();
     for iterations in ITERATIONS - CONSECUTIVE..ITERATIONS {
+        patience.check(iterations, || dt)?;
         let ended = fixed_point(problem, dt, iterations)?;
         if ended.converged || !(ended.contraction < 1.0) {
             return Ok(ended.converged);

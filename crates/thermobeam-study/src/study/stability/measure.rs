@@ -2,6 +2,7 @@
 
 use crate::study::watch::{SOLVED, Watch};
 use crate::study::{CaseFailure, Measured};
+use crate::time_limit::Patience;
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::{StepError, StepFailure};
@@ -82,7 +83,9 @@ pub(super) fn axial_force(beam: &Beam, problem: &Problem) -> f64 {
 pub(super) fn row(problem: &Problem, dts: &[f64], steps: usize) -> Result<Measured, CaseFailure> {
     let mut row = Row::default();
     let m = axial_force(&problem.beam, problem);
-    for &dt in dts {
+    let mut patience = Patience::of_long_rounds();
+    for (done, &dt) in dts.iter().enumerate() {
+        patience.check(done, || dt)?;
         let ended = fixed_point(problem, dt, ITERATIONS)?;
         row.push(FAILED, dt, f64::from(!ended.converged));
         if ended.converged {
@@ -118,7 +121,9 @@ fn newton(
     let mut new = old.clone();
     let mut watches: Vec<Watch> = (0..dts.len()).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
     let mut most = vec![0; dts.len()];
+    let mut patience = Patience::new(LANES * problem.mesh.elements());
     for step in 1..=steps {
+        patience.check(step - 1, || (step - 1) as f64 * dt[0])?;
         ensemble.advance();
         for k in 0..dts.len() {
             let Ok(report) = ensemble.report(k) else { continue };

@@ -2,6 +2,7 @@
 
 use super::{KIND, Parameter, Stability};
 use crate::document::{Field, InputError, Section};
+use crate::limits;
 use crate::shared_tables as tables;
 use crate::study_file::header;
 
@@ -21,20 +22,36 @@ pub(super) fn from_document(root: &Section<'_>) -> Result<Stability, InputError>
     }
     // ζ = 0 has no place on a logarithmic axis, and is the line that the theory excludes.
     let fits = |value: f64| value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0);
+    let range = section.require("range", "a range")?;
+    if over == Parameter::Width {
+        finest(&range, interval(&range, false)?[0])?;
+        items.iter().try_for_each(|item| finest(item, item.number()?))?;
+    }
     Ok(Stability {
         header: header(root)?,
         over,
         dt: interval(&section.require("dt", "a range")?, false)?,
-        range: interval(&section.require("range", "a range")?, over.is_linear())?,
-        points: section.require("points", "a number of points")?.count(2..=1000)?,
+        range: interval(&range, over.is_linear())?,
+        points: section.require("points", "a number of points")?.count(2..=limits::MAP_POINTS)?,
         lines: items
             .iter()
             .map(|item| item.number_where("a value of the parameter", fits))
             .collect::<Result<_, _>>()?,
         elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-        steps: section.require("steps", "a number of steps")?.count(1..=tables::MAX_STEPS)?,
+        steps: section.require("steps", "a number of steps")?.count(1..=limits::STEPS)?,
         agreement: section.require("agreement", positive)?.number_where(positive, |a| a > 0.0)?,
     })
+}
+
+/// Refuses a mesh width for which the mesh does not fit into memory.
+fn finest(field: &Field<'_>, width: f64) -> Result<(), InputError> {
+    let elements = (1.0 / width).round();
+    if elements <= limits::ELEMENTS as f64 {
+        return Ok(());
+    }
+    let found =
+        format!("{}, of which the finest mesh would take {}", field.as_written(), limits::memory_of_elements(elements));
+    Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
 }
 
 /// Two ascending numbers, positive unless the axis is linear.

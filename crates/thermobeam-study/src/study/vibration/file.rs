@@ -2,6 +2,7 @@
 
 use super::Vibration;
 use crate::document::{self, Field, InputError, Section};
+use crate::limits;
 use crate::shared_tables as tables;
 use crate::study_file::{Axis, Refine, control, expectations, header, refine};
 use std::path::Path;
@@ -47,6 +48,7 @@ impl Vibration {
         root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
         let beam = beam(root)?;
         let refine = refine(root)?;
+        bounded(root, &refine)?;
         let modes = modes(root, &refine)?;
         let heat = heat(root, &refine)?;
         let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
@@ -67,6 +69,17 @@ fn beam(root: &Section<'_>) -> Result<Beam, InputError> {
     Ok(beam)
 }
 
+/// The tip is kept at every step, and the modes of a mesh are found by a dense method.
+fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
+    let section = root.require("refine", "a table")?.section()?;
+    let (steps, elements) = (section.require("steps", "a number")?, section.require("elements", "a number")?);
+    for &level in &refine.steps {
+        limits::steps_until(&steps, refine.t_end, refine.dt(level), limits::RECORDED_STEPS)?;
+    }
+    let of_mesh = refine.isolate && refine.axis == Axis::Time;
+    if of_mesh { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
+}
+
 /// Does the study start from the modes of its mesh, of which there are only so many?
 fn most(refine: &Refine, of_mesh: usize) -> usize {
     if refine.isolate && refine.axis == Axis::Time { of_mesh } else { usize::MAX }
@@ -74,7 +87,7 @@ fn most(refine: &Refine, of_mesh: usize) -> usize {
 
 fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<Vibrating>, InputError> {
     let allowed = "at least one table [[mode]] with index and amplitude or velocity";
-    let most = most(refine, 2 * refine.elements[0]);
+    let most = most(refine, 2 * refine.elements[0]).min(limits::MODES);
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["index", "amplitude", "velocity"])?;
@@ -97,7 +110,7 @@ fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<Vibrating>, InputErr
 
 fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<Cooling>, InputError> {
     let Some(field) = root.get("heat") else { return Ok(vec![]) };
-    let most = most(refine, refine.elements[0].saturating_sub(1).max(1));
+    let most = most(refine, refine.elements[0].saturating_sub(1).max(1)).min(limits::MODES);
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["index", "amplitude"])?;

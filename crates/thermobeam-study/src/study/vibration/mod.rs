@@ -15,6 +15,7 @@ use super::{Case, CaseFailure, Measured, Study};
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Table};
 use crate::plots::{self, Axis as PlotAxis, History, Series};
 use crate::study_file::{Axis, Expectation, Norm, Refine, StudyHeader};
+use crate::time_limit::Patience;
 use clock::{Clock, Levels};
 use file::{Cooling, Vibrating};
 use motion::{Motion, Shape};
@@ -257,7 +258,9 @@ fn follow(
     let (mut largest, mut deviation, mut size) = ([0.0; 8], 0.0, 0.0);
     let mut curves = [vec![(0.0, reference.tip(0))], vec![(0.0, level.u[tip])]];
     let theorem = Norm::ALL.iter().position(|&norm| norm == Norm::Theorem34).unwrap_or(0);
+    let mut patience = Patience::of(&simulation);
     for n in 1..=levels.steps {
+        patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut level);
         for (largest, error) in largest.iter_mut().zip(reference.errors(&lengths, n, &level)) {

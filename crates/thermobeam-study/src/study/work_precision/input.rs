@@ -4,9 +4,9 @@ use super::method::{METHODS, Method};
 use super::{Advantage, WORK_PRECISION, WorkPrecision};
 use crate::document::{self, InputError, Section};
 use crate::free_vibration;
+use crate::limits;
 use crate::march::Family;
 use crate::scene::Scene;
-use crate::shared_tables as tables;
 use crate::study_file::{ConvergenceSpec, header};
 use crate::yardstick::Quantity;
 use std::path::Path;
@@ -70,7 +70,7 @@ fn levels(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two increasing whole numbers >= 1";
     let field = section.require(key, allowed)?;
     let items = field.items(allowed)?;
-    let most = if key == "elements" { 1 << 20 } else { tables::MAX_STEPS };
+    let most = if key == "elements" { 1 << 20 } else { limits::STEPS };
     let levels = items.iter().map(|item| item.count(1..=most)).collect::<Result<Vec<_>, _>>()?;
     if levels.len() < 2 || levels.windows(2).any(|pair| pair[1] <= pair[0]) {
         return Err(field.refuse_as_written(allowed));
@@ -120,7 +120,7 @@ fn reference(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Resu
     let field = section.require("reference", allowed)?;
     let items = field.items(allowed)?;
     let [n, time_steps] = items.as_slice() else { return Err(field.refuse_as_written(allowed)) };
-    let found = [n.count(1..=1 << 20)?, time_steps.count(1..=tables::MAX_STEPS)?];
+    let found = [n.count(1..=1 << 20)?, time_steps.count(1..=limits::STEPS)?];
     let fits = elements.iter().all(|n| found[0].is_multiple_of(*n)) && found[1].is_multiple_of(steps[0]);
     if fits { Ok(found) } else { Err(field.refuse_as_written(allowed)) }
 }

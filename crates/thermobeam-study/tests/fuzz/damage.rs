@@ -1,0 +1,184 @@
+//! Ways to damage a file.
+
+/// Random numbers, the same everywhere: splitmix64.
+pub(crate) struct Dice(u64);
+
+impl Dice {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(1))
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// One of 0, 1, ..., count - 1.
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        (self.next() % count.max(1) as u64) as usize
+    }
+
+    fn one<'a, T>(&mut self, of: &'a [T]) -> &'a T {
+        &of[self.below(of.len())]
+    }
+}
+
+/// What a number may be replaced by.
+const NUMBERS: [&str; 38] = [
+    "nan",
+    "inf",
+    "-inf",
+    "1e308",
+    "-1e308",
+    "1e-308",
+    "5e-324",
+    "1e309",
+    "-0",
+    "-0.0",
+    "0",
+    "1",
+    "2",
+    "3",
+    "-1",
+    "0.5",
+    "1e-3",
+    "1e9",
+    "1000000000",
+    "1000000000000",
+    "9223372036854775807",
+    "9223372036854775808",
+    "-9223372036854775808",
+    "18446744073709551615",
+    "18446744073709551616",
+    "340282366920938463463374607431768211456",
+    "0x7fffffffffffffff",
+    "1_000_000_000_000",
+    "1e400",
+    "0.1e-400",
+    "true",
+    "\"1\"",
+    "[]",
+    "[1, 1]",
+    "{}",
+    "1979-05-27",
+    "1e18",
+    "4294967296",
+];
+
+/// What a piece of text may be replaced by.
+const PIECES: [&str; 24] = [
+    "\u{0}", "\u{feff}", "é", "π", "😀", "\u{202e}", "\r", "\r\n", "\t", "\"", "'''", "\"\"\"", "\\", "\\u0000", "=",
+    "[", "]", "[[", "#", "{", "}", ",", ".", "x",
+];
+
+/// The file after one to four mishaps.
+pub(crate) fn damaged(file: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let mut bytes = file.to_vec();
+    for _ in 0..=dice.below(4) {
+        bytes = match dice.below(12) {
+            0 => flipped(bytes, dice),
+            1 => truncated(bytes, dice),
+            2 | 3 => lines(&bytes, dice),
+            4 => inserted(bytes, dice),
+            5 => nested(&bytes, dice),
+            6 => words(&bytes, dice),
+            _ => numbers(&bytes, dice),
+        };
+    }
+    bytes
+}
+
+fn flipped(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
+    for _ in 0..=dice.below(3) {
+        let at = dice.below(bytes.len());
+        if let Some(byte) = bytes.get_mut(at) {
+            *byte ^= 1 << dice.below(8);
+        }
+    }
+    bytes
+}
+
+fn truncated(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
+    bytes.truncate(dice.below(bytes.len() + 1));
+    bytes
+}
+
+/// A line dropped, doubled, swapped with another, or moved to the end.
+fn lines(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let mut lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').collect();
+    if lines.is_empty() {
+        return vec![];
+    }
+    let (a, b) = (dice.below(lines.len()), dice.below(lines.len()));
+    match dice.below(4) {
+        0 => drop(lines.remove(a)),
+        1 => lines.insert(b, lines[a]),
+        2 => lines.swap(a, b),
+        _ => {
+            let line = lines.remove(a);
+            lines.push(line);
+        }
+    }
+    lines.concat()
+}
+
+fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
+    let at = dice.below(bytes.len() + 1);
+    let piece = if dice.below(3) == 0 { vec![dice.below(256) as u8] } else { dice.one(&PIECES).as_bytes().to_vec() };
+    bytes.splice(at..at, piece);
+    bytes
+}
+
+/// Brackets by the thousand, or a part of the file put into itself.
+fn nested(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let at = dice.below(bytes.len() + 1);
+    let piece = match dice.below(4) {
+        0 => dice.one(&["(", "[", "{a=", "-", "sin(", "a.", "2^"]).repeat(10_000).into_bytes(),
+        1 => dice.one(&["x", "1", " ", "\n", "é", "9"]).repeat(2_000).into_bytes(),
+        _ => {
+            let start = dice.below(bytes.len());
+            bytes[start..].iter().copied().take(dice.below(400)).collect()
+        }
+    };
+    [&bytes[..at], &piece, &bytes[at..]].concat()
+}
+
+/// Two words exchanged.
+fn words(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let found = spans(bytes, |byte| byte.is_ascii_alphabetic() || byte == b'_');
+    if found.len() < 2 {
+        return bytes.to_vec();
+    }
+    let (a, b) = (dice.one(&found).clone(), dice.one(&found).clone());
+    let mut damaged = bytes.to_vec();
+    damaged.splice(a, bytes[b].iter().copied());
+    damaged
+}
+
+/// One number, or three, replaced.
+fn numbers(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
+    let mut damaged = bytes.to_vec();
+    for _ in 0..=dice.below(3) {
+        let found = spans(&damaged, |byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-'));
+        if !found.is_empty() {
+            let span = dice.one(&found).clone();
+            damaged.splice(span, dice.one(&NUMBERS).bytes());
+        }
+    }
+    damaged
+}
+
+/// Runs of bytes of a kind.
+fn spans(bytes: &[u8], is: impl Fn(u8) -> bool) -> Vec<std::ops::Range<usize>> {
+    let mut spans: Vec<std::ops::Range<usize>> = vec![];
+    for (at, _) in bytes.iter().enumerate().filter(|(_, byte)| is(**byte)) {
+        match spans.last_mut() {
+            Some(span) if span.end == at => span.end = at + 1,
+            _ => spans.push(at..at + 1),
+        }
+    }
+    spans
+}

@@ -1,0 +1,200 @@
+//! The readers of files, each as the commands use it, and the files that they are for.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+use thermobeam_study::baseline::Baseline;
+use thermobeam_study::rates::RateTable;
+use thermobeam_study::scene::Scene;
+use thermobeam_study::simulate::Simulator;
+use thermobeam_study::study;
+use thermobeam_study::sweep::{Journal, Manifest, Share, Sweep};
+use thermobeam_study::verdict::Judge;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Reading {
+    Scene,
+    Study,
+    Sweep,
+    Rates,
+    Baseline,
+    /// The folder of a sweep: what it is of.
+    Manifest,
+    /// The lines that a sweep has done.
+    Journal,
+    /// No reader at all, to see that a panic is seen.
+    Panic,
+}
+
+impl Reading {
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Scene, Self::Study, Self::Sweep, Self::Rates, Self::Baseline, Self::Manifest, Self::Journal];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Study => "study",
+            Self::Sweep => "sweep",
+            Self::Rates => "rates",
+            Self::Baseline => "baseline",
+            Self::Manifest => "manifest",
+            Self::Journal => "journal",
+            Self::Panic => "panic",
+        }
+    }
+}
+
+fn studies() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies")
+}
+
+fn texts(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut paths: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    paths.sort();
+    paths.iter().map(|path| fs::read_to_string(path).expect("a file")).collect()
+}
+
+const SWEEPS: [&str; 2] = [
+    "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[set]\ntime.t_end = 1.0\ninitial.theta = \"{beam.theta_a}*(1-x)\"\n\
+     [grid]\nbeam.beta = [-0.5, 0.0, 5.0]\nbeam.theta_a = { from = 0.0, to = 20.0, count = 5 }\n\
+     obstacles.epsilon = { from = 1e-4, to = 1e-2, count = 3, scale = \"log\" }\n",
+    "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[latin]\nsamples = 100\nseed = 1\n\
+     beam.beta = { from = -0.5, to = 5.0 }\nmesh.elements = { from = 20, to = 200, scale = \"log\" }\n",
+];
+
+const TABLES: [&str; 2] = [
+    "# of another code\nh,     L2,      H1\n0.1,   1.0e-3,  2.1e-2\n0.05,  2.5e-4,  1.0e-2\n0.025, 6.2e-5,  5.2e-3\n",
+    "dt;\"error\"\n1;NaN\n0.5;inf\n0.25;1e-3\n0.125;5e-4\n0.0625;2.5e-4\n",
+];
+
+/// A sweep of two cases, whose folder is damaged.
+const SMALL: &str = "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[grid]\nbeam.beta = [0.0, 5.0]\n";
+
+const LINES: &str = "{\"case\":0,\"parameters\":{\"beam.beta\":0.0},\"status\":\"done\",\"result\":{\"steps\":1}}\n\
+                     {\"case\":1,\"parameters\":{\"beam.beta\":5.0},\"status\":\"failed\",\"reason\":\"step 3\"}\n";
+
+/// Every file, with what it is read as; kinds with few files several times.
+pub(crate) fn seeds() -> Vec<(Reading, String)> {
+    let of = |reading: Reading, texts: Vec<String>| texts.into_iter().map(move |text| (reading, text));
+    let several = |texts: &[&str]| texts.iter().cycle().take(8).map(|text| (*text).to_owned()).collect::<Vec<_>>();
+    let sweeps =
+        texts(&studies().join("cluster")).into_iter().map(|text| text.replace("../scenes", "scenes")).collect();
+    let baseline = fs::read_to_string(studies().join("baseline.json")).expect("the baseline");
+    // A part of it, for one damage in a hundred thousand lines would rarely meet a number.
+    let head: String = baseline.lines().take(12).map(|line| format!("{line}\n")).collect();
+    let small = head.trim_end().trim_end_matches(',').to_owned() + "}}}";
+    let small = if serde_json::from_str::<serde_json::Value>(&small).is_ok() { small } else { baseline.clone() };
+    of(Reading::Scene, texts(&studies().join("scenes")))
+        .chain(of(Reading::Study, texts(&studies())))
+        .chain(of(Reading::Sweep, sweeps))
+        .chain(of(Reading::Sweep, several(&SWEEPS)))
+        .chain(of(Reading::Rates, several(&TABLES)))
+        .chain(of(Reading::Baseline, vec![baseline, small.clone(), small.clone(), small]))
+        .chain(of(Reading::Manifest, vec![Bench::new().manifest(); 4]))
+        .chain(of(Reading::Journal, several(&[LINES])))
+        .collect()
+}
+
+/// A folder in which one file at a time is read.
+pub(crate) struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    /// With the scenes that studies and sweeps name.
+    pub(crate) fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scenes = folder.path().join("scenes");
+        fs::create_dir(&scenes).expect("a folder");
+        for entry in fs::read_dir(studies().join("scenes")).expect("the scenes") {
+            let path = entry.expect("a scene").path();
+            fs::copy(&path, scenes.join(path.file_name().expect("a name"))).expect("a copy");
+        }
+        // Studies name each other's solutions, too.
+        for entry in fs::read_dir(studies()).expect("the studies").map(|entry| entry.expect("a study").path()) {
+            if entry.extension().is_some_and(|extension| extension == "toml") {
+                fs::copy(&entry, folder.path().join(entry.file_name().expect("a name"))).expect("a copy");
+            }
+        }
+        fs::write(folder.path().join("small.toml"), SMALL).expect("a sweep");
+        Self { folder }
+    }
+
+    /// Where the damaged file is.
+    pub(crate) fn path(&self) -> PathBuf {
+        self.folder.path().join("damaged")
+    }
+
+    fn share(&self) -> PathBuf {
+        self.folder.path().join("share")
+    }
+
+    fn small(&self) -> Sweep {
+        Sweep::read(self.folder.path().join("small.toml")).expect("a sweep")
+    }
+
+    fn manifest(&self) -> String {
+        serde_json::to_string(&Manifest::new(&self.small(), Share::ALL)).expect("JSON")
+    }
+
+    /// Reads it as the command does; the message of a refusal.
+    pub(crate) fn read(&self, reading: Reading, bytes: &[u8]) -> Result<(), String> {
+        let path = self.path();
+        fs::write(&path, bytes).expect("a writable folder");
+        let said = |error: &dyn std::error::Error| error.to_string();
+        match reading {
+            Reading::Scene => {
+                let scene = Scene::read(&path).map_err(|error| said(&error))?;
+                let run = Simulator::new(&scene).map_err(|error| format!("{}: {error}", path.display()))?;
+                drop(run);
+            }
+            Reading::Study => {
+                study::headers(std::slice::from_ref(&path)).map_err(|error| said(&error))?;
+                drop(study::read(&path).map_err(|error| said(&error))?.cases());
+            }
+            Reading::Sweep => {
+                let sweep = Sweep::read(&path).map_err(|error| said(&error))?;
+                let _ = sweep.case(sweep.cases() - 1).hash();
+            }
+            Reading::Rates => {
+                let table = RateTable::read(&path).map_err(|error| said(&error))?;
+                drop(table.judge(&Judge::new(0.05).expect("a judge"), |_| 1.0));
+            }
+            Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),
+            Reading::Manifest => self.resumed(bytes, b"")?,
+            Reading::Journal => self.resumed(self.manifest().as_bytes(), bytes)?,
+            Reading::Panic => panic!("as it was asked to"),
+        }
+        Ok(())
+    }
+
+    /// Goes on with a sweep whose folder holds these files.
+    fn resumed(&self, manifest: &[u8], journal: &[u8]) -> Result<(), String> {
+        let _ = fs::remove_dir_all(self.share());
+        fs::create_dir(self.share()).expect("a folder");
+        fs::write(self.share().join("sweep.json"), manifest).expect("a manifest");
+        fs::write(self.share().join("journal.jsonl"), journal).expect("a journal");
+        let expected = Manifest::new(&self.small(), Share::ALL);
+        let journal = Journal::open(&self.share(), &expected, true).map_err(|error| error.to_string())?;
+        journal.finish().map(drop).map_err(|error| error.to_string())
+    }
+
+    /// Does a refusal begin with the name of a file that was read, and say something of it?
+    pub(crate) fn is_located(&self, message: &str) -> Result<(), String> {
+        let folder = self.folder.path().display().to_string();
+        let said = message
+            .strip_prefix(&folder)
+            .and_then(|rest| rest.split_once(": "))
+            .is_some_and(|(_, said)| !said.is_empty());
+        // Of a control byte the terminal would make what it likes.
+        let plain = message.chars().all(|c| c == '\n' || !c.is_control());
+        match (said, plain) {
+            (true, true) => Ok(()),
+            (false, _) => Err(format!("no place: {message:?}")),
+            (_, false) => Err(format!("control characters: {message:?}")),
+        }
+    }
+}

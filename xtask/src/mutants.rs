@@ -1,0 +1,79 @@
+//! `mutants`: the solver and the verdicts with one mistake at a time, to see whether the tests notice.
+//!
+//! `cargo-mutants` makes the mistakes and runs the tests. What it found is kept in `target/mutants/`, one line a mutant, so
+//! that a run that is killed goes on where it was, and a mutant is judged again only when its file has changed. First
+//! judge are the tests of its own package; what they miss is for the quick tier of `verify`. A survivor must be on the
+//! list of those that change nothing, each with its reason, or the command fails.
+
+mod accepted;
+mod judge;
+mod ledger;
+mod list;
+mod report;
+
+use std::num::NonZeroUsize;
+
+use thermobeam_study::atomic;
+
+use crate::exit::{Outcome, Unusable, Verdict};
+use crate::{interrupt, output, workspace};
+use accepted::Accepted;
+use judge::{JUDGES, Judged};
+use ledger::Ledger;
+
+/// Mutants judged by one call of cargo-mutants, which first checks that the tests pass without any.
+const BATCH: usize = 20;
+
+/// Judge the tests: do they notice a mistake in the solver or in the verdicts?
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Judge so many mutants, drawn at random; a larger sample holds a smaller one [default: all]
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+    /// Which sample
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    seed: u64,
+    /// Mutants at a time, each with build folder and processes of its own
+    #[arg(long, value_name = "N", default_value_t = NonZeroUsize::MIN)]
+    jobs: NonZeroUsize,
+    /// Judge those again that were missed, after a test was added
+    #[arg(long)]
+    again: bool,
+    /// Judge nothing, and write the report on what has been judged
+    #[arg(long)]
+    report: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let root = workspace::root().map_err(|error| Unusable::because(&error.to_string()))?;
+    let accepted = Accepted::read(&root)?;
+    judge::is_installed()?;
+    let all = list::mutants(&root)?;
+    let sample = list::sample(&all, arguments.seed, arguments.sample);
+    let mut ledger = Ledger::open(&root, arguments.again)?;
+    let count = sample.len();
+    interrupt::say(move || format!("the same command goes on where it was, with {count} mutants in all"));
+    for (level, judge) in JUDGES.iter().enumerate().filter(|_| !arguments.report) {
+        loop {
+            let open: Vec<_> = sample.iter().filter(|mutant| ledger.is_open(mutant, level)).collect();
+            let Some(first) = open.first() else { break };
+            let batch: Vec<_> =
+                open.iter().filter(|mutant| mutant.target == first.target).take(BATCH).copied().collect();
+            output::tell(&format!("{}: {} mutants left", judge.name, open.len()));
+            for (mutant, judged) in judge.judge(&root, &batch, arguments.jobs)? {
+                ledger.add(mutant, level, judged)?;
+            }
+        }
+    }
+    let findings: Vec<_> = sample.iter().map(|mutant| (mutant, ledger.of(mutant))).collect();
+    let page = report::page(&findings, &all, arguments.seed, &accepted);
+    atomic::write(&root.join("reports/mutants.md"), &page)?;
+    let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));
+    let bare = survivors.filter(|(mutant, _)| accepted.reason(mutant).is_none()).count();
+    let stale = accepted.stale(&all);
+    output::print(&format!("{}\nreport: reports/mutants.md\n", report::sentence(&findings, &accepted)))?;
+    stale.iter().for_each(|entry| output::complain(&format!("{}: no such mutant: {entry}", accepted::FILE)));
+    let is_open = findings.iter().any(|(_, judged)| judged.is_none());
+    Ok(if bare == 0 && stale.is_empty() && !is_open { Verdict::Pass } else { Verdict::Fail })
+}

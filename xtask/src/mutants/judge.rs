@@ -1,0 +1,110 @@
+//! The tests that judge, run by cargo-mutants.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use super::list::Mutant;
+use crate::exit::Unusable;
+
+/// Seconds after which a build and its tests are given up: a mutant that loops has been noticed.
+const TIMEOUTS: [&str; 4] = ["--build-timeout", "1800", "--timeout", "600"];
+
+/// What the tests make of a mutant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Judged {
+    /// A test failed.
+    Caught,
+    /// No test noticed.
+    Missed,
+    /// The tests did not end.
+    Timeout,
+    /// It does not compile.
+    Unviable,
+}
+
+impl Judged {
+    /// With the names of cargo-mutants' lists.
+    pub(super) const ALL: [(&str, Judged); 4] = [
+        ("caught", Judged::Caught),
+        ("missed", Judged::Missed),
+        ("timeout", Judged::Timeout),
+        ("unviable", Judged::Unviable),
+    ];
+
+    pub(super) fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, judged)| *judged == self).map_or("", |(name, _)| name)
+    }
+}
+
+/// Tests that judge.
+pub(super) struct Judge {
+    pub(super) name: &'static str,
+    /// Package and arguments of `cargo test`; `None` for those of the mutant's own package.
+    tests: Option<(&'static str, &'static [&'static str])>,
+}
+
+/// The cheapest first; each judges what those before it have missed.
+pub(super) const JUDGES: [Judge; 2] = [
+    Judge { name: "own tests", tests: None },
+    Judge { name: "quick tier", tests: Some(("xtask", &["--test", "quick_tier", "--", "--ignored"])) },
+];
+
+/// Complains where cargo-mutants is not there.
+pub(super) fn is_installed() -> Result<(), Unusable> {
+    let mut command = Command::new("cargo");
+    command.args(["mutants", "--version"]).stdin(Stdio::null());
+    let found = command.output().is_ok_and(|output| output.status.success());
+    let how = "cargo-mutants is not installed; `cargo install --locked cargo-mutants` does it";
+    if found { Ok(()) } else { Err(Unusable::because(how)) }
+}
+
+impl Judge {
+    /// Judges mutants of one package.
+    pub(super) fn judge<'m>(
+        &self,
+        root: &Path,
+        mutants: &[&'m Mutant],
+        jobs: NonZeroUsize,
+    ) -> Result<Vec<(&'m Mutant, Judged)>, Unusable> {
+        let Some(first) = mutants.first() else { return Ok(vec![]) };
+        let folder = root.join("target/mutants");
+        let (package, tests) = self.tests.unwrap_or((first.target.package, first.target.tests));
+        let mut command = Command::new("cargo");
+        command.args(["mutants", "--colors=never", "--package", first.target.package, "--test-package", package]);
+        command.args(TIMEOUTS).arg("--output").arg(&folder).arg("--jobs").arg(jobs.to_string());
+        for mutant in mutants {
+            // By file, too: fields deleted from a struct are mutants whatever the expression says.
+            command.arg("--file").arg(&mutant.file).arg("--re").arg(format!("^{}$", escaped(&mutant.name)));
+        }
+        if jobs == NonZeroUsize::MIN {
+            // The packages of others are then compiled once for all batches.
+            command.env("CARGO_TARGET_DIR", folder.join("build"));
+        }
+        let status = command.arg("--").args(tests).current_dir(root).stdout(Stdio::null()).status()?;
+        let judged = judged(&folder.join("mutants.out"), mutants);
+        // 0: all caught, 2: some missed, 3: some did not end.
+        match status.code() {
+            Some(0 | 2 | 3) if !judged.is_empty() => Ok(judged),
+            _ => Err(Unusable::because(&format!(
+                "cargo mutants ended with {status}: do the tests pass without a mutant? see target/mutants/mutants.out"
+            ))),
+        }
+    }
+}
+
+/// What the lists say of these mutants.
+fn judged<'m>(folder: &Path, mutants: &[&'m Mutant]) -> Vec<(&'m Mutant, Judged)> {
+    let read = |(name, judged)| {
+        let text = std::fs::read_to_string(folder.join(format!("{name}.txt"))).unwrap_or_default();
+        let of = |line: &str| mutants.iter().find(|mutant| mutant.name == line).map(|mutant| (*mutant, judged));
+        text.lines().filter_map(of).collect::<Vec<_>>()
+    };
+    Judged::ALL.into_iter().flat_map(read).collect()
+}
+
+/// A text as a regular expression that matches it alone.
+fn escaped(text: &str) -> String {
+    let special = |c: char| !(c.is_alphanumeric() || c == '_' || c == ' ' || c == '/');
+    text.chars().flat_map(|c| special(c).then_some('\\').into_iter().chain([c])).collect()
+}

@@ -1,0 +1,93 @@
+//! Which mutants there are, and a sample of them.
+
+use std::path::Path;
+use std::process::Command;
+
+use thermobeam_study::sweep::content_hash;
+
+use crate::exit::Unusable;
+
+/// What is mutated, and by which tests it is judged first.
+#[derive(Debug, PartialEq)]
+pub(super) struct Target {
+    /// The package.
+    pub(super) package: &'static str,
+    /// Its files; none for all.
+    files: &'static [&'static str],
+    /// Its tests, as arguments of `cargo test`.
+    pub(super) tests: &'static [&'static str],
+}
+
+/// The numerics, and what turns them into verdicts.
+const TARGETS: [Target; 2] = [
+    Target { package: "thermobeam", files: &[], tests: &["--tests"] },
+    Target {
+        package: "thermobeam-study",
+        files: &[
+            "crates/thermobeam-study/src/exact/*.rs",
+            "crates/thermobeam-study/src/fit.rs",
+            "crates/thermobeam-study/src/fit/*.rs",
+            "crates/thermobeam-study/src/verdict.rs",
+            "crates/thermobeam-study/src/verdict/*.rs",
+        ],
+        tests: &["--lib", "--test", "fit", "--test", "verdict_laws", "--test", "manufactured", "--test", "calibration"],
+    },
+];
+
+/// One mistake.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mutant {
+    /// As cargo-mutants calls it: file, line, column and what is replaced.
+    pub(super) name: String,
+    /// The file, from the workspace's folder.
+    pub(super) file: String,
+    /// What is replaced, without the place.
+    pub(super) what: String,
+    /// The line of the file, without blanks at its ends.
+    pub(super) code: String,
+    /// Hash of the file: an outcome holds for this text only.
+    pub(super) text: u64,
+    /// Of which package.
+    pub(super) target: &'static Target,
+}
+
+/// All mutants, as cargo-mutants lists them.
+pub(super) fn mutants(root: &Path) -> Result<Vec<Mutant>, Unusable> {
+    let mut mutants = vec![];
+    for target in &TARGETS {
+        let mut command = Command::new("cargo");
+        command.args(["mutants", "--list", "--colors=never", "--package", target.package]).current_dir(root);
+        for file in target.files {
+            command.args(["--file", file]);
+        }
+        let output = command.output()?;
+        if !output.status.success() {
+            return Err(Unusable::because(&format!(
+                "cargo mutants --list: {}",
+                String::from_utf8_lossy(&output.stderr)
+            )));
+        }
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        mutants.extend(text.lines().filter_map(|line| mutant(root, line, target)));
+    }
+    Ok(mutants)
+}
+
+/// A line `file:line:column: what`.
+fn mutant(root: &Path, name: &str, target: &'static Target) -> Option<Mutant> {
+    let (place, what) = name.split_once(": ")?;
+    let mut place = place.split(':');
+    let (file, line) = (place.next()?, place.next()?.parse::<usize>().ok()?);
+    let text = std::fs::read_to_string(root.join(file)).ok()?;
+    let code = text.lines().nth(line - 1)?.trim().to_owned();
+    let text = content_hash(text.as_bytes());
+    Some(Mutant { name: name.to_owned(), file: file.to_owned(), what: what.to_owned(), code, text, target })
+}
+
+/// The first `count` in an order that the seed and each mutant's own name make.
+pub(super) fn sample(all: &[Mutant], seed: u64, count: Option<usize>) -> Vec<Mutant> {
+    let mut sample = all.to_vec();
+    sample.sort_by_key(|mutant| content_hash(format!("{seed}\0{}", mutant.name).as_bytes()));
+    sample.truncate(count.unwrap_or(usize::MAX));
+    sample
+}

@@ -1,0 +1,101 @@
+//! `reports/mutants.md`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::accepted::Accepted;
+use super::judge::Judged;
+use super::list::Mutant;
+
+/// A mutant of the sample and what became of it; `None` where it is still open.
+type Finding<'m> = (&'m Mutant, Option<Judged>);
+
+/// How many came to which end.
+#[derive(Debug, Default, Clone, Copy)]
+struct Counts {
+    caught: usize,
+    timeout: usize,
+    accepted: usize,
+    missed: usize,
+    unviable: usize,
+    open: usize,
+}
+
+impl Counts {
+    fn of<'f>(findings: impl IntoIterator<Item = &'f Finding<'f>>, accepted: &Accepted) -> Self {
+        let mut counts = Self::default();
+        for (mutant, judged) in findings {
+            *match judged {
+                Some(Judged::Caught) => &mut counts.caught,
+                Some(Judged::Timeout) => &mut counts.timeout,
+                Some(Judged::Unviable) => &mut counts.unviable,
+                Some(Judged::Missed) if accepted.reason(mutant).is_some() => &mut counts.accepted,
+                Some(Judged::Missed) => &mut counts.missed,
+                None => &mut counts.open,
+            } += 1;
+        }
+        counts
+    }
+
+    /// Share of those noticed among those that could be: what does not compile is no mistake anybody could make.
+    fn rate(&self) -> String {
+        let noticed = self.caught + self.timeout;
+        match noticed + self.accepted + self.missed {
+            0 => "-".to_owned(),
+            viable => format!("{:.1} %", 100.0 * noticed as f64 / viable as f64),
+        }
+    }
+
+    fn cells(&self) -> String {
+        let Self { caught, timeout, accepted, missed, unviable, open } = self;
+        format!("{caught} | {timeout} | {accepted} | {missed} | {unviable} | {open} | {}", self.rate())
+    }
+}
+
+/// The outcome in one line.
+pub(super) fn sentence(findings: &[Finding<'_>], accepted: &Accepted) -> String {
+    let counts = Counts::of(findings, accepted);
+    let Counts { caught, timeout, accepted, missed, unviable, open } = counts;
+    format!(
+        "{} mutants: {caught} caught, {timeout} timed out, {accepted} accepted with a reason, {missed} missed, \
+         {unviable} unviable, {open} open; noticed: {}",
+        findings.len(),
+        counts.rate()
+    )
+}
+
+/// The page.
+pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted: &Accepted) -> String {
+    let mut page = "# Mutation testing\n\nWritten by `cargo xtask mutants`. One mistake at a time is planted in the \
+                    solver and in the code of fits, verdicts and exact solutions; it is caught where a test of its own \
+                    package fails, or else the quick tier of `verify`.\n\n"
+        .to_owned();
+    let sample = if findings.len() == all.len() {
+        format!("All {} mutants.", all.len())
+    } else {
+        format!("A random sample, seed {seed}: {} of {} mutants.", findings.len(), all.len())
+    };
+    let head = "caught | timed out | accepted | missed | unviable | open | noticed";
+    let _ = write!(page, "{sample}\n\n| file | {head} |\n| --- |{}\n", " ---: |".repeat(7));
+    let mut files: BTreeMap<&str, Vec<&Finding<'_>>> = BTreeMap::new();
+    findings.iter().for_each(|finding| files.entry(&finding.0.file).or_default().push(finding));
+    for (file, findings) in files {
+        let _ = writeln!(page, "| {file} | {} |", Counts::of(findings, accepted).cells());
+    }
+    let _ = writeln!(page, "| **all** | {} |", Counts::of(findings, accepted).cells());
+    page +=
+        "\nA mutant that times out has been noticed. Noticed is the share of those that compile.\n\n## Survivors\n\n";
+    let survivors: Vec<_> = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed)).collect();
+    if survivors.is_empty() {
+        page += "None.\n";
+        return page;
+    }
+    page += "| file | mutation | line | reason |\n| --- | --- | --- | --- |\n";
+    for (mutant, _) in survivors {
+        let reason = accepted.reason(mutant).unwrap_or("**none**");
+        let cell = |text: &str| text.replace('|', "\\|");
+        let (what, code) = (cell(&mutant.what), cell(&mutant.code));
+        let _ = writeln!(page, "| {} | {what} | `{code}` | {} |", mutant.file, cell(reason));
+    }
+    page
+}

@@ -1,0 +1,121 @@
+//! `verify` killed at any moment, and several at once.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use crate::workspace::{all, quick, set, verify, with_studies, workspace};
+use crate::{Folder, ended};
+
+/// Kills of a test run; `THERMOBEAM_KILLS` sets another number.
+const KILLS: u32 = 12;
+
+type Set = BTreeMap<String, Vec<u8>>;
+
+fn studies(ids: [&'static str; 3]) -> Vec<(&'static str, String)> {
+    ids.into_iter().map(|id| (id, quick(id))).collect()
+}
+
+/// The set that an undisturbed run writes, and how long that takes.
+fn undisturbed(folder: &Folder, name: &str, studies: &[(&str, String)]) -> (Set, Duration) {
+    let root = workspace(folder, name, studies);
+    let start = Instant::now();
+    // There is no baseline, so that every number is new: a fail, with reports.
+    assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
+    (set(&root.join("reports")), start.elapsed())
+}
+
+/// Did a run that was killed come as far as moving the new set to its place, which the next run completes?
+fn is_pending(root: &Path) -> bool {
+    root.join("reports/local/workshop/quick/pending/manifest.txt").is_file()
+}
+
+#[test]
+fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
+    let kills = std::env::var("THERMOBEAM_KILLS").map_or(KILLS, |kills| kills.parse().expect("a number"));
+    let folder = Folder::new();
+    let both = [studies(["a-1", "a-2", "a-3"]), studies(["b-1", "b-2", "b-3"])];
+    let (sets, times): (Vec<Set>, Vec<Duration>) =
+        ["a", "b"].iter().zip(&both).map(|(name, studies)| undisturbed(&folder, name, studies)).unzip();
+    assert_ne!(sets[0].keys().collect::<Vec<_>>(), sets[1].keys().collect::<Vec<_>>());
+    let root = workspace(&folder, "killed", &both[0]);
+    let reports = root.join("reports");
+    let mut before = None;
+    let (mut old, mut new, mut completed) = (0, 0, 0);
+    for kill in 0..kills {
+        let turn = (kill % 2) as usize;
+        with_studies(&root, &both[turn]);
+        let mut command = verify(&root, &["--quiet"]);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program starts");
+        // Spread over the run and a little beyond, in an order that does not repeat.
+        std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
+        child.kill().expect("it can be killed");
+        child.wait().expect("it ends");
+        if is_pending(&root) {
+            completed += 1;
+            // Any run completes it, even one of another scope.
+            ended(&mut verify(&root, &[both[turn][0].0]));
+            assert!(!is_pending(&root));
+            assert_eq!(set(&reports), sets[turn], "kill {kill}");
+        }
+        let found = set(&reports);
+        let is_old = before.as_ref().map_or(found.is_empty(), |before: &Set| found == *before);
+        let is_new = found == sets[turn];
+        assert!(is_old || is_new, "kill {kill}: {:?}", found.keys().collect::<Vec<_>>());
+        (old, new) = (old + u32::from(!is_new), new + u32::from(is_new));
+        before = Some(found).filter(|found| !found.is_empty()).or(before);
+    }
+    println!("{kills} kills: {old} left the old set, {new} the new one, {completed} of them completed by the next run");
+    with_studies(&root, &both[0]);
+    assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
+    assert_eq!(set(&reports), sets[0]);
+    let left: Vec<String> =
+        all(&root).into_keys().filter(|name| name.contains("workshop/") || name.contains("/.")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn what_a_killed_run_has_left_is_cleared_away_even_by_a_run_of_another_scope() {
+    let folder = Folder::new();
+    let root = workspace(&folder, "left", &studies(["a-1", "a-2", "a-3"]));
+    assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
+    let before = set(&root.join("reports"));
+    for (name, text) in [
+        ("reports/local/workshop/quick/staging/README.md", "half"),
+        ("reports/local/workshop/full/staging/figures/x.svg", "half"),
+        ("reports/local/.provenance.json.77-3", "half"),
+        ("studies/.baseline.json.77-3", "half"),
+    ] {
+        let path = root.join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, text).expect("a file");
+    }
+    assert_eq!(ended(&mut verify(&root, &["a-1"])).status, Some(1));
+    assert_eq!(set(&root.join("reports")), before);
+    let half: Vec<String> =
+        all(&root).into_iter().filter(|(_, bytes)| bytes == b"half").map(|(name, _)| name).collect();
+    assert!(half.is_empty(), "{half:?}");
+}
+
+#[test]
+fn several_at_once_leave_one_whole_set() {
+    let folder = Folder::new();
+    let both = [studies(["a-1", "a-2", "a-3"]), studies(["b-1", "b-2", "b-3"])];
+    let sets = ["a", "b"].map(|name| undisturbed(&folder, name, &both[usize::from(name == "b")]).0);
+    let root = workspace(&folder, "shared", &both[0]);
+    let mut children = vec![];
+    for round in 0..6 {
+        let arguments = if round % 3 == 2 { &["a-2"][..] } else { &[] };
+        let mut command = verify(&root, arguments);
+        children.push(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts"));
+    }
+    for child in children {
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert_eq!(set(&root.join("reports")), sets[0]);
+    with_studies(&root, &both[1]);
+    assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
+    assert_eq!(set(&root.join("reports")), sets[1]);
+}

@@ -1,0 +1,125 @@
+//! `mutants`, with a cargo-mutants that does as it is told.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+
+use crate::{Ended, Folder, ended, xtask};
+
+/// Lists three mutants; the tests catch the first, and whatever `caught` names besides. It counts its calls.
+const CARGO: &str = r#"#!/bin/sh
+[ "$2" = --version ] && exit 0
+if [ "$2" = --list ]; then
+    case "$*" in *thermobeam-study*) exit 0 ;; esac
+    echo "src/a.rs:1:9: replace one with two"
+    echo "src/a.rs:2:5: replace + with - in three"
+    echo "src/a.rs:3:7: replace * with / in four"
+    exit 0
+fi
+echo "$*" >> calls
+status=0
+while [ $# -gt 0 ]; do
+    case "$1" in
+    --output) out="$2/mutants.out"; rm -rf "$out"; mkdir -p "$out" ;;
+    --re)
+        name=$(echo "$2" | sed 's/^^//; s/\$$//; s/\\//g')
+        case "$name" in
+        *one*) echo "$name" >> "$out/caught.txt" ;;
+        *) if grep -qF "$name" caught; then echo "$name" >> "$out/caught.txt"; else
+            echo "$name" >> "$out/missed.txt"; status=2; fi ;;
+        esac ;;
+    esac
+    shift
+done
+exit $status
+"#;
+
+fn workspace(folder: &Folder) -> PathBuf {
+    let root = folder.path("w");
+    for name in ["studies", "src", "bin", ".cargo"] {
+        fs::create_dir_all(root.join(name)).expect("a folder");
+    }
+    for (name, text) in [("Cargo.toml", ""), ("caught", ""), ("src/a.rs", "fn one() {}\n  a + b;\nc * d;\n")] {
+        fs::write(root.join(name), text).expect("a file");
+    }
+    let cargo = root.join("bin/cargo");
+    fs::write(&cargo, CARGO).expect("a file");
+    fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("permissions");
+    root
+}
+
+fn mutants(root: &Path, arguments: &[&str]) -> Ended {
+    let path = format!("{}:{}", root.join("bin").display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = xtask();
+    command.arg("mutants").args(arguments).current_dir(root).env("PATH", path).env_remove("CARGO_MANIFEST_DIR");
+    ended(&mut command)
+}
+
+fn calls(root: &Path) -> usize {
+    fs::read_to_string(root.join("calls")).map_or(0, |calls| calls.lines().count())
+}
+
+#[test]
+fn a_survivor_fails_until_a_test_catches_it_or_a_reason_is_given() {
+    let folder = Folder::new();
+    let root = workspace(&folder);
+    let first = mutants(&root, &[]);
+    assert_eq!((first.status, calls(&root)), (Some(1), 2), "{}", first.stderr);
+    assert!(
+        first.stdout.contains("3 mutants: 1 caught, 0 timed out, 0 accepted with a reason, 2 missed"),
+        "{}",
+        first.stdout
+    );
+    let page = || fs::read_to_string(root.join("reports/mutants.md")).expect("a report");
+    assert!(page().contains("| src/a.rs | replace + with - in three | `a + b;` | **none** |"), "{}", page());
+
+    // What is known is not judged again, unless it was missed and a test was added.
+    assert_eq!((mutants(&root, &[]).status, calls(&root)), (Some(1), 2));
+    fs::write(root.join("caught"), "src/a.rs:2:5: replace + with - in three\n").expect("a file");
+    let again = mutants(&root, &["--again"]);
+    assert!(again.stdout.contains("2 caught") && again.stdout.contains("1 missed"), "{}", again.stdout);
+
+    let list = root.join(".cargo/mutants-accepted.toml");
+    let entry = |reason: &str| {
+        let entry = "[[accepted]]\nfile = \"src/a.rs\"\nmutant = \"replace * with / in four\"\ncode = \"c * d;\"";
+        fs::write(&list, format!("{entry}\nreason = \"{reason}\"\n")).expect("a file");
+    };
+    entry("d is 1");
+    let explained = mutants(&root, &[]);
+    assert_eq!(explained.status, Some(0), "{}{}", explained.stdout, explained.stderr);
+    assert!(page().contains("| `c * d;` | d is 1 |"), "{}", page());
+    entry(" ");
+    assert_eq!(mutants(&root, &[]).status, Some(2));
+
+    // Where the file has changed, everything is open again, and an entry about what is gone is one too many.
+    entry("d is 1");
+    fs::write(root.join("src/a.rs"), "fn one() {}\n  a + b;\nd * c;\n").expect("a file");
+    let changed = mutants(&root, &["--report"]);
+    assert_eq!(changed.status, Some(1));
+    assert!(changed.stdout.contains("3 open") && changed.stderr.contains("no such mutant"), "{}", changed.stderr);
+}
+
+#[test]
+fn a_sample_is_the_same_for_the_same_seed_and_part_of_a_larger_one() {
+    let folder = Folder::new();
+    let root = workspace(&folder);
+    assert!(mutants(&root, &["--sample", "1"]).stdout.contains("1 mutants: "));
+    let one = fs::read_to_string(root.join("target/mutants/outcomes.tsv")).expect("a ledger");
+    assert!(mutants(&root, &["--sample", "2"]).stdout.contains("2 mutants: "));
+    let two = fs::read_to_string(root.join("target/mutants/outcomes.tsv")).expect("a ledger");
+    assert!(two.starts_with(&one) && two.len() > one.len());
+}
+
+#[test]
+fn without_cargo_mutants_it_is_said_how_to_get_it() {
+    let folder = Folder::new();
+    let root = workspace(&folder);
+    fs::write(root.join("bin/cargo"), "#!/bin/sh\nexit 101\n").expect("a file");
+    let missing = mutants(&root, &[]);
+    assert_eq!((missing.status, missing.stdout.as_str()), (Some(2), ""));
+    assert!(missing.stderr.contains("cargo install --locked cargo-mutants"), "{}", missing.stderr);
+    assert!(!root.join("reports").exists() && !root.join("target").exists());
+    fs::write(root.join(".cargo/mutants-accepted.toml"), "[[accepted]]\nfile = 3\n").expect("a file");
+    let unusable = mutants(&root, &[]);
+    assert!(unusable.status == Some(2) && unusable.stderr.contains("mutants-accepted.toml"), "{}", unusable.stderr);
+}

@@ -1,0 +1,30 @@
+//! The quick tier with this build of the solver: the judge of mutants that the tests have missed.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+fn copied(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let to = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copied(&path, &to);
+        } else {
+            fs::copy(&path, to).expect("a copy");
+        }
+    }
+}
+
+#[test]
+#[ignore = "what `verify` does, without optimisation; for `cargo xtask mutants`"]
+fn the_quick_tier_passes_and_no_number_moves() {
+    let root = tempfile::tempdir().expect("a folder");
+    copied(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies"), &root.path().join("studies"));
+    fs::write(root.path().join("Cargo.toml"), "").expect("a file");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    command.args(["verify", "--quiet", "--case-limit", "120"]).current_dir(root.path());
+    let output = command.env_remove("CARGO_MANIFEST_DIR").output().expect("the program starts");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stdout));
+}

@@ -7,9 +7,6 @@ use std::process::{Command, Stdio};
 use super::list::Mutant;
 use crate::exit::Unusable;
 
-/// Seconds after which a build and its tests are given up: a mutant that loops has been noticed.
-const TIMEOUTS: [&str; 4] = ["--build-timeout", "1800", "--timeout", "600"];
-
 /// What the tests make of a mutant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Judged {
@@ -72,7 +69,7 @@ impl Judge {
         let (package, tests) = self.tests.unwrap_or((first.target.package, first.target.tests));
         let mut command = Command::new("cargo");
         command.args(["mutants", "--colors=never", "--package", first.target.package, "--test-package", package]);
-        command.args(TIMEOUTS).arg("--output").arg(&folder).arg("--jobs").arg(jobs.to_string());
+        command.arg("--output").arg(&folder).arg("--jobs").arg(jobs.to_string());
         for mutant in mutants {
             // By file, too: fields deleted from a struct are mutants whatever the expression says.
             command.arg("--file").arg(&mutant.file).arg("--re").arg(format!("^{}$", escaped(&mutant.name)));

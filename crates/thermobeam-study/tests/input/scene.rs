@@ -198,7 +198,7 @@ fn decimal_steps_divide_decimal_times_in_spite_of_rounding() {
 #[test]
 fn a_mesh_that_does_not_fit_into_memory_is_refused_with_its_size() {
     let message = refusal(&format!("[mesh]\nelements = 1_000_000_000\n{TIME}"));
-    says(&message, &["2:12: mesh.elements: found 1000000000", "about 372.5 GiB of memory", "<= 10737418 (4 GiB)"]);
+    says(&message, &["2:12: mesh.elements: found 1000000000", "about 465.7 GiB of memory", "<= 8589934 (4 GiB)"]);
     says(&refusal(&format!("[mesh]\nelements = 99999999999999999999\n{TIME}")), &["mesh.elements: found 9999"]);
 }
 

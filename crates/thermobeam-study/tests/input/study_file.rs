@@ -249,7 +249,7 @@ fn a_refinement_that_breaks_a_rule_is_named() {
         ),
         (
             "axis = \"space\"\nelements = [4, 1000000000]\nsteps = 2",
-            &["refine.elements[1]: found 1000000000", "372.5 GiB"],
+            &["refine.elements[1]: found 1000000000", "465.7 GiB"],
         ),
         (
             "axis = \"space\"\nelements = [4]\nsteps = [2]",

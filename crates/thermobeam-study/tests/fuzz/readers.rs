@@ -185,10 +185,9 @@ impl Bench {
     /// Does a refusal begin with the name of a file that was read, and say something of it?
     pub(crate) fn is_located(&self, message: &str) -> Result<(), String> {
         let folder = self.folder.path().display().to_string();
-        let said = message
-            .strip_prefix(&folder)
-            .and_then(|rest| rest.split_once(": "))
-            .is_some_and(|(_, said)| !said.is_empty());
+        // A file of the folder, or one that the input names by its whole path.
+        let is_file = |place: &str| place.starts_with(&folder) || (place.starts_with('/') && Path::new(place).exists());
+        let said = message.split_once(": ").is_some_and(|(place, said)| is_file(place) && !said.is_empty());
         // Of a control byte the terminal would make what it likes.
         let plain = message.chars().all(|c| c == '\n' || !c.is_control());
         match (said, plain) {

@@ -1,7 +1,7 @@
 //! A limit on the time that one case may take.
 //!
 //! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
-//! case, and every time loop asks its own [`Patience`] before a step. Nothing is done per node, the clock is read once in
+//! case, and every time loop asks its own `Patience` before a step. Nothing is done per node, the clock is read once in
 //! a millisecond or so, and not at all where there is no limit. What is computed is the same with a limit and without.
 
 use std::cell::Cell;

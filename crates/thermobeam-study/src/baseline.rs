@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::atomic;
+use crate::document::visible;
 use crate::runner::Finished;
 use crate::verdict::Verdict;
 
@@ -64,7 +65,7 @@ pub enum BaselineError {
         error: io::Error,
     },
     /// Not the form of a baseline.
-    #[error("{}: {error}; restore it, or remove it and run `verify --bless`", .path.display())]
+    #[error("{}: {}; restore it, or remove it and run `verify --bless`", .path.display(), visible(&.error.to_string()))]
     Malformed {
         /// The file.
         path: PathBuf,

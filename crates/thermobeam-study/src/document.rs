@@ -16,6 +16,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::limits::FILE_BYTES;
 
+pub(crate) use error::visible;
 pub use error::{Complaint, InputError, Place};
 pub(crate) use field::{Field, shorten};
 pub(crate) use section::Section;

@@ -84,7 +84,7 @@ pub enum Complaint {
 }
 
 /// A name as it can be shown: a file may name anything, and a terminal obeys control characters.
-fn visible(name: &str) -> String {
+pub(crate) fn visible(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 

@@ -22,7 +22,7 @@ use judge::{JUDGES, Judged};
 use ledger::Ledger;
 
 /// Mutants judged by one call of cargo-mutants, which first checks that the tests pass without any.
-const BATCH: usize = 20;
+const BATCH: usize = 10;
 
 /// Judge the tests: do they notice a mistake in the solver or in the verdicts?
 #[derive(Debug, clap::Args)]

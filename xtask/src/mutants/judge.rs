@@ -100,8 +100,20 @@ fn judged<'m>(folder: &Path, mutants: &[&'m Mutant]) -> Vec<(&'m Mutant, Judged)
     Judged::ALL.into_iter().flat_map(read).collect()
 }
 
-/// A text as a regular expression that matches it alone.
+/// A text as a regular expression that matches it alone. Angle brackets stand for themselves; escaped they are the edges of
+/// words.
 fn escaped(text: &str) -> String {
-    let special = |c: char| !(c.is_alphanumeric() || c == '_' || c == ' ' || c == '/');
+    let special = |c: char| !(c.is_alphanumeric() || "_ /<>".contains(c));
     text.chars().flat_map(|c| special(c).then_some('\\').into_iter().chain([c])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_escaped_but_for_its_angle_brackets() {
+        let name = "src/a.rs:3:9: replace f -> Vec<f64> with vec![]";
+        assert_eq!(escaped(name), r"src/a\.rs\:3\:9\: replace f \-> Vec<f64> with vec\!\[\]");
+    }
 }

@@ -16,3 +16,4 @@ mod robustness;
 mod steady;
 mod temperature;
 mod tolerance;
+mod work;

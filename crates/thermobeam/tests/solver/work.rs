@@ -1,0 +1,50 @@
+//! What a scene does not have is not computed: counted, because counts are exact where times are noisy.
+
+use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Level, Settings, Solver};
+
+const STEPS: usize = 50;
+
+#[test]
+fn levels_are_copied_for_observers_and_loads_filled_only_as_often_as_asked_for() {
+    let problem = paper(uniform(20), EXPERIMENTS[0]);
+    let mut level = Level::new(21);
+    for solver in Solver::ALL {
+        for loaded in [false, true] {
+            for every in [1, 5, STEPS + 1] {
+                let settings = Settings { solver, ..Settings::default() };
+                let mut simulation = simulate(&problem, Stepping { settings, loaded, ..stepping(1e-4) });
+                for step in 1..=STEPS {
+                    if let Some(load) = simulation.load_mut() {
+                        load.fill([0.0; 3]);
+                    }
+                    advance(&mut simulation, 1);
+                    if step % every == 0 {
+                        simulation.observe(&mut level);
+                    }
+                }
+                let work = simulation.work();
+                let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
+                assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
+                assert!(work.passes >= STEPS, "{work:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_free_linear_beam_is_solved_once_a_step_and_factorized_once() {
+    let mut problem = paper(uniform(20), EXPERIMENTS[0]);
+    let passes = |problem: &Problem| {
+        let mut simulation = simulate(problem, stepping(1e-3));
+        advance(&mut simulation, STEPS);
+        let work = simulation.work();
+        (work.passes, work.factorizations)
+    };
+    let nonlinear = passes(&problem);
+    problem.beam.rho = 0.0;
+    problem.obstacles = None;
+    assert_eq!(passes(&problem), (STEPS, 1));
+    assert!(nonlinear.0 > STEPS, "{nonlinear:?}");
+}

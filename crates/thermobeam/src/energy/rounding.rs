@@ -92,3 +92,25 @@ pub fn scale(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level:
     let kirchhoff = 0.5 * beam.beta.abs() * stretch + 0.25 * beam.rho * stretch * stretch;
     kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_size_of_an_energy_is_the_sum_of_the_sizes_of_its_terms() {
+        let lengths = [0.25, 0.75];
+        let line = vec![0.0, 0.25, 1.0];
+        let beam = Beam { beta: -3.0, rho: 2.0, a: 0.5, theta_a: 4.0, ..Beam::default() };
+        let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
+        let of = |level: &Level| scale(&beam, Some(&obstacles), &lengths, level);
+        // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
+        let moved = Level { u: line.clone(), ..Level::new(3) };
+        assert!((of(&moved) - (0.5 + 1.5 + 0.5 + 0.25)).abs() < 1e-15);
+        // φ = x: ½ ‖φ‖², ½ ‖φ_x‖² and the lifting's -a θ_A ∫φ, without its sign.
+        let turned = Level { phi: line.clone(), ..Level::new(3) };
+        assert!((of(&turned) - (1.0 / 6.0 + 0.5 + 1.0)).abs() < 1e-15);
+        let fast = Level { v: line.clone(), theta: line, ..Level::new(3) };
+        assert!((of(&fast) - 2.0 / 6.0).abs() < 1e-15);
+    }
+}

@@ -145,3 +145,22 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_breath_of_heat_leaves_the_buckled_states_in_mirrored_pairs() {
+    let tips = |theta_a: f64| {
+        let beam = Beam { beta: -0.99, theta_a, ..Beam::default() };
+        let mut tips: Vec<f64> = equilibria(&beam, None).unwrap().iter().map(|state| state.u_tip).collect();
+        tips.sort_by(f64::total_cmp);
+        tips
+    };
+    let cold = tips(0.0);
+    assert!(cold.len() >= 7, "{cold:?}");
+    for theta_a in [1e-12, 1e-11, 1e-10] {
+        let warm = tips(theta_a);
+        assert_eq!(warm.len(), cold.len(), "{theta_a}");
+        for (warm, cold) in warm.iter().zip(&cold) {
+            assert!((warm - cold).abs() < 1e-6, "{theta_a}: {warm} for {cold}");
+        }
+    }
+}

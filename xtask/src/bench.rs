@@ -132,7 +132,8 @@ fn threads(listed: &[workspace::Listed], tier: Tier, page: &mut Page) -> Result<
     Ok(())
 }
 
-fn markdown(table: &Table) -> String {
+/// A table as Markdown.
+pub(crate) fn markdown(table: &Table) -> String {
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let rule = format!("|{}\n", " --- |".repeat(table.head.len()));
     line(&table.head) + &rule + &table.rows.iter().map(|row| line(row)).collect::<String>()

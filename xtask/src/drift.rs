@@ -5,16 +5,17 @@
 //! program's than its tolerance.
 
 use std::collections::BTreeMap;
+use std::env;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
-use std::{env, fs};
 
 use serde::Deserialize;
 use thermobeam_study::outcome::Table;
 use thermobeam_study::study_file::Tier;
 use thermobeam_study::{atomic, provenance};
 
+use crate::bench::markdown;
 use crate::{output, screen, selection, workspace};
 
 /// Compare the guarded numbers of other builds and thread counts with this one's; writes reports/drift.md
@@ -28,8 +29,8 @@ pub(crate) struct Arguments {
 /// A way to the same numbers.
 struct Variant {
     name: &'static str,
-    /// Arguments of `cargo build`, and RUSTFLAGS; `None` is the program that runs.
-    build: Option<(&'static [&'static str], &'static str)>,
+    /// Profile of `cargo build`, its folder below the target folder, and RUSTFLAGS; `None` is the program that runs.
+    build: Option<[&'static str; 3]>,
     /// Its folder below `target`.
     folder: &'static str,
     jobs: usize,
@@ -44,21 +45,21 @@ const VARIANTS: [Variant; 5] = [
     Variant { name: "release, 7 threads", jobs: 7, ..SHIPPED },
     Variant {
         name: "release, without fused multiply-add",
-        build: Some((&["--release"], "-C target-feature=-fma")),
+        build: Some(["release", "release", "-C target-cpu=x86-64-v3 -C target-feature=-fma"]),
         folder: "drift-no-fma",
         same_bits: false,
         ..SHIPPED
     },
     Variant {
         name: "release, for any x86-64 (neither FMA nor AVX)",
-        build: Some((&["--release"], "-C target-cpu=x86-64")),
+        build: Some(["release", "release", "-C target-cpu=x86-64"]),
         folder: "drift-any",
         same_bits: false,
         ..SHIPPED
     },
     Variant {
         name: "debug",
-        build: Some((&[], "-C target-cpu=x86-64-v3")),
+        build: Some(["dev", "debug", "-C target-cpu=x86-64-v3"]),
         folder: "drift-debug",
         same_bits: false,
         ..SHIPPED
@@ -165,7 +166,7 @@ pub(crate) fn drift(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     for variant in VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")) {
         let program = match variant.build {
             None => own.clone(),
-            Some((options, flags)) => build(&root, options, flags, &root.join("target").join(variant.folder))?,
+            Some(how) => build(&root, how, &root.join("target").join(variant.folder))?,
         };
         let theirs = run(&program, variant.jobs, &files)?;
         let distance = Distance::between(&ours, &theirs);
@@ -204,16 +205,13 @@ fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: boo
 
 fn page(root: &Path, table: &Table) -> String {
     let machine = provenance::Provenance::collect(root, "cargo xtask drift".to_owned(), 1, &[]);
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     format!(
         "# Drift\n\nWritten by `cargo xtask drift` on {}, {}. Differences are relative; `median` is that of the numbers that \
-         differ.\n\n## {}\n\n{}|{}\n{}",
+         differ.\n\n## {}\n\n{}",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
         table.title,
-        line(&table.head),
-        " --- |".repeat(table.head.len()),
-        table.rows.iter().map(|row| line(row)).collect::<String>()
+        markdown(table)
     )
 }
 
@@ -232,24 +230,18 @@ fn run(program: &Path, jobs: usize, files: &[PathBuf]) -> Result<Numbers, Box<dy
 }
 
 /// Builds this program differently.
-fn build(root: &Path, options: &[&str], flags: &str, folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+fn build(root: &Path, [profile, below, flags]: [&str; 3], folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let flags =
-        if flags.contains("target-cpu") { flags.to_owned() } else { format!("-C target-cpu=x86-64-v3 {flags}") };
     let status = Command::new(cargo)
         .current_dir(root)
-        .args(["build", "--quiet", "--package", "xtask", "--target-dir"])
+        .args(["build", "--quiet", "--package", "xtask", "--profile", profile, "--target-dir"])
         .arg(folder)
-        .args(options)
         .env("RUSTFLAGS", flags)
         .status()?;
     if !status.success() {
         return Err(format!("cargo could not build {}", folder.display()).into());
     }
-    let profile = if options.contains(&"--release") { "release" } else { "debug" };
-    let program = folder.join(profile).join(format!("xtask{}", env::consts::EXE_SUFFIX));
-    fs::metadata(&program).map_err(|error| format!("{}: {error}", program.display()))?;
-    Ok(program)
+    Ok(folder.join(below).join(format!("xtask{}", env::consts::EXE_SUFFIX)))
 }
 
 #[cfg(test)]

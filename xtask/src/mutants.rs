@@ -2,7 +2,7 @@
 //!
 //! `cargo-mutants` makes the mistakes and runs the tests. What it found is kept in `target/mutants/`, one line a mutant, so
 //! that a run that is killed goes on where it was, and a mutant is judged again only when its file has changed. First
-//! judge are the tests of its own package; what they miss is for the quick tier of `verify`. A survivor must be on the
+//! judge are the tests of its own package, the slow ones last; what they miss is for the quick tier of `verify`. A survivor must be on the
 //! list of those that change nothing, each with its reason, or the command fails.
 
 mod accepted;
@@ -20,14 +20,18 @@ use crate::{interrupt, output, workspace};
 use accepted::Accepted;
 use judge::{JUDGES, Judged};
 use ledger::Ledger;
+use list::Mutant;
 
 /// Mutants judged by one call of cargo-mutants, which first checks that the tests pass without any.
-const BATCH: usize = 10;
+const BATCH: usize = 40;
 
 /// Judge the tests: do they notice a mistake in the solver or in the verdicts?
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Judge so many mutants, drawn at random; a larger sample holds a smaller one [default: all]
+    /// Judge the mutants of this package only
+    #[arg(long, value_parser = list::PACKAGES)]
+    package: Option<String>,
+    /// Judge so many mutants of each package, drawn at random; a larger sample holds a smaller one [default: all]
     #[arg(long, value_name = "N")]
     sample: Option<usize>,
     /// Which sample
@@ -50,13 +54,15 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let accepted = Accepted::read(&root)?;
     judge::is_installed()?;
     let all = list::mutants(&root)?;
-    let sample = list::sample(&all, arguments.seed, arguments.sample);
+    let chosen = |package: &&str| arguments.package.as_ref().is_none_or(|name| name == *package);
+    let of = |package| list::sample(&all, package, arguments.seed, arguments.sample);
+    let sample: Vec<_> = list::PACKAGES.into_iter().filter(chosen).flat_map(of).collect();
     let mut ledger = Ledger::open(&root, arguments.again)?;
     let count = sample.len();
     interrupt::say(move || format!("the same command goes on where it was, with {count} mutants in all"));
     for (level, judge) in JUDGES.iter().enumerate().filter(|_| !arguments.report) {
         loop {
-            let open: Vec<_> = sample.iter().filter(|mutant| ledger.is_open(mutant, level)).collect();
+            let open: Vec<&Mutant> = sample.iter().copied().filter(|mutant| ledger.is_open(mutant, level)).collect();
             let Some(first) = open.first() else { break };
             let batch: Vec<_> =
                 open.iter().filter(|mutant| mutant.target == first.target).take(BATCH).copied().collect();
@@ -66,7 +72,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
-    let findings: Vec<_> = sample.iter().map(|mutant| (mutant, ledger.of(mutant))).collect();
+    let judged = |mutant| ledger.of(mutant).is_some() || sample.contains(&mutant);
+    let findings: Vec<_> =
+        all.iter().filter(|mutant| judged(mutant)).map(|mutant| (mutant, ledger.of(mutant))).collect();
     let page = report::page(&findings, &all, arguments.seed, &accepted);
     atomic::write(&root.join("reports/mutants.md"), &page)?;
     let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::list::Mutant;
+use super::list::{Mutant, Target};
 use crate::exit::Unusable;
 
 /// What the tests make of a mutant.
@@ -37,15 +37,21 @@ impl Judged {
 /// Tests that judge.
 pub(super) struct Judge {
     pub(super) name: &'static str,
-    /// Package and arguments of `cargo test`; `None` for those of the mutant's own package.
-    tests: Option<(&'static str, &'static [&'static str])>,
+    /// Package and arguments of `cargo test` for a mutant of this target.
+    tests: fn(&Target) -> (&'static str, Vec<&'static str>),
 }
 
 /// The cheapest first; each judges what those before it have missed.
-pub(super) const JUDGES: [Judge; 2] = [
-    Judge { name: "own tests", tests: None },
-    Judge { name: "quick tier", tests: Some(("xtask", &["--test", "quick_tier", "--", "--ignored"])) },
+pub(super) const JUDGES: [Judge; 3] = [
+    Judge { name: "own tests but the slow ones", tests: quick_tests },
+    Judge { name: "own tests", tests: |target| (target.package, target.tests.to_vec()) },
+    Judge { name: "quick tier", tests: |_| ("xtask", vec!["--test", "quick_tier", "--", "--ignored"]) },
 ];
+
+fn quick_tests(target: &Target) -> (&'static str, Vec<&'static str>) {
+    let skipped = target.slow.iter().flat_map(|test| ["--skip", test]);
+    (target.package, target.tests.iter().copied().chain(["--"]).chain(skipped).collect())
+}
 
 /// Complains where cargo-mutants is not there.
 pub(super) fn is_installed() -> Result<(), Unusable> {
@@ -66,7 +72,7 @@ impl Judge {
     ) -> Result<Vec<(&'m Mutant, Judged)>, Unusable> {
         let Some(first) = mutants.first() else { return Ok(vec![]) };
         let folder = root.join("target/mutants");
-        let (package, tests) = self.tests.unwrap_or((first.target.package, first.target.tests));
+        let (package, tests) = (self.tests)(first.target);
         let mut command = Command::new("cargo");
         command.args(["mutants", "--colors=never", "--package", first.target.package, "--test-package", package]);
         command.arg("--output").arg(&folder).arg("--jobs").arg(jobs.to_string());

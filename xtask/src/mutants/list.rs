@@ -16,11 +16,22 @@ pub(super) struct Target {
     files: &'static [&'static str],
     /// Its tests, as arguments of `cargo test`.
     pub(super) tests: &'static [&'static str],
+    /// Those of them that take longer than all others together.
+    pub(super) slow: &'static [&'static str],
 }
 
 /// The numerics, and what turns them into verdicts.
 const TARGETS: [Target; 2] = [
-    Target { package: "thermobeam", files: &[], tests: &["--tests"] },
+    Target {
+        package: "thermobeam",
+        files: &[],
+        tests: &["--tests"],
+        slow: &[
+            "a_fixed_point_step_solves_the_equations_of_the_scheme",
+            "a_newton_step_solves_the_equations_of_the_scheme",
+            "no_coefficient_is_too_extreme",
+        ],
+    },
     Target {
         package: "thermobeam-study",
         files: &[
@@ -31,8 +42,12 @@ const TARGETS: [Target; 2] = [
             "crates/thermobeam-study/src/verdict/*.rs",
         ],
         tests: &["--lib", "--test", "fit", "--test", "verdict_laws", "--test", "manufactured", "--test", "calibration"],
+        slow: &[],
     },
 ];
+
+/// The packages of the targets.
+pub(super) const PACKAGES: [&str; 2] = [TARGETS[0].package, TARGETS[1].package];
 
 /// One mistake.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,9 +99,9 @@ fn mutant(root: &Path, name: &str, target: &'static Target) -> Option<Mutant> {
     Some(Mutant { name: name.to_owned(), file: file.to_owned(), what: what.to_owned(), code, text, target })
 }
 
-/// The first `count` in an order that the seed and each mutant's own name make.
-pub(super) fn sample(all: &[Mutant], seed: u64, count: Option<usize>) -> Vec<Mutant> {
-    let mut sample = all.to_vec();
+/// The first `count` of a package in an order that the seed and each mutant's own name make.
+pub(super) fn sample<'m>(all: &'m [Mutant], package: &str, seed: u64, count: Option<usize>) -> Vec<&'m Mutant> {
+    let mut sample: Vec<&Mutant> = all.iter().filter(|mutant| mutant.target.package == package).collect();
     sample.sort_by_key(|mutant| content_hash(format!("{seed}\0{}", mutant.name).as_bytes()));
     sample.truncate(count.unwrap_or(usize::MAX));
     sample

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::accepted::Accepted;
 use super::judge::Judged;
-use super::list::Mutant;
+use super::list::{Mutant, PACKAGES};
 
 /// A mutant of the sample and what became of it; `None` where it is still open.
 type Finding<'m> = (&'m Mutant, Option<Judged>);
@@ -70,11 +70,13 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted
                     solver and in the code of fits, verdicts and exact solutions; it is caught where a test of its own \
                     package fails, or else the quick tier of `verify`.\n\n"
         .to_owned();
-    let sample = if findings.len() == all.len() {
-        format!("All {} mutants.", all.len())
-    } else {
-        format!("A random sample, seed {seed}: {} of {} mutants.", findings.len(), all.len())
+    let of = |package: &str| {
+        let all = all.iter().filter(|mutant| mutant.target.package == package).count();
+        let judged = findings.iter().filter(|(mutant, _)| mutant.target.package == package).count();
+        format!("{judged} of {all} mutants of `{package}`")
     };
+    let drawn = if findings.len() == all.len() { String::new() } else { format!(", drawn at random, seed {seed}") };
+    let sample = format!("{}{drawn}.", PACKAGES.map(of).join(" and "));
     let head = "caught | timed out | accepted | missed | unviable | open | noticed";
     let _ = write!(page, "{sample}\n\n| file | {head} |\n| --- |{}\n", " ---: |".repeat(7));
     let mut files: BTreeMap<&str, Vec<&Finding<'_>>> = BTreeMap::new();

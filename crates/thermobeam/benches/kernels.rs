@@ -70,13 +70,13 @@ fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
     steps(bencher, simulation(elements, EULER_CRANK_NICOLSON, Solver::FixedPoint));
 }
 
-/// Items are the elements of all W cases.
-#[divan::bench(args = SIZES, consts = [2, 4, 8])]
-fn step_in_lanes<const W: usize>(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![thrown(elements); W];
+/// Items are the elements of all four cases.
+#[divan::bench(args = SIZES)]
+fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
+    let problems = vec![thrown(elements); 4];
     let mut ensemble =
-        Ensemble::<W>::new(problems, [DT; W], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
-    bencher.counter(ItemsCount::new(elements * W)).bench_local(|| ensemble.advance());
+        Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
+    bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.advance());
 }
 
 #[divan::bench(args = SIZES)]

@@ -74,6 +74,7 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
 /// Inverse of a symmetric block by Gauss-Jordan elimination on the diagonal, with the pivots met.
 ///
 /// Pivot k must have the sign of `signs[k]`; the first that has not is returned as an error (NaN included).
+#[inline(always)] // Unrolled for the constant signs of its caller; as a call it makes a factorisation half as slow again.
 fn invert<const B: usize>(mut block: Block<f64, B>, signs: [f64; B]) -> Result<Block<f64, B>, f64> {
     for k in 0..B {
         let pivot = block[k][k];

@@ -1,7 +1,7 @@
 //! Several simulations side by side, in lanes: for sweeps, maps and random scenes.
 //!
-//! The stepping code is that of [`Simulation`](crate::simulation::Simulation), with W numbers in place of one. A case in a
-//! lane gets the same bits as alone; a case that fails keeps its last level and does not touch the others.
+//! The stepping code is that of [`Simulation`](crate::simulation::Simulation), with four numbers in place of one. A
+//! case in a lane gets the same bits as alone; a case that fails keeps its last level and does not touch the others.
 
 use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
@@ -11,61 +11,72 @@ use crate::simulation::{Problem, Stepping, prepare};
 use crate::solve::newton::{Case, Newton};
 use crate::solve::{Level, Settings, StepReport, Work};
 
-/// W simulations by Newton's method, with as many elements each, the same scheme and the same settings; coefficients,
+/// Cases in a group of lanes. Eight were slower for each case: their sums do not fit the registers of AVX2.
+const WIDTH: usize = 4;
+
+/// Simulations by Newton's method, with as many elements each, the same scheme and the same settings; coefficients,
 /// obstacles, meshes, data and time steps may differ.
-pub struct Ensemble<const W: usize> {
+///
+/// Any number of cases; they are stepped in groups of four, and a group that is not full costs as much as a full one.
+pub struct Ensemble {
     problems: Vec<Problem>,
     lengths: Vec<Vec<f64>>,
-    dt: [f64; W],
+    dt: Vec<f64>,
     scheme: Scheme,
-    stepper: Stepper<W>,
+    groups: Vec<Group>,
     step: usize,
-    outcomes: Vec<Result<StepReport, StepFailure>>,
     /// The step in which a case failed.
-    failed: [Option<usize>; W],
+    failed: Vec<Option<usize>>,
 }
 
-enum Stepper<const W: usize> {
-    Cold(Box<Newton<Lanes<W>, 2>>),
-    Heated(Box<Newton<Lanes<W>, 3>>),
+/// Up to [`WIDTH`] cases in lanes.
+struct Group {
+    stepper: Stepper,
+    /// One for each lane, filled or not.
+    outcomes: Vec<Result<StepReport, StepFailure>>,
 }
 
-impl<const W: usize> Ensemble<W> {
+/// Chosen once for a group: with or without temperature.
+enum Stepper {
+    Cold(Box<Newton<Lanes<WIDTH>, 2>>),
+    Heated(Box<Newton<Lanes<WIDTH>, 3>>),
+}
+
+impl Ensemble {
     /// Checks every case and stands at t = 0.
     ///
-    /// * `problems`: W of them, with as many elements each.
+    /// * `problems`: one or more, with as many elements each.
     /// * `dt`: the time step of each.
     ///
     /// # Errors
     /// [`SetupError`] as for a single simulation, of the first case that has one; [`SetupError::Length`] where the
-    /// numbers of elements, or of problems, differ.
-    pub fn new(problems: Vec<Problem>, dt: [f64; W], scheme: Scheme, settings: Settings) -> Result<Self, SetupError> {
-        if problems.len() != W {
-            return Err(SetupError::Length { field: "problems", found: problems.len(), expected: W });
+    /// numbers of elements differ, where there is no problem, and where there are not as many time steps.
+    pub fn new(mut problems: Vec<Problem>, dt: &[f64], scheme: Scheme, settings: Settings) -> Result<Self, SetupError> {
+        if dt.len() != problems.len() {
+            return Err(SetupError::Length { field: "dt", found: dt.len(), expected: problems.len() });
         }
-        let mut problems = problems;
-        let (mut cases, mut initial, mut velocity) = (vec![], vec![], vec![]);
-        let nodes = problems[0].mesh.nodes().len();
-        for (problem, &dt) in problems.iter_mut().zip(&dt) {
+        let Some(first) = problems.first() else {
+            return Err(SetupError::Length { field: "problems", found: 0, expected: 1 });
+        };
+        let nodes = first.mesh.nodes().len();
+        let mut starts = vec![];
+        for (problem, &dt) in problems.iter_mut().zip(dt) {
             let level = prepare(problem, &Stepping { scheme, settings, dt, loaded: false })?;
             if level.u.len() != nodes {
                 return Err(SetupError::Length { field: "nodes", found: level.u.len(), expected: nodes });
             }
-            initial.push((0..nodes).map(|i| [level.u[i], level.phi[i], level.theta[i]]).collect::<Vec<_>>());
-            velocity.push((0..nodes).map(|i| [level.v[i], level.w[i]]).collect::<Vec<_>>());
             let lengths = problem.mesh.lengths().collect();
-            cases.push(Case { beam: problem.beam, obstacles: problem.obstacles, dt, lengths });
+            starts.push((Case { beam: problem.beam, obstacles: problem.obstacles, dt, lengths }, level));
         }
-        let lengths = cases.iter().map(|case| case.lengths.clone()).collect();
-        let heated = cases.iter().any(|case| case.beam.a != 0.0)
-            || initial.iter().flatten().any(|&[_, _, theta]: &[f64; 3]| theta != 0.0);
-        let stepper = if heated {
-            Stepper::Heated(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
-        } else {
-            Stepper::Cold(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
-        };
-        let outcomes = (0..W).map(|_| Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })).collect();
-        Ok(Self { problems, lengths, dt, scheme, stepper, step: 0, outcomes, failed: [None; W] })
+        let lengths = starts.iter().map(|(case, _)| case.lengths.clone()).collect();
+        let groups = starts.chunks(WIDTH).map(|starts| Group::new(starts, scheme, settings)).collect();
+        let failed = vec![None; problems.len()];
+        Ok(Self { problems, lengths, dt: dt.to_vec(), scheme, groups, step: 0, failed })
+    }
+
+    /// Number of cases.
+    pub fn cases(&self) -> usize {
+        self.problems.len()
     }
 
     /// Number of steps done.
@@ -75,14 +86,13 @@ impl<const W: usize> Ensemble<W> {
 
     /// Does one step of every case that has not failed; allocates nothing as long as none does.
     pub fn advance(&mut self) {
-        match &mut self.stepper {
-            Stepper::Cold(newton) => newton.advance(&mut self.outcomes),
-            Stepper::Heated(newton) => newton.advance(&mut self.outcomes),
-        }
         self.step += 1;
-        for (failed, outcome) in self.failed.iter_mut().zip(&self.outcomes) {
-            if outcome.is_err() && failed.is_none() {
-                *failed = Some(self.step);
+        for (group, failed) in self.groups.iter_mut().zip(self.failed.chunks_mut(WIDTH)) {
+            group.advance();
+            for (failed, outcome) in failed.iter_mut().zip(&group.outcomes) {
+                if outcome.is_err() && failed.is_none() {
+                    *failed = Some(self.step);
+                }
             }
         }
     }
@@ -92,7 +102,7 @@ impl<const W: usize> Ensemble<W> {
     /// # Errors
     /// [`StepError`] of the step in which the case failed.
     pub fn report(&self, k: usize) -> Result<StepReport, StepError> {
-        self.outcomes[k].clone().map_err(|failure| {
+        self.groups[k / WIDTH].outcomes[k % WIDTH].clone().map_err(|failure| {
             let step = self.failed[k].unwrap_or(self.step);
             StepError { step, t: step as f64 * self.dt[k], failure }
         })
@@ -100,10 +110,7 @@ impl<const W: usize> Ensemble<W> {
 
     /// Copies the present level of case k into `level`; its last good one if the case has failed.
     pub fn observe(&self, k: usize, level: &mut Level) {
-        match &self.stepper {
-            Stepper::Cold(newton) => newton.read(k, level),
-            Stepper::Heated(newton) => newton.read(k, level),
-        }
+        self.groups[k / WIDTH].read(k % WIDTH, level);
     }
 
     /// Energy of a level of case k.
@@ -130,8 +137,47 @@ impl<const W: usize> Ensemble<W> {
         Rounding::of(&problem.beam, problem.obstacles.as_ref(), self.dt[k], &self.lengths[k], old, new)
     }
 
-    /// Counts of the work done so far, all cases together: a pass of all lanes is one.
+    /// Counts of the work done so far, all cases together: a pass of the lanes of a group is one.
     pub fn work(&self) -> Work {
+        self.groups.iter().map(Group::work).fold(Work::default(), Work::plus)
+    }
+}
+
+impl Group {
+    /// Lanes for these cases; the last one again where a lane is left over.
+    fn new(starts: &[(Case, Level)], scheme: Scheme, settings: Settings) -> Self {
+        let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
+        let cases: Vec<Case> = lanes().map(|(case, _)| case.clone()).collect();
+        let fields = |level: &Level| (0..level.u.len()).map(|i| [level.u[i], level.phi[i], level.theta[i]]).collect();
+        let velocities = |level: &Level| (0..level.v.len()).map(|i| [level.v[i], level.w[i]]).collect();
+        let initial: Vec<Vec<[f64; 3]>> = lanes().map(|(_, level)| fields(level)).collect();
+        let velocity: Vec<Vec<[f64; 2]>> = lanes().map(|(_, level)| velocities(level)).collect();
+        let heated = cases.iter().any(|case| case.beam.a != 0.0)
+            || initial.iter().flatten().any(|&[_, _, theta]: &[f64; 3]| theta != 0.0);
+        let stepper = if heated {
+            Stepper::Heated(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
+        } else {
+            Stepper::Cold(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
+        };
+        let outcomes = vec![Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN }); WIDTH];
+        Self { stepper, outcomes }
+    }
+
+    fn advance(&mut self) {
+        match &mut self.stepper {
+            Stepper::Cold(newton) => newton.advance(&mut self.outcomes),
+            Stepper::Heated(newton) => newton.advance(&mut self.outcomes),
+        }
+    }
+
+    fn read(&self, lane: usize, level: &mut Level) {
+        match &self.stepper {
+            Stepper::Cold(newton) => newton.read(lane, level),
+            Stepper::Heated(newton) => newton.read(lane, level),
+        }
+    }
+
+    fn work(&self) -> Work {
         match &self.stepper {
             Stepper::Cold(newton) => newton.work(),
             Stepper::Heated(newton) => newton.work(),

@@ -1,7 +1,7 @@
 //! Cases in lanes get the bits that they get alone, and a case that fails does not touch the others.
 
 use thermobeam::ensemble::Ensemble;
-use thermobeam::error::StepFailure;
+use thermobeam::error::{SetupError, StepFailure};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
@@ -32,7 +32,7 @@ const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
     for scheme in SCHEMES {
         let settings = Settings::default();
-        let mut ensemble = Ensemble::new((0..4).map(problem).collect(), DT, scheme, settings).unwrap();
+        let mut ensemble = Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
         let mut alone: Vec<Simulation> = (0..4)
             .map(|k| Simulation::new(problem(k), Stepping { scheme, settings, dt: DT[k], loaded: false }).unwrap())
             .collect();
@@ -52,6 +52,42 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
 }
 
 #[test]
+fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
+    let settings = Settings::default();
+    for count in [1, 3, 5, 8] {
+        let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
+        let problems = (0..count).map(|k| problem(k % 4)).collect();
+        let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, settings).unwrap();
+        (0..50).for_each(|_| ensemble.advance());
+        assert_eq!((ensemble.cases(), ensemble.step()), (count, 50));
+        for (k, &dt) in dt.iter().enumerate() {
+            let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+            let mut alone = Simulation::new(problem(k % 4), stepping).unwrap();
+            for _ in 0..50 {
+                alone.advance().unwrap();
+            }
+            let mut lane = alone.level();
+            lane.u.fill(f64::NAN);
+            ensemble.observe(k, &mut lane);
+            assert_eq!(lane, alone.level(), "case {k} of {count}");
+        }
+    }
+}
+
+#[test]
+fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
+    let new = |problems, dt: &[f64]| Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err();
+    let short = Mesh::uniform(3).unwrap();
+    let initial = Initial::at_rest(&short, 0.0);
+    let other = Problem { mesh: short, initial, beam: Beam::default(), obstacles: None };
+    let found = |field, found, expected| Some(SetupError::Length { field, found, expected });
+    assert_eq!(new(vec![], &[]), found("problems", 0, 1));
+    assert_eq!(new(vec![problem(0)], &DT), found("dt", 4, 1));
+    assert_eq!(new(vec![problem(0), other], &[0.1, 0.1]), found("nodes", 4, 21));
+    assert!(matches!(new(vec![problem(0)], &[f64::NAN]), Some(SetupError::TimeStep { .. })));
+}
+
+#[test]
 fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
     // At dt = 10 the operator of a beam loaded beyond buckling is not definite.
     let buckled = |k: usize| {
@@ -63,7 +99,7 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
     };
     let dt = [1e-4, 1e-3, 10.0, 0.1];
     let settings = Settings::default();
-    let mut ensemble = Ensemble::new((0..4).map(buckled).collect(), dt, EULER_CRANK_NICOLSON, settings).unwrap();
+    let mut ensemble = Ensemble::new((0..4).map(buckled).collect(), &dt, EULER_CRANK_NICOLSON, settings).unwrap();
     let mut before =
         Simulation::new(buckled(2), Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt: 10.0, loaded: false })
             .unwrap();

@@ -81,6 +81,18 @@ pub struct Work {
     pub observations: usize,
 }
 
+impl Work {
+    /// This work and another.
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            passes: self.passes + other.passes,
+            factorizations: self.factorizations + other.factorizations,
+            loads: self.loads + other.loads,
+            observations: self.observations + other.observations,
+        }
+    }
+}
+
 /// The discrete solution at one time level: n + 1 nodal values of each field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {

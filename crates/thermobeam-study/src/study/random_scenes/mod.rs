@@ -160,7 +160,7 @@ impl Study for RandomScenes {
 }
 
 impl RandomScenes {
-    /// Eight scenes with `group + 1` elements each, to their ends.
+    /// Scenes with `group + 1` elements each, to their ends.
     fn run_group(&self, batch: usize, group: usize, tally: &mut Tally) -> Result<(), CaseFailure> {
         let first = batch * BATCH + group * LANES;
         let scenes: Vec<(Problem, f64)> =
@@ -168,7 +168,7 @@ impl RandomScenes {
         let dt: [f64; LANES] = std::array::from_fn(|k| scenes[k].1);
         let settings = Settings { tolerance: SOLVED, ..Settings::default() };
         let problems = scenes.iter().map(|(problem, _)| problem.clone()).collect();
-        let mut ensemble = Ensemble::<LANES>::new(problems, dt, self.scheme(batch), settings)?;
+        let mut ensemble = Ensemble::new(problems, &dt, self.scheme(batch), settings)?;
         let mut old: Vec<Level> = vec![Level::new(group + 2); LANES];
         (0..LANES).for_each(|k| ensemble.observe(k, &mut old[k]));
         let mut watches: Vec<Watch> = (0..LANES).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();

@@ -15,8 +15,6 @@ use thermobeam::solve::{Level, Settings, Solver, StepReport};
 pub(super) const ITERATIONS: usize = 150;
 /// Increment at which it has converged: large against round-off, so that the last ratio is a contraction.
 const TOLERANCE: f64 = 1e-10;
-/// Time steps side by side.
-const LANES: usize = 8;
 
 /// What is measured at each point of a row; a curve of (dt, value), without the points that have none.
 pub(super) const CONTRACTION: &str = "contraction";
@@ -97,9 +95,7 @@ pub(super) fn row(problem: &Problem, dts: &[f64], steps: usize) -> Result<Measur
         row.push(GAMMA, dt, gamma);
     }
     let mut worst = Measured::default();
-    for lanes in dts.chunks(LANES) {
-        newton(problem, lanes, steps, &mut row, &mut worst)?;
-    }
+    newton(problem, dts, steps, &mut row, &mut worst)?;
     worst.series = row.curves;
     Ok(worst)
 }
@@ -112,25 +108,23 @@ fn newton(
     row: &mut Row,
     worst: &mut Measured,
 ) -> Result<(), CaseFailure> {
-    // A last group that is not full computes its last case again.
-    let dt: [f64; LANES] = std::array::from_fn(|k| dts[k.min(dts.len() - 1)]);
     let settings = Settings { tolerance: SOLVED, ..Settings::default() };
-    let mut ensemble = Ensemble::<LANES>::new(vec![problem.clone(); LANES], dt, EULER_CRANK_NICOLSON, settings)?;
-    let mut old = vec![Level::new(problem.mesh.nodes().len()); LANES];
-    (0..LANES).for_each(|k| ensemble.observe(k, &mut old[k]));
+    let mut ensemble = Ensemble::new(vec![problem.clone(); dts.len()], dts, EULER_CRANK_NICOLSON, settings)?;
+    let mut old = vec![Level::new(problem.mesh.nodes().len()); dts.len()];
+    (0..dts.len()).for_each(|k| ensemble.observe(k, &mut old[k]));
     let mut new = old.clone();
     let mut watches: Vec<Watch> = (0..dts.len()).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
     let mut most = vec![0; dts.len()];
-    let mut patience = Patience::new(LANES * problem.mesh.elements());
+    let mut patience = Patience::new(dts.len() * problem.mesh.elements());
     for step in 1..=steps {
-        patience.check(step - 1, || (step - 1) as f64 * dt[0])?;
+        patience.check(step - 1, || (step - 1) as f64 * dts[0])?;
         ensemble.advance();
         for k in 0..dts.len() {
             let Ok(report) = ensemble.report(k) else { continue };
             most[k] = most[k].max(report.iterations);
             ensemble.observe(k, &mut new[k]);
             if step == 1 {
-                row.push("contact", dt[k], new[k].contact_force);
+                row.push("contact", dts[k], new[k].contact_force);
             }
             let (balance, scale) = (ensemble.balance(k, &old[k], &new[k]), ensemble.energy_scale(k, &new[k]));
             watches[k].step(&balance, scale, || ensemble.rounding(k, &old[k], &new[k]));

@@ -5,6 +5,7 @@ mod summary;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 use thermobeam_study::accuracy::Unreachable;
@@ -12,11 +13,13 @@ use thermobeam_study::atomic;
 use thermobeam_study::estimate::estimate;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
+use thermobeam_study::time_limit;
 
 use crate::exit::{Outcome, Unusable, Verdict};
 use crate::interrupt;
 use crate::output::{self, Format};
 use crate::progress;
+use crate::running::seconds;
 
 /// Simulate one scene
 #[derive(Debug, Args)]
@@ -38,6 +41,9 @@ pub(crate) struct Arguments {
     /// What the target error is about
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
+    /// The longest that the run may take; what was done until then is told, and the exit status is 1 [default: as long as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time_limit: Option<Duration>,
     /// Show no progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -77,7 +83,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let bar = progress::bar(&scene.name, scene.steps, arguments.quiet);
     let (told, steps) = (bar.clone(), scene.steps);
     interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
-    let run = simulator.run(recording, &mut |step| bar.set_position(step as u64));
+    let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
+    let (run, _) = time_limit::within(arguments.time_limit, simulate);
     bar.finish_and_clear();
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
     // A run that failed has nothing whose error could be estimated.

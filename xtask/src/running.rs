@@ -21,7 +21,8 @@ pub(crate) struct Limits {
     case_limit: Option<Duration>,
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+/// A limit on time, as it is given on the command line.
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
     seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("allowed is a number > 0".to_owned())
 }

@@ -13,6 +13,7 @@ use crate::exit::{Outcome, Verdict};
 use crate::interrupt;
 use crate::output;
 use crate::progress;
+use crate::running::seconds;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
@@ -28,6 +29,9 @@ pub(crate) struct Arguments {
     /// Threads; default: one for each processor
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     jobs: usize,
+    /// The longest that a case may take; its line says where it was stopped, and the others go on [default: as long as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    case_limit: Option<Duration>,
     /// Go on with what is in the folder; where there is nothing, begin
     #[arg(long, requires = "out")]
     resume: bool,
@@ -56,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
     let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.quiet);
     let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
-    let outcome = sweep::run(sweep, mine.into_iter(), arguments.jobs, |line: Line| {
+    let outcome = sweep::run(sweep, mine.into_iter(), arguments.jobs, arguments.case_limit, |line: Line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
         state.1 += usize::from(!line.passed);
         bar.inc(1);
@@ -88,7 +92,7 @@ fn to_folder(
         format!("{done} of {cases} cases are kept in {place}; --resume goes on from there")
     });
     let start = Instant::now();
-    let journal = journaled(sweep, pending, arguments.jobs, journal, &bar)?;
+    let journal = journaled(sweep, pending, arguments, journal, &bar)?;
     let took = start.elapsed();
     bar.finish_and_clear();
     let failed = journal.failed();
@@ -102,12 +106,12 @@ fn to_folder(
 fn journaled(
     sweep: &Sweep,
     pending: Vec<usize>,
-    jobs: usize,
+    arguments: &Arguments,
     journal: Journal,
     bar: &ProgressBar,
 ) -> Result<Journal, io::Error> {
     let journal = Mutex::new(journal);
-    sweep::run(sweep, pending.into_iter(), jobs, |line| {
+    sweep::run(sweep, pending.into_iter(), arguments.jobs, arguments.case_limit, |line| {
         bar.inc(1);
         journal.lock().unwrap_or_else(PoisonError::into_inner).append(&line)
     })?;

@@ -4,7 +4,7 @@
 //! that a report happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone;
 //! reading the clock twice a step costs some 50 ns of it.
 //!
-//! A step that cannot be done ends the run. What was computed up to there is kept: [`Run::failure`] says why it ended.
+//! A step that cannot be done ends the run, and so does a [limit on its time](crate::time_limit). What was computed up to there is kept: [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
@@ -31,8 +31,11 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
 
+use thiserror::Error;
+
 use crate::expression::Expression;
 use crate::scene::Scene;
+use crate::time_limit::{Patience, TimeUp};
 
 pub use figures::{energy_at_rest, figures};
 pub use object::Object;
@@ -146,9 +149,20 @@ pub struct Run {
     /// Whether the temperature was computed: it is left out where nothing heats the beam.
     pub is_heated: bool,
     /// Why the run ended early, if it did.
-    pub failure: Option<StepError>,
+    pub failure: Option<RunFailure>,
     /// History and frames, if they were asked for.
     pub record: Option<Record>,
+}
+
+/// Why a run ended before the scene's end.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunFailure {
+    /// A step that could not be done.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The limit on its time was reached.
+    #[error(transparent)]
+    Time(#[from] TimeUp),
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -214,14 +228,18 @@ impl Simulator {
         let mut tally = Tally::new(first.u_tip);
         let mut wall = Duration::ZERO;
         let mut failure = None;
+        let mut patience = Patience::of(&self.simulation);
         while self.simulation.step() < self.steps {
-            let start = Instant::now();
-            let outcome = self.simulation.advance();
-            wall += start.elapsed();
+            let outcome = patience.before_step_of(&self.simulation).map_err(RunFailure::from).and_then(|()| {
+                let start = Instant::now();
+                let outcome = self.simulation.advance();
+                wall += start.elapsed();
+                outcome.map_err(RunFailure::from)
+            });
             let report = match outcome {
                 Ok(report) => report,
-                Err(error) => {
-                    failure = Some(error);
+                Err(ended) => {
+                    failure = Some(ended);
                     break;
                 }
             };
@@ -246,7 +264,7 @@ impl Simulator {
         tally: Tally,
         wall: Duration,
         [first, last]: [Sample; 2],
-        failure: Option<StepError>,
+        failure: Option<RunFailure>,
         record: Option<Record>,
     ) -> Run {
         Run {

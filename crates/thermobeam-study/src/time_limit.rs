@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// The limit was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("stopped at the limit of {} s a case, after step {step}, t = {t}", .limit.as_secs_f64())]
+#[error("stopped at the limit of {} s, after step {step}, t = {t}", .limit.as_secs_f64())]
 pub struct TimeUp {
     /// Steps, or whatever the case counts, that were done.
     pub step: usize,
@@ -33,8 +33,9 @@ thread_local! {
     static REACHED: Cell<Option<TimeUp>> = const { Cell::new(None) };
 }
 
-/// Runs a case, with a limit or without, and says whether it was stopped at it, whatever it has made of that.
-pub(crate) fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
+/// Runs a case, which is anything that one thread computes, with a limit or without, and says whether it was stopped at
+/// it, whatever it has made of that.
+pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
     let now = Instant::now();
     // A limit beyond what the clock can count to is none.
     let deadline = limit.and_then(|limit| Some(Deadline { at: now.checked_add(limit)?, limit }));
@@ -133,7 +134,7 @@ mod tests {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
         assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit }));
-        assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s a case, after step "));
+        assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s, after step "));
         assert_eq!(rounds(None, 1000, Duration::ZERO), (1000, None));
     }
 

@@ -1,9 +1,12 @@
 //! Laws of running a scene.
 
+use std::time::Duration;
+
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{MOST_ROWS, Recording, Run, Simulator, figures};
+use thermobeam_study::simulate::{MOST_ROWS, Object, Recording, Run, RunFailure, Simulator, figures};
+use thermobeam_study::time_limit::within;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {
@@ -80,6 +83,7 @@ fn what_could_be_done_before_a_failure_is_kept() {
     let scene = thrown("1e-2", "solver = \"fixed-point\"");
     let run = run(&scene, Recording::History);
     let failure = run.failure.as_ref().expect("the contact force lags too far behind");
+    let RunFailure::Step(failure) = failure else { panic!("{failure}") };
     assert!(matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0), "{failure}");
     assert!(run.steps > 0 && run.steps + 1 == failure.step);
     assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
@@ -88,6 +92,26 @@ fn what_could_be_done_before_a_failure_is_kept() {
     assert_eq!(record.rows.last().unwrap().sample, run.last);
     assert_eq!(record.csv().lines().count(), run.steps + 2);
     assert_eq!(figures(&scene, &run).len(), 5);
+}
+
+#[test]
+fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
+    let scene = thrown("1e-4", "");
+    let limit = Duration::from_millis(1);
+    let (stopped, up) = within(Some(limit), || {
+        let simulator = Simulator::new(&scene).unwrap();
+        // Each step hears that it is done, and this one dawdles.
+        simulator.run(Recording::Summary, &mut |_| std::thread::sleep(limit))
+    });
+    let Some(RunFailure::Time(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
+    assert_eq!(Some(told), up);
+    assert_eq!((told.step, told.t, told.limit), (stopped.steps, stopped.last.t, limit));
+    assert!(0 < stopped.steps && stopped.steps < scene.steps);
+    let json = serde_json::to_value(Object::new(&scene, &stopped)).unwrap();
+    assert_eq!(json["failure"]["kind"], "time-limit");
+    assert_eq!(json["failure"]["limit_seconds"], 1e-3);
+    let (whole, up) = within(Some(Duration::from_secs(600)), || run(&scene, Recording::Summary));
+    assert_eq!((whole.steps, whole.failure, up), (scene.steps, None, None));
 }
 
 #[test]

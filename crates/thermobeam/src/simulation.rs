@@ -169,6 +169,11 @@ impl Simulation {
         Balance::of(&self.problem.beam, obstacles, &self.stepping.scheme, self.stepping.dt, &self.lengths, old, new)
     }
 
+    /// The change of the energy alone, from one level to another: [`Balance::change`] at half the cost.
+    pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
+        Balance::change_of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, old, new)
+    }
+
     /// The size of a level's energy, without signs: what a residual of the balance is to be compared with.
     pub fn energy_scale(&self, level: &Level) -> f64 {
         energy::scale(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)

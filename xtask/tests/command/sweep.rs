@@ -91,6 +91,22 @@ fn a_step_that_fails_is_a_line_too() {
 }
 
 #[test]
+fn a_case_that_takes_too_long_is_stopped_and_the_others_go_on() {
+    let folder = Folder::new();
+    // The first of them would take hours.
+    let file = sweep(&folder, "[grid]\ntime.dt = [1e-8, 1e-2]\ntime.t_end = [10.0]\n");
+    let ended = ended(xtask().arg("sweep").arg(&file).args(["--case-limit", "0.2"]));
+    let lines = lines(&ended.stdout);
+    assert_eq!((ended.status, lines.len()), (Some(1), 2), "{}", ended.stderr);
+    assert_eq!((&lines[0]["status"], &lines[1]["status"]), (&"failed".into(), &"done".into()));
+    let reason = lines[0]["reason"].as_str().unwrap();
+    assert!(reason.starts_with("stopped at the limit of 0.2 s, after step "), "{reason}");
+    let failure = &lines[0]["result"]["failure"];
+    assert_eq!((&failure["kind"], &failure["limit_seconds"]), (&"time-limit".into(), &0.2.into()));
+    assert!(failure["step"].as_u64() > Some(0) && lines[0]["result"]["steps"] == failure["step"]);
+}
+
+#[test]
 fn a_heated_end_takes_its_temperature_along() {
     let folder = Folder::new();
     let set = "[set]\ninitial.theta = \"{beam.theta_a}*(1-x)\"\n";

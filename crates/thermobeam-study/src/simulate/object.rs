@@ -1,10 +1,10 @@
 //! A run as a JSON object. The order of the keys is the order of the fields; names are a contract, more may be added.
 
 use serde::Serialize;
-use thermobeam::error::{StepError, StepFailure};
+use thermobeam::error::StepFailure;
 
-use super::Run;
 use super::budget::{self, ErrorBudget};
+use super::{Run, RunFailure};
 use crate::estimate::Budget;
 use crate::scene::Scene;
 
@@ -91,6 +91,7 @@ enum Numbers {
     Iteration { iterations: usize, increment: f64, contraction: f64 },
     NonFinite { iterations: usize, increment: f64 },
     Indefinite { node: usize, pivot: f64, n_value: f64 },
+    Limit { limit_seconds: f64 },
 }
 
 impl<'a> Object<'a> {
@@ -142,7 +143,14 @@ impl<'a> Object<'a> {
     }
 }
 
-fn failure(error: &StepError) -> Failure {
+fn failure(ended: &RunFailure) -> Failure {
+    let error = match ended {
+        RunFailure::Step(error) => error,
+        RunFailure::Time(up) => {
+            let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
+            return Failure { kind: "time-limit", step: up.step, t: up.t, message: up.to_string(), numbers };
+        }
+    };
     let (kind, numbers) = match error.failure {
         StepFailure::Diverged { iterations, increment, contraction } => {
             ("diverged", Numbers::Iteration { iterations, increment, contraction })

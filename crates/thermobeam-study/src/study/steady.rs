@@ -72,8 +72,7 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, Case
         patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut level);
-        // NaN is not slow.
-        if !level.v.iter().chain(&level.w).all(|rate| rate.abs() <= speed) {
+        if !level.is_slow(speed) {
             moved = simulation.t();
         } else if simulation.t() - moved >= QUIET {
             return Ok(Rest { level, t: simulation.t() });

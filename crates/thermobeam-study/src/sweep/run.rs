@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
+use std::time::Duration;
 
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
@@ -10,6 +11,7 @@ use serde::Serialize;
 
 use super::{Case, Sweep};
 use crate::simulate::{Object, Recording, Simulator};
+use crate::time_limit;
 
 /// The result of one case: a line of JSON without its newline.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,12 +38,16 @@ struct Record<'a> {
 
 impl Line {
     /// Computes a case. Whatever becomes of it, there is a line.
-    pub fn compute(sweep: &Sweep, index: usize) -> Self {
+    ///
+    /// * `limit`: the longest that it may take; the line then says where it was stopped.
+    pub fn compute(sweep: &Sweep, index: usize, limit: Option<Duration>) -> Self {
         // A panic is a mistake of the program's, yet no reason to lose the other cases.
-        panic::catch_unwind(AssertUnwindSafe(|| simulate(sweep, index))).unwrap_or_else(|_| {
-            let case = sweep.case(index);
-            Self::failed(&case, "the program panicked".to_owned())
-        })
+        panic::catch_unwind(AssertUnwindSafe(|| time_limit::within(limit, || simulate(sweep, index)).0)).unwrap_or_else(
+            |_| {
+                let case = sweep.case(index);
+                Self::failed(&case, "the program panicked".to_owned())
+            },
+        )
     }
 
     fn failed(case: &Case<'_>, reason: String) -> Self {
@@ -75,7 +81,7 @@ fn simulate(sweep: &Sweep, index: usize) -> Line {
     Line::of(&Record { case: index, status, parameters: &case, reason, result })
 }
 
-/// Computes the cases on `jobs` threads (0: all there are) and hands each line to `sink` as soon as it is there.
+/// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to `sink` as soon as it is there.
 ///
 /// Cases are begun in the order given, so that lines come nearly in that order; `sink` is called from every thread.
 ///
@@ -85,10 +91,11 @@ pub fn run(
     sweep: &Sweep,
     cases: impl Iterator<Item = usize> + Send,
     jobs: usize,
+    limit: Option<Duration>,
     sink: impl Fn(Line) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
-    pool.install(|| cases.par_bridge().try_for_each(|index| sink(Line::compute(sweep, index))))
+    pool.install(|| cases.par_bridge().try_for_each(|index| sink(Line::compute(sweep, index, limit))))
 }
 
 /// Puts lines back into the order of their cases, holding those back that came early.

@@ -28,15 +28,17 @@ pub(super) struct Sums<T> {
 
 impl Sums<f64> {
     /// Over all elements; `weight` is that of the new velocity in the one that carries the step.
-    pub(super) fn over(lengths: &[f64], weight: f64, old: &Level, new: &Level) -> Self {
+    ///
+    /// Without `LOSSES` the last three sums stay zero, for who asks for the change of the energy alone.
+    pub(super) fn over<const LOSSES: bool>(lengths: &[f64], weight: f64, old: &Level, new: &Level) -> Self {
         let whole = lengths.len() / WIDTH * WIDTH;
         let mut lanes = Sums::<Lanes<WIDTH>>::zero();
         for first in (0..whole).step_by(WIDTH) {
-            lanes.add(lengths, weight, first, old, new);
+            lanes.add::<LOSSES>(lengths, weight, first, old, new);
         }
         let mut sums = lanes.added_up();
         for element in whole..lengths.len() {
-            sums.add(lengths, weight, element, old, new);
+            sums.add::<LOSSES>(lengths, weight, element, old, new);
         }
         sums
     }
@@ -69,7 +71,7 @@ impl<T: Lane> Sums<T> {
 
     /// Adds the elements `first..first + T::WIDTH`.
     #[inline(always)]
-    fn add(&mut self, lengths: &[f64], weight: f64, first: usize, old: &Level, new: &Level) {
+    fn add<const LOSSES: bool>(&mut self, lengths: &[f64], weight: f64, first: usize, old: &Level, new: &Level) {
         let h = T::load(&lengths[first..]);
         let inverse = T::from_fn(|k| 1.0 / h.lane(k));
         let (half, two, sixth) = (T::splat(0.5), T::splat(2.0), h * T::splat(1.0 / 6.0));
@@ -92,6 +94,9 @@ impl<T: Lane> Sums<T> {
         self.slope_squared[0] = self.slope_squared[0] + h * square(slope(u) - half_step);
         self.slope_squared[1] = self.slope_squared[1] + h * square(slope(u) + half_step);
         self.rotation_change = self.rotation_change + half * h * (dphi[0] + dphi[1]);
+        if !LOSSES {
+            return;
+        }
         // weight y + (1 - weight) y0, from the mean on.
         let beyond = T::splat(weight - 0.5);
         let carrying = |mean: [T; 2], jump: [T; 2]| [mean[0] + beyond * jump[0], mean[1] + beyond * jump[1]];

@@ -117,6 +117,11 @@ impl Level {
         Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
     }
 
+    /// Is no node faster than `speed`, in u or φ? A velocity that is NaN is not slow.
+    pub fn is_slow(&self, speed: f64) -> bool {
+        self.v.iter().chain(&self.w).all(|rate| rate.abs() <= speed)
+    }
+
     /// Takes over the values of a level with as many nodes.
     ///
     /// The derived `clone_from` would allocate five new vectors, in every step that is observed.

@@ -62,9 +62,22 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
                 simulation.advance().unwrap();
                 let new = simulation.level();
                 let (before, after) = (simulation.energy(&old).total(), simulation.energy(&new).total());
-                let difference = simulation.balance(&old, &new).change - (after - before);
+                let change = simulation.balance(&old, &new).change;
+                assert_eq!(simulation.energy_change(&old, &new), change);
+                let difference = change - (after - before);
                 assert!(difference.abs() <= 1e-12 * before.abs().max(1.0), "{difference:e}");
             }
         }
     }
+}
+
+#[test]
+fn a_level_is_slow_where_no_node_is_faster_and_none_has_lost_its_number() {
+    let mut level = Level::new(3);
+    (level.v[1], level.w[2]) = (-1e-3, 1e-3);
+    assert!(level.is_slow(1e-3) && !level.is_slow(0.99e-3));
+    level.v[1] = 0.0;
+    assert!(!level.is_slow(0.99e-3));
+    level.w[2] = f64::NAN;
+    assert!(!level.is_slow(1.0));
 }

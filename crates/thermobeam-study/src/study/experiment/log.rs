@@ -1,6 +1,5 @@
 //! One experiment, run until it is steady, and what is read off on the way.
 
-use thermobeam::energy::Balance;
 use thermobeam::mesh::Mesh;
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
@@ -32,10 +31,10 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
         patience.before_step_of(&simulation)?;
         simulation.advance()?;
         simulation.observe(&mut new);
-        let balance = simulation.balance(&old, &new);
-        log.add(&simulation, &balance, [&old, &new]);
         // Summed up from differences: the total's round-off would hide a slow fall.
-        fall -= balance.change;
+        let change = simulation.energy_change(&old, &new);
+        log.add(&simulation, change, [&old, &new]);
+        fall -= change;
         if simulation.step() % window == 0 {
             if fall <= until.rate * until.window {
                 return finish(scene, &simulation, &new, log);
@@ -111,8 +110,8 @@ impl<'a> Log<'a> {
         }
     }
 
-    fn add(&mut self, simulation: &Simulation, balance: &Balance, [old, new]: [&Level; 2]) {
-        self.largest_increase = keep_larger(self.largest_increase, balance.change);
+    fn add(&mut self, simulation: &Simulation, change: f64, [old, new]: [&Level; 2]) {
+        self.largest_increase = keep_larger(self.largest_increase, change);
         let (t, step) = (simulation.t(), simulation.step());
         // Half a step of slack: n dt is not t_end to the last bit.
         if t <= self.scene.t_end + 0.5 * self.scene.dt {

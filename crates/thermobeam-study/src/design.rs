@@ -11,9 +11,9 @@
 
 use crate::exact::Factors;
 use crate::exact::errors::ErrorMeter;
-use crate::exact::sources::{BoundaryLoads, Sources, nodal};
+use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::study::CaseFailure;
-use crate::study_file::{Axis, ConvergenceSpec, Manufactured, Product};
+use crate::study_file::{Axis, ConvergenceSpec};
 use crate::time_limit::Patience;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -73,6 +73,7 @@ pub struct Disagreement {
 pub struct Prepared<'a> {
     spec: &'a ConvergenceSpec,
     mesh: Mesh,
+    nodal: Nodal,
     sources: Sources,
     meter: ErrorMeter,
 }
@@ -91,7 +92,8 @@ impl<'a> Prepared<'a> {
             Sources::strong(&spec.exact, &spec.beam, &mesh)
         };
         let meter = ErrorMeter::new(&spec.exact, &mesh, time_isolated);
-        Ok(Self { spec, mesh, sources, meter })
+        let nodal = Nodal::of(&spec.exact, &mesh);
+        Ok(Self { spec, mesh, nodal, sources, meter })
     }
 
     /// Runs so many steps and returns the errors in the order of [`crate::study_file::Norm::ALL`], each the maximum over
@@ -133,11 +135,11 @@ struct DesignCase<'a> {
 
 impl<'a> DesignCase<'a> {
     fn new(prepared: &'a mut Prepared<'_>, steps: usize, disagreement: Disagreement) -> Result<Self, CaseFailure> {
-        let Prepared { spec, mesh, sources, meter } = prepared;
+        let Prepared { spec, mesh, nodal, sources, meter } = prepared;
         let Disagreement { beam, obstacles, defect } = disagreement;
         let mut old = Factors::default();
         old.at(&spec.exact, 0.0);
-        let initial = initial(&spec.exact, &spec.beam, mesh, &old, beam.theta_a);
+        let initial = initial(nodal, &spec.beam, mesh, &old, beam.theta_a);
         let dt = spec.refine.dt(steps);
         let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
         let level = Level::new(mesh.nodes().len());
@@ -205,18 +207,19 @@ impl<'a> DesignCase<'a> {
 
 /// Nodal values of the exact solution at t = 0, by (3.6); the temperature is made to meet the solver's own θ_A.
 ///
+/// * `nodal`: the products of the exact solution on this mesh, `factors`: their factors at t = 0.
 /// * `theory`: the coefficients that the exact solution belongs to; `theta_a`: the solver's own.
-pub(crate) fn initial(exact: &Manufactured, theory: &Beam, mesh: &Mesh, factors: &Factors, theta_a: f64) -> Initial {
-    let sum = |products: &[Product], factors: &[f64]| {
+pub(crate) fn initial(nodal: &Nodal, theory: &Beam, mesh: &Mesh, factors: &Factors, theta_a: f64) -> Initial {
+    let sum = |products: &[Vec<f64>], factors: &[f64]| {
         let mut values = vec![0.0; mesh.nodes().len()];
         for (product, factor) in products.iter().zip(factors) {
-            for (value, x) in values.iter_mut().zip(nodal(product, mesh)) {
+            for (value, x) in values.iter_mut().zip(product) {
                 *value += factor * x;
             }
         }
         values
     };
-    let mut theta = sum(&exact.theta, &factors.theta.value);
+    let mut theta = sum(&nodal.theta, &factors.theta.value);
     for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
         *theta += (theta_a - theory.theta_a) * (1.0 - x);
     }
@@ -224,10 +227,10 @@ pub(crate) fn initial(exact: &Manufactured, theory: &Beam, mesh: &Mesh, factors:
     // Checked up to round-off when the study was read.
     (theta[0], theta[last]) = (theta_a, 0.0);
     Initial {
-        u: sum(&exact.u, &factors.u.value),
-        u_t: sum(&exact.u, &factors.u.rate),
-        phi: sum(&exact.phi, &factors.phi.value),
-        phi_t: sum(&exact.phi, &factors.phi.rate),
+        u: sum(&nodal.u, &factors.u.value),
+        u_t: sum(&nodal.u, &factors.u.rate),
+        phi: sum(&nodal.phi, &factors.phi.value),
+        phi_t: sum(&nodal.phi, &factors.phi.rate),
         theta,
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::design;
 use crate::exact::Factors;
-use crate::exact::sources::{BoundaryLoads, Sources};
+use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::scene::Scene;
 use crate::simulate;
 use crate::study::CaseFailure;
@@ -124,7 +124,8 @@ impl Family {
             Start::Exact(exact) => {
                 let mut factors = Factors::default();
                 factors.at(exact, 0.0);
-                let initial = design::initial(exact, &self.beam, &mesh, &factors, self.beam.theta_a);
+                let nodal = Nodal::of(exact, &mesh);
+                let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.beam.theta_a);
                 (initial, self.loaded.then(|| Sources::strong(exact, &self.beam, &mesh)))
             }
         };

@@ -153,6 +153,21 @@ pub(crate) fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
     values
 }
 
+/// The products of a manufactured solution at the nodes of a mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Nodal {
+    pub(crate) u: Vec<Vec<f64>>,
+    pub(crate) phi: Vec<Vec<f64>>,
+    pub(crate) theta: Vec<Vec<f64>>,
+}
+
+impl Nodal {
+    pub(crate) fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
+        let of = |products: &[Product]| products.iter().map(|product| nodal(product, mesh)).collect();
+        Self { u: of(&exact.u), phi: of(&exact.phi), theta: of(&exact.theta) }
+    }
+}
+
 impl Sources {
     /// From the strong form.
     pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {

@@ -113,4 +113,42 @@ mod tests {
         let fast = Level { v: line.clone(), theta: line, ..Level::new(3) };
         assert!((of(&fast) - 2.0 / 6.0).abs() < 1e-15);
     }
+
+    #[test]
+    fn the_bound_of_a_step_is_the_sum_of_its_terms() {
+        let (h, dt) = (0.5, 0.1);
+        let beam = Beam { beta: -3.0, rho: 2.0, zeta: 0.25, a: 0.5, ..Beam::default() };
+        let still = Level::new(2);
+        let terms = |level: &Level| {
+            let [there, back] = [(&still, level), (level, &still)];
+            let of = |(old, new)| Rounding::of(&beam, None, dt, &[h], old, new).residual / (32.0 * f64::EPSILON);
+            assert_eq!(of(there), of(back));
+            of(there)
+        };
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+        let end = |value: f64| vec![0.0, value];
+        // 1 + |β| + ρ ‖u_x‖² = 20.
+        let moved = Level { u: end(2.0), ..still.clone() };
+        near(terms(&moved), 20.0 * 2.0 * 2.0 / h);
+        near(terms(&Level { v: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
+        near(terms(&Level { w: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
+        let turned = Level { phi: end(-3.0), ..still.clone() };
+        near(terms(&turned), 4.0 * 3.0 * 3.0 / h);
+        let warm = Level { theta: vec![4.0, 0.0], ..turned };
+        near(terms(&warm), (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0);
+
+        let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
+        let touching = Level { v: end(5.0), ..moved };
+        let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);
+        let expected = 2.0 * (3.0 * delta + delta * delta / 0.5);
+        for (old, new) in [(&still, &touching), (&touching, &still)] {
+            let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], old, new);
+            assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
+            assert_eq!(rounding.total(), rounding.residual + rounding.contact);
+        }
+        // The force of the step counts where it is larger than those of the law: 7 against 3.
+        let pressed = Level { contact_force: -7.0, ..touching };
+        let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &still, &pressed);
+        assert!((rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14);
+    }
 }

@@ -99,3 +99,27 @@ fn solve(a: [Vector; 3], b: Vector) -> Option<Vector> {
     let component = |i: usize| (0..3).map(|j| inverse_rows[j][i] * b[j]).sum::<f64>() / determinant;
     Some([component(0), component(1), component(2)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_size_of_a_step_is_relative_to_s_and_to_the_larger_of_the_other_two() {
+        assert!((relative_size([0.1, 0.3, -0.4], [-2.0, 1.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
+        assert!((relative_size([0.1, -0.5, 0.4], [2.0, 10.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
+        // A state without bending, as the straight beam is, that stays so.
+        assert_eq!(relative_size([0.5, 0.0, 0.0], [2.0, 0.0, 0.0]), 0.25);
+    }
+
+    #[test]
+    fn a_system_of_three_is_solved_and_a_singular_one_is_not() {
+        let a = [[2.0, -1.0, 0.5], [0.0, 3.0, 1.0], [4.0, 1.0, -2.0]];
+        let x = [1.0, -2.0, 4.0];
+        let b = a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());
+        let found = solve(a, b).unwrap();
+        assert!(found.iter().zip(x).all(|(found, x)| (found - x).abs() < 1e-14), "{found:?}");
+        assert_eq!(solve([a[0], a[0], a[2]], b), None);
+        assert_eq!(solve([[f64::NAN; 3], a[1], a[2]], b), None);
+    }
+}

@@ -134,9 +134,9 @@ impl Law {
     }
 }
 
-/// The runs that no other run beats in both error and cost, from cheap to dear.
-pub fn front(points: &[GridPoint], cost: impl Fn(&GridPoint) -> f64) -> Vec<(f64, f64)> {
-    let mut sorted: Vec<(f64, f64)> = points.iter().map(|p| (cost(p), p.error)).collect();
+/// Of runs as (cost, error) those that no other run beats in both, from cheap to dear.
+pub fn front(runs: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut sorted: Vec<(f64, f64)> = runs.into_iter().collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut front: Vec<(f64, f64)> = vec![];
     for (cost, error) in sorted {
@@ -191,6 +191,6 @@ mod tests {
     fn the_front_leaves_out_what_is_beaten() {
         let point = |node_steps, error| GridPoint { elements: 1, steps: 1, error, node_steps, node_solves: 0.0 };
         let points = [point(4.0, 0.1), point(1.0, 0.5), point(2.0, 0.7), point(3.0, f64::NAN)];
-        assert_eq!(front(&points, |p| p.node_steps), vec![(1.0, 0.5), (4.0, 0.1)]);
+        assert_eq!(front(points.iter().map(|p| (p.node_steps, p.error))), vec![(1.0, 0.5), (4.0, 0.1)]);
     }
 }

@@ -209,7 +209,7 @@ fn figure(study: &WorkPrecision, quantity: Quantity, rows: &[Row]) -> Figure {
     let series = of_quantity
         .map(|row| plots::Series {
             label: row.method.name.to_owned(),
-            points: front(&row.points, |point| point.node_solves),
+            points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
         })
         .collect();
     let svg = plots::work_precision(&plots::WorkPrecision {

@@ -1,6 +1,6 @@
 //! Error over seconds, for benchmarks: measured on this machine and only where runs were done, nothing extrapolated.
 
-use super::law::{GridPoint, front};
+use super::law::front;
 use super::method::Measurement;
 use super::{CaseFailure, WorkPrecision};
 use crate::outcome::Table;
@@ -96,15 +96,9 @@ impl WorkPrecision {
     /// Error over seconds: for each method the runs that no other run of it beats.
     pub fn seconds_figure(&self, quantity: Quantity, timed: &[Timed]) -> String {
         let series = methods(timed).into_iter().map(|method| {
-            let point = |run: &Timed| GridPoint {
-                elements: run.elements,
-                steps: run.steps,
-                error: run.error(quantity),
-                node_steps: run.measurement.spent.node_steps,
-                node_solves: run.seconds(),
-            };
-            let points: Vec<GridPoint> = timed.iter().filter(|run| run.method == method).map(point).collect();
-            plots::Series { label: method.to_owned(), points: front(&points, |point| point.node_solves) }
+            let own = timed.iter().filter(|run| run.method == method);
+            let points = front(own.map(|run| (run.seconds(), run.error(quantity))));
+            plots::Series { label: method.to_owned(), points }
         });
         plots::work_precision(&plots::WorkPrecision {
             title: None,

@@ -13,7 +13,7 @@ use thermobeam_study::study::Study;
 use thermobeam_study::study::work_precision::{WORK_PRECISION, WorkPrecision};
 use thermobeam_study::study_file::Tier;
 use thermobeam_study::yardstick::Quantity;
-use thermobeam_study::{atomic, pace, runner, study};
+use thermobeam_study::{atomic, pace, report, runner, study};
 
 use crate::{output, screen, selection, workspace};
 
@@ -65,7 +65,7 @@ impl Page {
     /// Adds a table, and shows it.
     fn add(&mut self, table: &Table) -> std::io::Result<()> {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
-        self.text += &format!("## {}\n\n{}\n", table.title, markdown(table));
+        self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(table));
         output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))
     }
 
@@ -130,11 +130,4 @@ fn threads(listed: &[workspace::Listed], tier: Tier, page: &mut Page) -> Result<
     let rows = costs.iter().take(COSTLIEST).map(row).collect();
     page.add(&table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
     Ok(())
-}
-
-/// A table as Markdown.
-pub(crate) fn markdown(table: &Table) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let rule = format!("|{}\n", " --- |".repeat(table.head.len()));
-    line(&table.head) + &rule + &table.rows.iter().map(|row| line(row)).collect::<String>()
 }

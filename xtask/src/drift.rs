@@ -13,9 +13,8 @@ use std::process::{Command, ExitCode};
 use serde::Deserialize;
 use thermobeam_study::outcome::Table;
 use thermobeam_study::study_file::Tier;
-use thermobeam_study::{atomic, provenance};
+use thermobeam_study::{atomic, provenance, report};
 
-use crate::bench::markdown;
 use crate::{output, screen, selection, workspace};
 
 /// Compare the guarded numbers of other builds and thread counts with this one's; writes reports/drift.md
@@ -211,7 +210,7 @@ fn page(root: &Path, table: &Table) -> String {
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
         table.title,
-        markdown(table)
+        report::markdown(table)
     )
 }
 

@@ -20,6 +20,7 @@ use crate::shelf::ReportSet;
 use crate::verdict::Verdict;
 use markdown::{cell, text};
 
+pub use section::markdown;
 pub use tables::tables;
 pub use words::{can_be_blessed, key_numbers, sentence};
 

@@ -1,14 +1,18 @@
 //! Exact norms of P1 functions from their nodal values.
 
-/// `∫ p q` over an element of length h, for p and q linear with the given values at its ends.
-#[inline]
-pub fn element_product(h: f64, p: [f64; 2], q: [f64; 2]) -> f64 {
-    h / 6.0 * (p[0] * (2.0 * q[0] + q[1]) + p[1] * (q[0] + 2.0 * q[1]))
+use crate::lanes::Lane;
+
+/// `∫ p q` over an element, or over several in lanes, for p and q linear with the given values at its ends; `sixth` is a
+/// sixth of its length.
+#[inline(always)]
+pub(crate) fn element_product<T: Lane>(sixth: T, p: [T; 2], q: [T; 2]) -> T {
+    let two = T::splat(2.0);
+    sixth * (p[0] * (two * q[0] + q[1]) + p[1] * (q[0] + two * q[1]))
 }
 
 /// `‖y‖²` of a P1 function.
 pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(&h, y)| element_product(h, [y[0], y[1]], [y[0], y[1]])).sum()
+    lengths.iter().zip(y.windows(2)).map(|(&h, y)| element_product(h / 6.0, [y[0], y[1]], [y[0], y[1]])).sum()
 }
 
 /// `‖y_x‖²` of a P1 function.
@@ -24,7 +28,7 @@ pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
         .map(|(&h, (u, phi))| {
             let slope = (u[1] - u[0]) / h;
             let shear = [slope - phi[0], slope - phi[1]];
-            element_product(h, shear, shear)
+            element_product(h / 6.0, shear, shear)
         })
         .sum()
 }

@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use thermobeam_study::outcome::Table;
+use thermobeam_study::report::markdown;
+
 use super::accepted::Accepted;
 use super::judge::Judged;
 use super::list::{Mutant, PACKAGES};
@@ -46,9 +49,10 @@ impl Counts {
         }
     }
 
-    fn cells(&self) -> String {
+    fn row(&self, file: &str) -> Vec<String> {
         let Self { caught, timeout, accepted, missed, unviable, open } = self;
-        format!("{caught} | {timeout} | {accepted} | {missed} | {unviable} | {open} | {}", self.rate())
+        let counts = [caught, timeout, accepted, missed, unviable, open].map(ToString::to_string);
+        [file.to_owned()].into_iter().chain(counts).chain([self.rate()]).collect()
     }
 }
 
@@ -77,14 +81,12 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted
     };
     let drawn = if findings.len() == all.len() { String::new() } else { format!(", drawn at random, seed {seed}") };
     let sample = format!("{}{drawn}.", PACKAGES.map(of).join(" and "));
-    let head = "caught | timed out | accepted | missed | unviable | open | noticed";
-    let _ = write!(page, "{sample}\n\n| file | {head} |\n| --- |{}\n", " ---: |".repeat(7));
     let mut files: BTreeMap<&str, Vec<&Finding<'_>>> = BTreeMap::new();
     findings.iter().for_each(|finding| files.entry(&finding.0.file).or_default().push(finding));
-    for (file, findings) in files {
-        let _ = writeln!(page, "| {file} | {} |", Counts::of(findings, accepted).cells());
-    }
-    let _ = writeln!(page, "| **all** | {} |", Counts::of(findings, accepted).cells());
+    let mut rows: Vec<_> = files.into_iter().map(|(file, findings)| Counts::of(findings, accepted).row(file)).collect();
+    rows.push(Counts::of(findings, accepted).row("all"));
+    let head = ["file", "caught", "timed out", "accepted", "missed", "unviable", "open", "noticed"];
+    let _ = write!(page, "{sample}\n\n{}", table(&head, rows));
     page +=
         "\nA mutant that times out has been noticed. Noticed is the share of those that compile.\n\n## Survivors\n\n";
     let survivors: Vec<_> = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed)).collect();
@@ -92,12 +94,13 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted
         page += "None.\n";
         return page;
     }
-    page += "| file | mutation | line | reason |\n| --- | --- | --- | --- |\n";
-    for (mutant, _) in survivors {
-        let reason = accepted.reason(mutant).unwrap_or("**none**");
-        let cell = |text: &str| text.replace('|', "\\|");
-        let (what, code) = (cell(&mutant.what), cell(&mutant.code));
-        let _ = writeln!(page, "| {} | {what} | `{code}` | {} |", mutant.file, cell(reason));
-    }
-    page
+    let row = |(mutant, _): &&Finding<'_>| {
+        let Mutant { file, what, code, .. } = mutant;
+        [file, what, &format!("`{code}`"), accepted.reason(mutant).unwrap_or("none")].map(str::to_owned).to_vec()
+    };
+    page + &table(&["file", "mutation", "line", "reason"], survivors.iter().map(row).collect())
+}
+
+fn table(head: &[&str], rows: Vec<Vec<String>>) -> String {
+    markdown(&Table { title: String::new(), head: head.iter().map(|&name| name.to_owned()).collect(), rows })
 }

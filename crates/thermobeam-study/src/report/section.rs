@@ -33,9 +33,14 @@ pub(super) fn marked(verdict: Verdict) -> String {
     if verdict == Verdict::Pass { verdict.to_string() } else { format!("**{verdict}**") }
 }
 
+/// The lines of a table in Markdown, without its title.
+pub fn markdown(Table { head, rows, .. }: &Table) -> String {
+    table(&cells(head), rows.iter().map(|row| cells(row)).collect())
+}
+
 /// A table under its title; a long one is folded, but open in a study that does not pass.
-fn titled(Table { title, head, rows }: &Table, passes: bool) -> String {
-    let lines = table(&cells(head), rows.iter().map(|row| cells(row)).collect());
+fn titled(whole: &Table, passes: bool) -> String {
+    let (Table { title, rows, .. }, lines) = (whole, markdown(whole));
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
     }

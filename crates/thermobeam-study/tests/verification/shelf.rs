@@ -85,6 +85,19 @@ fn a_crash_before_the_set_counts_leaves_the_old_one() {
 }
 
 #[test]
+fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let shelf = shelf(folder.path());
+    shelf.publish(&set(&[("README.md", "old"), ("a.svg", "old")])).unwrap();
+    let before = found(&shelf.place);
+    // The third file needs a folder where the second is a file.
+    let torn = shelf.publish(&set(&[("README.md", "new"), ("a.svg", "new"), ("a.svg/b.svg", "new")]));
+    assert!(torn.is_err());
+    shelf.tidy().unwrap();
+    assert_eq!(found(&shelf.place), before);
+}
+
+#[test]
 fn a_manifest_that_leads_elsewhere_removes_nothing_there() {
     let folder = tempfile::tempdir().unwrap();
     let shelf = shelf(folder.path());

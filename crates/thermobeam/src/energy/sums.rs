@@ -4,6 +4,7 @@
 //! added in the end. One sum over all elements would make each wait for the one before.
 
 use crate::lanes::{Lane, Lanes};
+use crate::norms::element_product;
 use crate::solve::Level;
 
 /// Elements side by side: as many numbers as a vector register holds.
@@ -74,10 +75,10 @@ impl<T: Lane> Sums<T> {
     fn add<const LOSSES: bool>(&mut self, lengths: &[f64], weight: f64, first: usize, old: &Level, new: &Level) {
         let h = T::load(&lengths[first..]);
         let inverse = T::from_fn(|k| 1.0 / h.lane(k));
-        let (half, two, sixth) = (T::splat(0.5), T::splat(2.0), h * T::splat(1.0 / 6.0));
+        let (half, sixth) = (T::splat(0.5), h * T::splat(1.0 / 6.0));
         let square = |p: T| p * p;
         // ∫ p q, (p_x) and (u_x - φ at both ends), of P1 functions given by their values at the ends.
-        let product = |p: [T; 2], q: [T; 2]| sixth * (p[0] * (two * q[0] + q[1]) + p[1] * (q[0] + two * q[1]));
+        let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
         let mean_and_jump = |y, y0| mean_and_jump::<T>(y, y0, first);

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use thermobeam_study::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use thermobeam_study::runner::{self, Finished};
+use thermobeam_study::scene::Scene;
+use thermobeam_study::simulate::{Recording, Simulator};
 use thermobeam_study::study::{Case, CaseFailure, Measured, Study};
 use thermobeam_study::study_file::{StudyHeader, Tier};
 use thermobeam_study::verdict;
@@ -24,6 +26,8 @@ pub(crate) enum Does {
     Fail,
     /// First order, but the second case panics.
     Panic,
+    /// First order, but the second case would take hours, and does not mind being stopped.
+    Dawdle,
     /// The conclusion panics.
     PanicAtTheEnd,
     /// First order on too few levels.
@@ -66,6 +70,7 @@ impl Study for Fake {
             (Does::Stay, _) => error = self.scale,
             (Does::NotANumber, 1) => error = f64::NAN,
             (Does::Fail, 1) => return Err(CaseFailure { reason: "step 3 | t = 0.1: diverged".to_owned() }),
+            (Does::Dawdle, 1) => drop(endless().run(Recording::Summary, &mut |_| ())),
             (Does::Panic, 1) => panic!("a pivot of {error} was lost"),
             _ => {}
         }
@@ -112,6 +117,12 @@ impl Study for Fake {
             )
         }
     }
+}
+
+/// A beam in small steps.
+fn endless() -> Simulator {
+    let scene = Scene::parse("[time]\ndt = 1e-8\nt_end = 10.0\n", "endless.toml").unwrap();
+    Simulator::new(&scene).unwrap()
 }
 
 pub(crate) fn jobs(count: usize) -> NonZeroUsize {

@@ -1,6 +1,7 @@
 use std::sync::Mutex;
+use std::time::Duration;
 
-use thermobeam_study::runner::{self, RunError};
+use thermobeam_study::runner::{self, Effort, RunError};
 use thermobeam_study::verdict::Verdict;
 
 use crate::fake::{Does, finished, jobs, study};
@@ -48,6 +49,16 @@ fn a_failed_case_keeps_its_label_and_reason() {
     assert!(panic.reason.starts_with("panicked at fake.rs:"), "{}", panic.reason);
     assert!(panic.reason.ends_with("a pivot of 0.01875 was lost"), "{}", panic.reason);
     assert_eq!(failure.reason, "step 3 | t = 0.1: diverged");
+}
+
+#[test]
+fn a_case_that_was_stopped_has_failed_whatever_it_says() {
+    let effort = Effort { case_limit: Some(Duration::from_millis(50)), ..jobs(2).into() };
+    let studies = vec![study("dawdles", Does::Dawdle), study("converges", Does::Converge)];
+    let finished = runner::run(&studies, effort, &|_| {}).unwrap();
+    let [stopped] = &finished[0].failed_cases[..] else { panic!("{:?}", finished[0].failed_cases) };
+    assert!(stopped.reason.starts_with("stopped at the limit of 0.05 s, after step "), "{}", stopped.reason);
+    assert_eq!((finished[0].outcome.verdict, finished[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
 }
 
 #[test]

@@ -45,3 +45,26 @@ fn newtons_bound_holds_for_large_steps_and_rough_starts() {
         }
     }
 }
+
+#[test]
+fn newtons_bound_holds_next_to_buckling_where_the_beam_is_soft() {
+    let exactly = Settings { tolerance: 1e-14, start: Start::Previous, ..Settings::default() };
+    let experiment = EXPERIMENTS[0];
+    for (scheme, mesh) in schemes_and_meshes(20) {
+        let mut problem = paper(mesh, experiment);
+        (problem.beam.beta, problem.obstacles) = (-0.7, None);
+        for (dt, tolerance) in [(0.5, 1e-1), (0.5, 1e-3), (2.0, 1e-1), (2.0, 1e-3), (2.0, 1e-5)] {
+            let settings = Settings { tolerance, start: Start::Previous, ..Settings::default() };
+            let mut simulation = simulate(&problem, Stepping { scheme, settings, ..stepping(dt) });
+            for step in 1..=50 {
+                let old = simulation.level();
+                let report = simulation.advance().unwrap();
+                let mut same =
+                    simulate(&from_level(&problem, &old), Stepping { scheme, settings: exactly, ..stepping(dt) });
+                same.advance().unwrap();
+                let distance = distance(&problem.mesh, &simulation.level(), &same.level());
+                assert!(distance <= tolerance, "{} with dt = {dt}, step {step}: {distance:e} {report:?}", scheme.name);
+            }
+        }
+    }
+}

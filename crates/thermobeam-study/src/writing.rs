@@ -120,7 +120,10 @@ mod tests {
         CLOSED.close(Duration::ZERO);
         let (tell, told) = mpsc::channel();
         // It waits for the end of the process.
-        thread::spawn(move || tell.send(drop(CLOSED.begin())));
+        thread::spawn(move || {
+            drop(CLOSED.begin());
+            tell.send(())
+        });
         assert_eq!(told.recv_timeout(SHORT), Err(mpsc::RecvTimeoutError::Timeout));
     }
 }

@@ -80,9 +80,15 @@ impl Judge {
             // By file, too: fields deleted from a struct are mutants whatever the expression says.
             command.arg("--file").arg(&mutant.file).arg("--re").arg(format!("^{}$", escaped(&mutant.name)));
         }
+        let build = folder.join("build");
+        if package != first.target.package {
+            // cargo-mutants would look for these tests in the package of the mutants, where there are none of that name.
+            pass_without_a_mutant(root, &build, package, &tests)?;
+            command.args(["--baseline=skip", "--timeout=900"]);
+        }
         if jobs == NonZeroUsize::MIN {
             // The packages of others are then compiled once for all batches.
-            command.env("CARGO_TARGET_DIR", folder.join("build"));
+            command.env("CARGO_TARGET_DIR", &build);
         }
         let status = command.arg("--").args(tests).current_dir(root).stdout(Stdio::null()).status()?;
         let judged = judged(&folder.join("mutants.out"), mutants);
@@ -94,6 +100,15 @@ impl Judge {
             ))),
         }
     }
+}
+
+/// Complains where the tests fail although nothing is planted: every mutant would seem to be caught.
+fn pass_without_a_mutant(root: &Path, build: &Path, package: &str, tests: &[&str]) -> Result<(), Unusable> {
+    let mut command = Command::new("cargo");
+    command.args(["test", "--quiet", "--profile=mutants", "--package", package]).args(tests);
+    let status = command.env("CARGO_TARGET_DIR", build).current_dir(root).stdout(Stdio::null()).status()?;
+    let shown = format!("cargo test --profile=mutants --package {package} {}", tests.join(" "));
+    if status.success() { Ok(()) } else { Err(Unusable::because(&format!("without a mutant this fails: {shown}"))) }
 }
 
 /// What the lists say of these mutants.

@@ -9,6 +9,7 @@ use crate::{Ended, Folder, ended, xtask};
 /// Lists three mutants; the tests catch the first, and whatever `caught` names besides. It counts its calls.
 const CARGO: &str = r#"#!/bin/sh
 [ "$2" = --version ] && exit 0
+[ "$1" = test ] && { [ ! -e broken ]; exit; }
 if [ "$2" = --list ]; then
     case "$*" in *thermobeam-study*) exit 0 ;; esac
     echo "src/a.rs:1:9: replace one with two"
@@ -101,6 +102,18 @@ fn a_survivor_fails_until_a_test_catches_it_or_a_reason_is_given() {
     let changed = mutants(&root, &["--report"]);
     assert_eq!(changed.status, Some(1));
     assert!(changed.stdout.contains("3 open") && changed.stderr.contains("no such mutant"), "{}", changed.stderr);
+}
+
+#[test]
+fn tests_that_fail_without_a_mutant_judge_none() {
+    let folder = Folder::new();
+    let root = workspace(&folder);
+    fs::write(root.join("broken"), "").expect("a file");
+    let ended = mutants(&root, &[]);
+    assert_eq!((ended.status, calls(&root)), (Some(2), 2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("without a mutant this fails: cargo test --profile=mutants --package xtask"));
+    // What the judges before have said is kept.
+    assert!(fs::read_to_string(root.join("target/mutants/outcomes.tsv")).expect("a ledger").lines().count() == 5);
 }
 
 #[test]

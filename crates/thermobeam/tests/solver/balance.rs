@@ -1,8 +1,9 @@
 //! The energy balance closes to round-off, step by step.
 
 use crate::scenes::{EXPERIMENTS, larger, paper, schemes_and_meshes, simulate, stepping};
+use thermobeam::energy::scale;
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::simulation::Stepping;
+use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Start};
 
 /// Over 1000 steps of every experiment, both schemes, both meshes: the largest residual over the initial energy.
@@ -64,6 +65,9 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
                 let (before, after) = (simulation.energy(&old).total(), simulation.energy(&new).total());
                 let change = simulation.balance(&old, &new).change;
                 assert_eq!(simulation.energy_change(&old, &new), change);
+                let Problem { beam, obstacles, .. } = simulation.problem();
+                let size = scale(beam, obstacles.as_ref(), simulation.lengths(), &new);
+                assert_eq!(simulation.energy_scale(&new), size);
                 let difference = change - (after - before);
                 assert!(difference.abs() <= 1e-12 * before.abs().max(1.0), "{difference:e}");
             }

@@ -4,7 +4,8 @@
 //! that a report happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone;
 //! reading the clock twice a step costs some 50 ns of it.
 //!
-//! A step that cannot be done ends the run, and so does a [limit on its time](crate::time_limit). What was computed up to there is kept: [`Run::failure`] says why it ended.
+//! A step that cannot be done ends the run, and so does a [limit on its time](crate::time_limit). What was computed up to
+//! there is kept: [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
@@ -30,7 +31,6 @@ use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
-
 use thiserror::Error;
 
 use crate::expression::Expression;
@@ -230,16 +230,17 @@ impl Simulator {
         let mut failure = None;
         let mut patience = Patience::of(&self.simulation);
         while self.simulation.step() < self.steps {
-            let outcome = patience.before_step_of(&self.simulation).map_err(RunFailure::from).and_then(|()| {
-                let start = Instant::now();
-                let outcome = self.simulation.advance();
-                wall += start.elapsed();
-                outcome.map_err(RunFailure::from)
-            });
+            if let Err(up) = patience.before_step_of(&self.simulation) {
+                failure = Some(up.into());
+                break;
+            }
+            let start = Instant::now();
+            let outcome = self.simulation.advance();
+            wall += start.elapsed();
             let report = match outcome {
                 Ok(report) => report,
-                Err(ended) => {
-                    failure = Some(ended);
+                Err(error) => {
+                    failure = Some(error.into());
                     break;
                 }
             };

@@ -98,11 +98,9 @@ impl Balance {
         new: &Level,
     ) -> Self {
         let sums = Sums::over::<true>(lengths, 1.0 / scheme.inertia, old, new);
-        let change = change(beam, obstacles, &sums, old, new);
-        let gap = obstacles.map_or(0.0, |obstacles| {
-            let (u, u0) = (tip(new), tip(old));
-            new.contact_force * (u - u0) - obstacles.discrete_gradient(u, u0) * (u - u0)
-        });
+        let stored = contact_change(obstacles, old, new);
+        let change = change(beam, &sums, stored);
+        let gap = obstacles.map_or(0.0, |_| new.contact_force * (tip(new) - tip(old)) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
         // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule nothing.
@@ -113,17 +111,20 @@ impl Balance {
     /// [`Balance::change`] alone, at half the cost.
     pub fn change_of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], old: &Level, new: &Level) -> f64 {
         // The weight is about the losses.
-        change(beam, obstacles, &Sums::over::<false>(lengths, 0.5, old, new), old, new)
+        change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, old, new))
     }
 }
 
-/// E^n - E^{n-1}.
-fn change(beam: &Beam, obstacles: Option<&Obstacles>, sums: &Sums<f64>, old: &Level, new: &Level) -> f64 {
-    let (u, u0) = (tip(new), tip(old));
-    sums.quadratic
-        + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0])
-        + obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0))
+/// E^n - E^{n-1}; `stored` is the contact's part.
+fn change(beam: &Beam, sums: &Sums<f64>, stored: f64) -> f64 {
+    sums.quadratic + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0]) + stored
         - beam.a * beam.theta_a * sums.rotation_change
+}
+
+/// G(u(1)) - G(u0(1)).
+fn contact_change(obstacles: Option<&Obstacles>, old: &Level, new: &Level) -> f64 {
+    let (u, u0) = (tip(new), tip(old));
+    obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0))
 }
 
 fn tip(level: &Level) -> f64 {

@@ -41,13 +41,12 @@ impl Line {
     ///
     /// * `limit`: the longest that it may take; the line then says where it was stopped.
     pub fn compute(sweep: &Sweep, index: usize, limit: Option<Duration>) -> Self {
+        let compute = || time_limit::within(limit, || simulate(sweep, index)).0;
         // A panic is a mistake of the program's, yet no reason to lose the other cases.
-        panic::catch_unwind(AssertUnwindSafe(|| time_limit::within(limit, || simulate(sweep, index)).0)).unwrap_or_else(
-            |_| {
-                let case = sweep.case(index);
-                Self::failed(&case, "the program panicked".to_owned())
-            },
-        )
+        panic::catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|_| {
+            let case = sweep.case(index);
+            Self::failed(&case, "the program panicked".to_owned())
+        })
     }
 
     fn failed(case: &Case<'_>, reason: String) -> Self {
@@ -81,7 +80,8 @@ fn simulate(sweep: &Sweep, index: usize) -> Line {
     Line::of(&Record { case: index, status, parameters: &case, reason, result })
 }
 
-/// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to `sink` as soon as it is there.
+/// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to
+/// `sink` as soon as it is there.
 ///
 /// Cases are begun in the order given, so that lines come nearly in that order; `sink` is called from every thread.
 ///

@@ -23,7 +23,7 @@ use ledger::Ledger;
 use list::Mutant;
 
 /// Mutants judged by one call of cargo-mutants, which first checks that the tests pass without any.
-const BATCH: usize = 40;
+const BATCH: usize = 100;
 
 /// Judge the tests: do they notice a mistake in the solver or in the verdicts?
 #[derive(Debug, clap::Args)]
@@ -62,7 +62,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     interrupt::say(move || format!("the same command goes on where it was, with {count} mutants in all"));
     for (level, judge) in JUDGES.iter().enumerate().filter(|_| !arguments.report) {
         loop {
-            let open: Vec<&Mutant> = sample.iter().copied().filter(|mutant| ledger.is_open(mutant, level)).collect();
+            let mut open: Vec<&Mutant> =
+                sample.iter().copied().filter(|mutant| ledger.is_open(mutant, level)).collect();
+            // In the order of the sources: from one mutant to the next, the compiler then finds little that has changed.
+            open.sort_by_key(|mutant| mutant.place());
             let Some(first) = open.first() else { break };
             let batch: Vec<_> =
                 open.iter().filter(|mutant| mutant.target == first.target).take(BATCH).copied().collect();

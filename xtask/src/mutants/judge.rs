@@ -43,14 +43,14 @@ pub(super) struct Judge {
 
 /// The cheapest first; each judges what those before it have missed.
 pub(super) const JUDGES: [Judge; 3] = [
-    Judge { name: "own tests but the slow ones", tests: quick_tests },
+    Judge { name: "own tests but the slow ones", tests: first_tests },
     Judge { name: "own tests", tests: |target| (target.package, target.tests.to_vec()) },
     Judge { name: "quick tier", tests: |_| ("xtask", vec!["--test", "quick_tier", "--", "--ignored"]) },
 ];
 
-fn quick_tests(target: &Target) -> (&'static str, Vec<&'static str>) {
+fn first_tests(target: &Target) -> (&'static str, Vec<&'static str>) {
     let skipped = target.slow.iter().flat_map(|test| ["--skip", test]);
-    (target.package, target.tests.iter().copied().chain(["--"]).chain(skipped).collect())
+    (target.package, target.first.iter().copied().chain(["--"]).chain(skipped).collect())
 }
 
 /// Complains where cargo-mutants is not there.

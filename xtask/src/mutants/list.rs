@@ -16,7 +16,9 @@ pub(super) struct Target {
     files: &'static [&'static str],
     /// Its tests, as arguments of `cargo test`.
     pub(super) tests: &'static [&'static str],
-    /// Those of them that take longer than all others together.
+    /// Those of them that notice most mistakes: each binary is linked anew for each mutant.
+    pub(super) first: &'static [&'static str],
+    /// Tests that the first judge leaves out, because they take longer than all others together.
     pub(super) slow: &'static [&'static str],
 }
 
@@ -26,9 +28,21 @@ const TARGETS: [Target; 2] = [
         package: "thermobeam",
         files: &[],
         tests: &["--tests"],
+        first: &[
+            "--lib",
+            "--test=allocation",
+            "--test=equilibrium",
+            "--test=lanes",
+            "--test=solver",
+            "--test=vibration",
+        ],
         slow: &[
+            "a_blind_scan_with_the_textbook_formula_finds_the_same_states",
             "a_fixed_point_step_solves_the_equations_of_the_scheme",
             "a_newton_step_solves_the_equations_of_the_scheme",
+            "an_accepted_step_is_within_the_tolerance_of_its_solution",
+            "discrete_states_converge_at_second_order_and_have_as_many_unstable_directions",
+            "newton_converges_for_every_compliance_step_force_and_stiffness",
             "no_coefficient_is_too_extreme",
         ],
     },
@@ -41,8 +55,9 @@ const TARGETS: [Target; 2] = [
             "crates/thermobeam-study/src/verdict.rs",
             "crates/thermobeam-study/src/verdict/*.rs",
         ],
-        tests: &["--lib", "--test", "fit", "--test", "verdict_laws", "--test", "manufactured", "--test", "calibration"],
-        slow: &[],
+        tests: &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured", "--test=calibration"],
+        first: &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured"],
+        slow: &["every_study_of_the_repository_is_explained"],
     },
 ];
 
@@ -64,6 +79,14 @@ pub(super) struct Mutant {
     pub(super) text: u64,
     /// Of which package.
     pub(super) target: &'static Target,
+}
+
+impl Mutant {
+    /// Where it is: mutants that sort side by side stand side by side.
+    pub(super) fn place(&self) -> (&'static str, &str, usize) {
+        let line = self.name.split(':').nth(1).and_then(|line| line.parse().ok());
+        (self.target.package, &self.file, line.unwrap_or(0))
+    }
 }
 
 /// All mutants, as cargo-mutants lists them.

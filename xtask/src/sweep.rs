@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
     let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.quiet);
     let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
-    let outcome = sweep::run(sweep, mine.into_iter(), arguments.jobs, arguments.case_limit, |line: Line| {
+    let outcome = sweep::run(sweep, &mine, arguments.jobs, arguments.case_limit, |line: Line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
         state.1 += usize::from(!line.passed);
         bar.inc(1);
@@ -111,7 +111,7 @@ fn journaled(
     bar: &ProgressBar,
 ) -> Result<Journal, io::Error> {
     let journal = Mutex::new(journal);
-    sweep::run(sweep, pending.into_iter(), arguments.jobs, arguments.case_limit, |line| {
+    sweep::run(sweep, &pending, arguments.jobs, arguments.case_limit, |line| {
         bar.inc(1);
         journal.lock().unwrap_or_else(PoisonError::into_inner).append(&line)
     })?;

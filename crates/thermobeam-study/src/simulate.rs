@@ -23,12 +23,14 @@ mod budget;
 mod figures;
 mod object;
 mod record;
+mod together;
 
 use std::time::{Duration, Instant};
 
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::Mesh;
+use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
 use thiserror::Error;
@@ -40,6 +42,7 @@ use crate::time_limit::{Patience, TimeUp};
 pub use figures::{energy_at_rest, figures};
 pub use object::Object;
 pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
+pub use together::{Together, run_together};
 
 /// Where x = 1/2 lies in a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -246,7 +249,7 @@ impl Simulator {
             };
             self.simulation.observe(&mut new);
             let balance = self.simulation.balance(&old, &new);
-            tally.add(&report, &balance, &new);
+            tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
             if let Some(record) = &mut record {
                 record.add(self.simulation.step(), &balance, &new.u, || self.sample(&new));
             }
@@ -264,53 +267,47 @@ impl Simulator {
         self,
         tally: Tally,
         wall: Duration,
-        [first, last]: [Sample; 2],
+        ends: [Sample; 2],
         failure: Option<RunFailure>,
         record: Option<Record>,
     ) -> Run {
-        Run {
-            steps: self.simulation.step(),
-            iterations: tally.iterations,
-            wall,
-            first,
-            last,
-            extremes: tally.extremes,
-            contact_steps: tally.contact_steps,
-            energy: EnergySummary {
-                initial: first.energy,
-                last: last.energy,
-                largest_increase: tally.largest_increase.unwrap_or(f64::NAN),
-                largest_balance_residual: tally.largest_residual,
-            },
-            work: self.simulation.work(),
-            is_heated: self.simulation.is_heated(),
-            failure,
-            record,
-        }
+        let (work, is_heated) = (self.simulation.work(), self.simulation.is_heated());
+        Run { failure, record, ..tally.run(self.simulation.step(), ends, wall, work, is_heated) }
     }
 
     /// No step has led to the start, so that its contact force is that of the law.
     fn first_sample(&self, level: &Level) -> Sample {
-        let sample = self.sample(level);
-        let obstacles = self.simulation.problem().obstacles;
-        Sample { contact_force: obstacles.map_or(0.0, |obstacles| obstacles.force(sample.u_tip) + 0.0), ..sample }
+        self.sample(level).at_the_start(self.simulation.problem().obstacles)
     }
 
     fn sample(&self, level: &Level) -> Sample {
+        let theta_a = self.simulation.problem().beam.theta_a;
+        let t = self.simulation.step() as f64 * self.dt;
+        Sample::of(level, t, self.middle, theta_a, self.simulation.energy(level).total())
+    }
+}
+
+impl Sample {
+    fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
-        // The lifting θ_A (1 - x) is linear, so that adding its value in the middle is exact on any mesh.
-        let lifting = 0.5 * self.simulation.problem().beam.theta_a;
-        Sample {
-            t: self.simulation.step() as f64 * self.dt,
+        Self {
+            t,
             u_tip: level.u[tip],
             phi_tip: level.phi[tip],
             u_t_tip: level.v[tip],
             phi_t_tip: level.w[tip],
-            theta_mid: self.middle.value(&level.theta) + lifting,
+            // The lifting θ_A (1 - x) is linear, so that adding its value in the middle is exact on any mesh.
+            theta_mid: middle.value(&level.theta) + 0.5 * theta_a,
             // The solver gives a free tip the sign of zero that its displacement has: -0 + 0 is 0.
             contact_force: level.contact_force + 0.0,
-            energy: self.simulation.energy(level).total(),
+            energy,
         }
+    }
+
+    /// The same with the contact force of the law.
+    fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
+        let contact_force = obstacles.map_or(0.0, |obstacles| obstacles.force(self.u_tip) + 0.0);
+        Self { contact_force, ..self }
     }
 }
 
@@ -334,16 +331,39 @@ impl Tally {
         }
     }
 
-    fn add(&mut self, report: &StepReport, balance: &Balance, new: &Level) {
+    fn add(&mut self, report: &StepReport, balance: &Balance, u_tip: f64, contact_force: f64) {
         self.iterations.total += report.iterations;
         self.iterations.max = self.iterations.max.max(report.iterations);
-        let u_tip = new.u[new.u.len() - 1];
         self.extremes.u_tip_max = larger(self.extremes.u_tip_max, u_tip);
         self.extremes.u_tip_min = -larger(-self.extremes.u_tip_min, -u_tip);
-        self.contact_steps += usize::from(new.contact_force != 0.0);
+        self.contact_steps += usize::from(contact_force != 0.0);
         // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
         self.largest_increase = Some(self.largest_increase.map_or(balance.change, |most| larger(most, balance.change)));
         self.largest_residual = larger(self.largest_residual, balance.residual.abs());
+    }
+
+    /// The run that it is of, without failure and record.
+    fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
+        let energy = EnergySummary {
+            initial: first.energy,
+            last: last.energy,
+            largest_increase: self.largest_increase.unwrap_or(f64::NAN),
+            largest_balance_residual: self.largest_residual,
+        };
+        Run {
+            steps,
+            iterations: self.iterations,
+            wall,
+            first,
+            last,
+            extremes: self.extremes,
+            contact_steps: self.contact_steps,
+            energy,
+            work,
+            is_heated,
+            failure: None,
+            record: None,
+        }
     }
 }
 

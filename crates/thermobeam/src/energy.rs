@@ -15,7 +15,7 @@
 //! Monotony can hold by luck; this balance to round-off cannot.
 
 mod rounding;
-mod sums;
+pub(crate) mod sums;
 
 pub use rounding::{Rounding, scale};
 
@@ -69,6 +69,17 @@ fn mean(lengths: &[f64], y: &[f64]) -> f64 {
     lengths.iter().zip(y.windows(2)).map(|(h, y)| 0.5 * h * (y[0] + y[1])).sum()
 }
 
+/// What the contact's part of the balance is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tip {
+    /// u0(1).
+    pub(crate) old: f64,
+    /// u(1).
+    pub(crate) new: f64,
+    /// The contact force of the step.
+    pub(crate) force: f64,
+}
+
 /// The balance of one step; the terms add up to `residual`, round-off for an exactly solved step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
@@ -87,6 +98,16 @@ pub struct Balance {
 }
 
 impl Balance {
+    /// That of no step.
+    pub(crate) const NAN: Self = Self {
+        change: f64::NAN,
+        viscous: f64::NAN,
+        thermal: f64::NAN,
+        inertial: f64::NAN,
+        contact: f64::NAN,
+        residual: f64::NAN,
+    };
+
     /// Of the step from `old` to `new` by `scheme` with step `dt`.
     pub fn of(
         beam: &Beam,
@@ -98,9 +119,22 @@ impl Balance {
         new: &Level,
     ) -> Self {
         let sums = Sums::over::<true>(lengths, 1.0 / scheme.inertia, old, new);
-        let stored = contact_change(obstacles, old, new);
-        let change = change(beam, &sums, stored);
-        let gap = obstacles.map_or(0.0, |_| new.contact_force * (tip(new) - tip(old)) - stored);
+        let tip = Tip { old: tip(old), new: tip(new), force: new.contact_force };
+        Self::from_sums(beam, obstacles, scheme, dt, &sums, tip)
+    }
+
+    /// Puts the balance together.
+    pub(crate) fn from_sums(
+        beam: &Beam,
+        obstacles: Option<&Obstacles>,
+        scheme: &Scheme,
+        dt: f64,
+        sums: &Sums<f64>,
+        tip: Tip,
+    ) -> Self {
+        let stored = contact_change(obstacles, tip.old, tip.new);
+        let change = change(beam, sums, stored);
+        let gap = obstacles.map_or(0.0, |_| tip.force * (tip.new - tip.old) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
         // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule nothing.
@@ -111,7 +145,7 @@ impl Balance {
     /// [`Balance::change`] alone, at half the cost.
     pub fn change_of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], old: &Level, new: &Level) -> f64 {
         // The weight is about the losses.
-        change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, old, new))
+        change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, tip(old), tip(new)))
     }
 }
 
@@ -122,8 +156,7 @@ fn change(beam: &Beam, sums: &Sums<f64>, stored: f64) -> f64 {
 }
 
 /// G(u(1)) - G(u0(1)).
-fn contact_change(obstacles: Option<&Obstacles>, old: &Level, new: &Level) -> f64 {
-    let (u, u0) = (tip(new), tip(old));
+fn contact_change(obstacles: Option<&Obstacles>, u0: f64, u: f64) -> f64 {
     obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0))
 }
 

@@ -7,7 +7,7 @@ use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
 use crate::scheme::Scheme;
-use crate::simulation::{Problem, Stepping, prepare};
+use crate::simulation::{Problem, Stepping, is_heated, prepare};
 use crate::solve::newton::{Case, Newton};
 use crate::solve::{Level, Settings, StepReport, Work};
 
@@ -22,11 +22,11 @@ pub struct Ensemble {
     problems: Vec<Problem>,
     lengths: Vec<Vec<f64>>,
     dt: Vec<f64>,
-    scheme: Scheme,
     groups: Vec<Group>,
     step: usize,
     /// The step in which a case failed.
     failed: Vec<Option<usize>>,
+    heated: Vec<bool>,
 }
 
 /// Up to [`WIDTH`] cases in lanes.
@@ -40,6 +40,16 @@ struct Group {
 enum Stepper {
     Cold(Box<Newton<Lanes<WIDTH>, 2>>),
     Heated(Box<Newton<Lanes<WIDTH>, 3>>),
+}
+
+/// The same for both kinds of stepper.
+macro_rules! with {
+    ($stepper:expr, $newton:ident => $result:expr) => {
+        match $stepper {
+            Stepper::Cold($newton) => $result,
+            Stepper::Heated($newton) => $result,
+        }
+    };
 }
 
 impl Ensemble {
@@ -69,9 +79,10 @@ impl Ensemble {
             starts.push((Case { beam: problem.beam, obstacles: problem.obstacles, dt, lengths }, level));
         }
         let lengths = starts.iter().map(|(case, _)| case.lengths.clone()).collect();
+        let heated = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
         let groups = starts.chunks(WIDTH).map(|starts| Group::new(starts, scheme, settings)).collect();
         let failed = vec![None; problems.len()];
-        Ok(Self { problems, lengths, dt: dt.to_vec(), scheme, groups, step: 0, failed })
+        Ok(Self { problems, lengths, dt: dt.to_vec(), groups, step: 0, failed, heated })
     }
 
     /// Number of cases.
@@ -119,10 +130,28 @@ impl Ensemble {
         Energy::of(&problem.beam, problem.obstacles.as_ref(), &self.lengths[k], level)
     }
 
-    /// Balance of a step of case k between two consecutive levels.
-    pub fn balance(&self, k: usize, old: &Level, new: &Level) -> Balance {
-        let problem = &self.problems[k];
-        Balance::of(&problem.beam, problem.obstacles.as_ref(), &self.scheme, self.dt[k], &self.lengths[k], old, new)
+    /// The [`Balance`] of the last step of every case, NaN for those that have failed and before the first step.
+    ///
+    /// No level is copied for it, and the sums run over all lanes of a group at once; the bits are the same.
+    ///
+    /// * `balances`: overwritten; it need not be of the right length.
+    pub fn balances(&self, balances: &mut Vec<Balance>) {
+        balances.clear();
+        balances.resize(self.cases(), Balance::NAN);
+        if self.step > 0 {
+            let groups = self.groups.iter().zip(balances.chunks_mut(WIDTH));
+            groups.for_each(|(group, balances)| group.balances(balances));
+        }
+    }
+
+    /// u(1) of the present level of case k; of its last good one if the case has failed.
+    pub fn tip(&self, k: usize) -> f64 {
+        self.groups[k / WIDTH].tip(k % WIDTH)
+    }
+
+    /// The contact force of the step that led to the present level of case k.
+    pub fn contact_force(&self, k: usize) -> f64 {
+        self.groups[k / WIDTH].contact_force(k % WIDTH)
     }
 
     /// The size of the energy of a level of case k, without signs.
@@ -141,6 +170,16 @@ impl Ensemble {
     pub fn work(&self) -> Work {
         self.groups.iter().map(Group::work).fold(Work::default(), Work::plus)
     }
+
+    /// Counts of the work that case k has needed so far, as many as it would have taken alone.
+    pub fn work_of(&self, k: usize) -> Work {
+        self.groups[k / WIDTH].work_of(k % WIDTH)
+    }
+
+    /// Whether the temperature of case k would be computed if it were alone: something heats the beam.
+    pub fn is_heated(&self, k: usize) -> bool {
+        self.heated[k]
+    }
 }
 
 impl Group {
@@ -152,8 +191,7 @@ impl Group {
         let velocities = |level: &Level| (0..level.v.len()).map(|i| [level.v[i], level.w[i]]).collect();
         let initial: Vec<Vec<[f64; 3]>> = lanes().map(|(_, level)| fields(level)).collect();
         let velocity: Vec<Vec<[f64; 2]>> = lanes().map(|(_, level)| velocities(level)).collect();
-        let heated = cases.iter().any(|case| case.beam.a != 0.0)
-            || initial.iter().flatten().any(|&[_, _, theta]: &[f64; 3]| theta != 0.0);
+        let heated = starts.iter().any(|(case, level)| is_heated(&case.beam, level));
         let stepper = if heated {
             Stepper::Heated(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
         } else {
@@ -164,23 +202,30 @@ impl Group {
     }
 
     fn advance(&mut self) {
-        match &mut self.stepper {
-            Stepper::Cold(newton) => newton.advance(&mut self.outcomes),
-            Stepper::Heated(newton) => newton.advance(&mut self.outcomes),
-        }
+        with!(&mut self.stepper, newton => newton.advance(&mut self.outcomes));
     }
 
     fn read(&self, lane: usize, level: &mut Level) {
-        match &self.stepper {
-            Stepper::Cold(newton) => newton.read(lane, level),
-            Stepper::Heated(newton) => newton.read(lane, level),
-        }
+        with!(&self.stepper, newton => newton.read(lane, level));
+    }
+
+    fn balances(&self, balances: &mut [Balance]) {
+        with!(&self.stepper, newton => newton.balances(balances));
+    }
+
+    fn tip(&self, lane: usize) -> f64 {
+        with!(&self.stepper, newton => newton.tip(lane))
+    }
+
+    fn contact_force(&self, lane: usize) -> f64 {
+        with!(&self.stepper, newton => newton.contact_force(lane))
     }
 
     fn work(&self) -> Work {
-        match &self.stepper {
-            Stepper::Cold(newton) => newton.work(),
-            Stepper::Heated(newton) => newton.work(),
-        }
+        with!(&self.stepper, newton => newton.work())
+    }
+
+    fn work_of(&self, lane: usize) -> Work {
+        with!(&self.stepper, newton => newton.work_of(lane))
     }
 }

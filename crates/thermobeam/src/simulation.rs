@@ -217,6 +217,11 @@ pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<Leve
     initial_level(problem)
 }
 
+/// Whether something heats the beam: its own deformation, or the heat that it starts with.
+pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
+    beam.a != 0.0 || level.theta.iter().any(|&theta| theta != 0.0)
+}
+
 fn choose(case: Case, stepping: &Stepping, level: &Level) -> Result<Stepper, SetupError> {
     let (scheme, settings) = (stepping.scheme, stepping.settings);
     if settings.solver == Solver::FixedPoint {
@@ -224,7 +229,7 @@ fn choose(case: Case, stepping: &Stepping, level: &Level) -> Result<Stepper, Set
             .map(|fixed_point| Stepper::FixedPoint(Box::new(fixed_point)))
             .map_err(|_| SetupError::TimeStep { found: stepping.dt });
     }
-    let heated = stepping.loaded || case.beam.a != 0.0 || level.theta.iter().any(|&theta| theta != 0.0);
+    let heated = stepping.loaded || is_heated(&case.beam, level);
     let nodes = 0..level.u.len();
     let initial = vec![nodes.clone().map(|i| [level.u[i], level.phi[i], level.theta[i]]).collect()];
     let velocity = vec![nodes.map(|i| [level.v[i], level.w[i]]).collect()];

@@ -1,5 +1,6 @@
 //! Cases in lanes get the bits that they get alone, and a case that fails does not touch the others.
 
+use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::{SetupError, StepFailure};
 use thermobeam::mesh::Mesh;
@@ -8,10 +9,19 @@ use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 
+/// Elements: two are left over when they are taken by four.
+const N: usize = 22;
+
+/// A balance, bit by bit.
+fn bits(balance: &Balance) -> [u64; 6] {
+    let Balance { change, viscous, thermal, inertial, contact, residual } = *balance;
+    [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
+}
+
 /// Four beams that differ in everything, so that some need a second pass or the safeguarded iteration where others do not.
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
-    let mesh = Mesh::mapped(20, |s| (1.0 - grading) * s + grading * s * s).unwrap();
+    let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();
     let nodes = mesh.nodes().to_vec();
     let on = |f: &dyn Fn(f64) -> f64| nodes.iter().map(|&x| f(x)).collect::<Vec<_>>();
     let theta_a = [0.0, 20.0, -3.0, 0.0][k];
@@ -36,9 +46,15 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
         let mut alone: Vec<Simulation> = (0..4)
             .map(|k| Simulation::new(problem(k), Stepping { scheme, settings, dt: DT[k], loaded: false }).unwrap())
             .collect();
+        let mut balances = vec![];
+        ensemble.balances(&mut balances);
+        assert_eq!(balances.len(), 4);
+        assert!(balances.iter().all(|balance| balance.residual.is_nan()), "no step has been done");
         for _ in 0..200 {
             ensemble.advance();
+            ensemble.balances(&mut balances);
             for (k, simulation) in alone.iter_mut().enumerate() {
+                let old = simulation.level();
                 let report = simulation.advance().unwrap();
                 assert_eq!(ensemble.report(k).unwrap(), report, "{}: case {k}", scheme.name);
                 let level = simulation.level();
@@ -46,6 +62,13 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
                 lane.u[3] = f64::NAN;
                 ensemble.observe(k, &mut lane);
                 assert_eq!(lane, level, "{}: case {k}", scheme.name);
+                assert_eq!([ensemble.tip(k), ensemble.contact_force(k)], [level.u[N], level.contact_force]);
+                assert_eq!(bits(&balances[k]), bits(&simulation.balance(&old, &level)), "{}: case {k}", scheme.name);
+                let alone = simulation.work();
+                assert_eq!(
+                    (ensemble.work_of(k).passes, ensemble.work_of(k).factorizations),
+                    (alone.passes, alone.factorizations)
+                );
             }
         }
     }
@@ -75,6 +98,35 @@ fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
 }
 
 #[test]
+fn a_cold_case_beside_a_heated_one_gets_the_bits_that_it_gets_alone() {
+    let cold = |k: usize| {
+        let mut problem = problem(k);
+        problem.beam = Beam { a: 0.0, theta_a: 0.0, ..problem.beam };
+        problem.initial.theta.fill(0.0);
+        problem
+    };
+    let settings = Settings::default();
+    for scheme in SCHEMES {
+        let mut ensemble = Ensemble::new(vec![cold(0), problem(1)], &DT[..2], scheme, settings).unwrap();
+        let mut alone = Simulation::new(cold(0), Stepping { scheme, settings, dt: DT[0], loaded: false }).unwrap();
+        assert_eq!([0, 1].map(|k| ensemble.is_heated(k)), [alone.is_heated(), true]);
+        let mut old = alone.level();
+        let mut balances = vec![];
+        let mut lane = old.clone();
+        for _ in 0..100 {
+            ensemble.advance();
+            ensemble.balances(&mut balances);
+            alone.advance().unwrap();
+            let level = alone.level();
+            ensemble.observe(0, &mut lane);
+            assert_eq!(lane, level, "{}", scheme.name);
+            assert_eq!(bits(&balances[0]), bits(&alone.balance(&old, &level)), "{}", scheme.name);
+            old = level;
+        }
+    }
+}
+
+#[test]
 fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
     let new = |problems, dt: &[f64]| Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err();
     let short = Mesh::uniform(3).unwrap();
@@ -83,7 +135,7 @@ fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
     let found = |field, found, expected| Some(SetupError::Length { field, found, expected });
     assert_eq!(new(vec![], &[]), found("problems", 0, 1));
     assert_eq!(new(vec![problem(0)], &DT), found("dt", 4, 1));
-    assert_eq!(new(vec![problem(0), other], &[0.1, 0.1]), found("nodes", 4, 21));
+    assert_eq!(new(vec![problem(0), other], &[0.1, 0.1]), found("nodes", 4, N + 1));
     assert!(matches!(new(vec![problem(0)], &[f64::NAN]), Some(SetupError::TimeStep { .. })));
 }
 
@@ -112,6 +164,11 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
     let mut lane = before.level();
     ensemble.observe(2, &mut lane);
     assert_eq!(lane, before.level());
+    assert_eq!(ensemble.tip(2), lane.u[N]);
+    let mut balances = vec![];
+    ensemble.balances(&mut balances);
+    let open: Vec<bool> = balances.iter().map(|balance| balance.residual.is_nan()).collect();
+    assert_eq!(open, [false, false, true, false]);
     for k in [0, 1, 3] {
         let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt: dt[k], loaded: false };
         let mut alone = Simulation::new(problem(k), stepping).unwrap();

@@ -37,20 +37,36 @@ impl Judged {
 /// Tests that judge.
 pub(super) struct Judge {
     pub(super) name: &'static str,
-    /// Package and arguments of `cargo test` for a mutant of this target.
-    tests: fn(&Target) -> (&'static str, Vec<&'static str>),
+    tests: fn(&Target) -> Tests,
+}
+
+/// What a judge has `cargo test` do for a mutant of a target.
+struct Tests {
+    package: &'static str,
+    /// Which tests are compiled.
+    targets: Vec<&'static str>,
+    /// What they are told.
+    arguments: Vec<&'static str>,
 }
 
 /// The cheapest first; each judges what those before it have missed.
 pub(super) const JUDGES: [Judge; 3] = [
     Judge { name: "own tests but the slow ones", tests: first_tests },
-    Judge { name: "own tests", tests: |target| (target.package, target.tests.to_vec()) },
-    Judge { name: "quick tier", tests: |_| ("xtask", vec!["--test", "quick_tier", "--", "--ignored"]) },
+    Judge { name: "own tests", tests: own_tests },
+    Judge { name: "quick tier", tests: quick_tier },
 ];
 
-fn first_tests(target: &Target) -> (&'static str, Vec<&'static str>) {
-    let skipped = target.slow.iter().flat_map(|test| ["--skip", test]);
-    (target.package, target.first.iter().copied().chain(["--"]).chain(skipped).collect())
+fn first_tests(target: &Target) -> Tests {
+    let arguments = target.slow.iter().flat_map(|test| ["--skip", test]).collect();
+    Tests { package: target.package, targets: target.first.to_vec(), arguments }
+}
+
+fn own_tests(target: &Target) -> Tests {
+    Tests { package: target.package, targets: target.tests.to_vec(), arguments: vec![] }
+}
+
+fn quick_tier(_: &Target) -> Tests {
+    Tests { package: "xtask", targets: vec!["--test=quick_tier"], arguments: vec!["--ignored"] }
 }
 
 /// Complains where cargo-mutants is not there.
@@ -72,7 +88,7 @@ impl Judge {
     ) -> Result<Vec<(&'m Mutant, Judged)>, Unusable> {
         let Some(first) = mutants.first() else { return Ok(vec![]) };
         let folder = root.join("target/mutants");
-        let (package, tests) = (self.tests)(first.target);
+        let Tests { package, targets, arguments } = (self.tests)(first.target);
         let mut command = Command::new("cargo");
         command.args(["mutants", "--colors=never", "--package", first.target.package, "--test-package", package]);
         command.arg("--output").arg(&folder).arg("--jobs").arg(jobs.to_string());
@@ -80,17 +96,19 @@ impl Judge {
             // By file, too: fields deleted from a struct are mutants whatever the expression says.
             command.arg("--file").arg(&mutant.file).arg("--re").arg(format!("^{}$", escaped(&mutant.name)));
         }
+        // Compiled is only what judges: what stands behind `--` counts when the tests are run, not when they are built.
+        command.args(targets.iter().map(|target| format!("--cargo-arg={target}")));
         let build = folder.join("build");
         if package != first.target.package {
             // cargo-mutants would look for these tests in the package of the mutants, where there are none of that name.
-            pass_without_a_mutant(root, &build, package, &tests)?;
+            pass_without_a_mutant(root, &build, package, &[&targets[..], &["--"], &arguments].concat())?;
             command.args(["--baseline=skip", "--timeout=900"]);
         }
         if jobs == NonZeroUsize::MIN {
             // The packages of others are then compiled once for all batches.
             command.env("CARGO_TARGET_DIR", &build);
         }
-        let status = command.arg("--").args(tests).current_dir(root).stdout(Stdio::null()).status()?;
+        let status = command.args(["--", "--"]).args(arguments).current_dir(root).stdout(Stdio::null()).status()?;
         let judged = judged(&folder.join("mutants.out"), mutants);
         // 0: all caught, 2: some missed, 3: some did not end.
         match status.code() {

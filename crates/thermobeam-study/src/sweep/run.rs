@@ -10,8 +10,14 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
 use super::{Case, Sweep};
-use crate::simulate::{Object, Recording, Simulator};
+use crate::scene::Scene;
+use crate::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use crate::time_limit;
+
+/// Cases that run side by side: one group of lanes.
+const LANES: usize = 4;
+/// Cases among which a thread looks for those that can run side by side.
+const BATCH: usize = 16;
 
 /// The result of one case: a line of JSON without its newline.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -60,42 +66,101 @@ impl Line {
     }
 }
 
-fn simulate(sweep: &Sweep, index: usize) -> Line {
+/// The scene of a case, or the line that says why there is none.
+fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
-    let scene = match sweep.scene(&case) {
+    sweep.scene(&case).map_err(|error| {
+        // The place is one in a text that nobody has written.
+        let field = error.field.map(|field| format!("{field}: ")).unwrap_or_default();
+        Line::failed(&case, format!("{field}{}", error.complaint))
+    })
+}
+
+fn simulate(sweep: &Sweep, index: usize) -> Line {
+    let scene = match scene(sweep, index) {
         Ok(scene) => scene,
-        Err(error) => {
-            // The place is one in a text that nobody has written.
-            let field = error.field.map(|field| format!("{field}: ")).unwrap_or_default();
-            return Line::failed(&case, format!("{field}{}", error.complaint));
-        }
+        Err(line) => return line,
     };
-    let run = match Simulator::new(&scene) {
-        Ok(simulator) => simulator.run(Recording::Summary, &mut |_| ()),
-        Err(error) => return Line::failed(&case, error.to_string()),
-    };
+    match Simulator::new(&scene) {
+        Ok(simulator) => line(sweep, index, &scene, &simulator.run(Recording::Summary, &mut |_| ())),
+        Err(error) => Line::failed(&sweep.case(index), error.to_string()),
+    }
+}
+
+fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
+    let case = sweep.case(index);
     let reason = run.failure.as_ref().map(ToString::to_string);
     let status = if reason.is_none() { "done" } else { "failed" };
-    let result = Some(Object::reproducible(&scene, &run));
+    let result = Some(Object::reproducible(scene, run));
     Line::of(&Record { case: index, status, parameters: &case, reason, result })
+}
+
+/// Cases that run side by side: at most [`LANES`], and their scenes agree.
+#[derive(Default)]
+struct Group {
+    together: Option<Together>,
+    indices: Vec<usize>,
+    scenes: Vec<Scene>,
+}
+
+/// Puts cases into groups; a case without a scene is in one of its own, without a scene.
+fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
+    let mut groups: Vec<Group> = vec![];
+    for &index in indices {
+        let scene = panic::catch_unwind(AssertUnwindSafe(|| scene(sweep, index).ok())).unwrap_or_default();
+        let together = scene.as_ref().and_then(Together::of);
+        let fits = |group: &&mut Group| group.indices.len() < LANES && group.together == together;
+        let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
+            Some(group) => group,
+            None => {
+                groups.push(Group { together, ..Group::default() });
+                groups.last_mut().unwrap_or_else(|| unreachable!("one was pushed"))
+            }
+        };
+        group.indices.push(index);
+        group.scenes.extend(scene);
+    }
+    groups
+}
+
+/// The lines of a group: of all cases at once, or of one after the other where that cannot be.
+fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
+    let Group { indices, scenes, .. } = group;
+    let together = || {
+        let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
+        let of = |((&index, scene), run)| line(sweep, index, scene, run);
+        Some(indices.iter().zip(scenes).zip(&runs).map(of).collect::<Vec<_>>())
+    };
+    match panic::catch_unwind(AssertUnwindSafe(together)).unwrap_or_default() {
+        Some(lines) => lines.into_iter().try_for_each(sink),
+        None => indices.iter().try_for_each(|&index| sink(Line::compute(sweep, index, None))),
+    }
 }
 
 /// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to
 /// `sink` as soon as it is there.
 ///
 /// Cases are begun in the order given, so that lines come nearly in that order; `sink` is called from every thread.
+/// Scenes with as many elements and steps run side by side, four at a time; with a limit each runs alone, so that none
+/// is stopped for another's sake. A line is the same either way.
 ///
 /// # Errors
 /// That of `sink`, which ends the sweep, or of threads that cannot be started.
 pub fn run(
     sweep: &Sweep,
-    cases: impl Iterator<Item = usize> + Send,
+    cases: &[usize],
     jobs: usize,
     limit: Option<Duration>,
     sink: impl Fn(Line) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
-    pool.install(|| cases.par_bridge().try_for_each(|index| sink(Line::compute(sweep, index, limit))))
+    // No thread is to be idle so that another one's lanes are full.
+    let batch = if limit.is_some() { 1 } else { cases.len().div_ceil(pool.current_num_threads()).clamp(1, BATCH) };
+    let compute = |batch: &[usize]| match batch {
+        [index] => sink(Line::compute(sweep, *index, limit)),
+        _ => groups(sweep, batch).iter().try_for_each(|group| lines(sweep, group, &sink)),
+    };
+    pool.install(|| cases.chunks(batch).par_bridge().try_for_each(compute))
 }
 
 /// Puts lines back into the order of their cases, holding those back that came early.

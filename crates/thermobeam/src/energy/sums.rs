@@ -1,18 +1,19 @@
 //! The sums over the elements of which the balance of a step consists.
 //!
-//! Elements stand side by side here, not cases: lane k adds up every fourth element from the kth on, and the lanes are
-//! added in the end. One sum over all elements would make each wait for the one before.
+//! One sum over all elements would make each wait for the one before, so that every fourth element from the kth on has a
+//! sum of its own, and the four are added in the end. For one case the four stand side by side in a vector register; for
+//! several cases in lanes each of the four is a register of cases. A case gets the same bits either way.
 
 use crate::lanes::{Lane, Lanes};
 use crate::norms::element_product;
 use crate::solve::Level;
 
-/// Elements side by side: as many numbers as a vector register holds.
+/// Sums side by side: as many numbers as a vector register holds.
 const WIDTH: usize = 4;
 
 /// Sums over elements.
 #[derive(Clone, Copy)]
-pub(super) struct Sums<T> {
+pub(crate) struct Sums<T> {
     /// ½ of the differences of ‖v‖², ‖w‖², ‖u_x - φ‖², ‖φ_x‖², ‖θ~‖².
     pub(super) quadratic: T,
     /// ‖u_x‖², old and new.
@@ -27,25 +28,58 @@ pub(super) struct Sums<T> {
     pub(super) jump: T,
 }
 
+/// An element, or one of each of several cases in lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct Element<T> {
+    /// h.
+    pub(crate) length: T,
+    /// 1/h.
+    pub(crate) inverse: T,
+    /// The fields at both ends at the old level.
+    pub(crate) old: [Fields<T>; 2],
+    /// And at the new one.
+    pub(crate) new: [Fields<T>; 2],
+}
+
+/// The fields at a node.
+#[derive(Clone, Copy)]
+pub(crate) struct Fields<T> {
+    pub(crate) u: T,
+    pub(crate) phi: T,
+    pub(crate) v: T,
+    pub(crate) w: T,
+    pub(crate) theta: T,
+}
+
 impl Sums<f64> {
-    /// Over all elements; `weight` is that of the new velocity in the one that carries the step.
+    /// Over all elements of one case; `weight` is that of the new velocity in the one that carries the step.
     ///
     /// Without `LOSSES` the last three sums stay zero, for who asks for the change of the energy alone.
     pub(super) fn over<const LOSSES: bool>(lengths: &[f64], weight: f64, old: &Level, new: &Level) -> Self {
         let whole = lengths.len() / WIDTH * WIDTH;
         let mut lanes = Sums::<Lanes<WIDTH>>::zero();
         for first in (0..whole).step_by(WIDTH) {
-            lanes.add::<LOSSES>(lengths, weight, first, old, new);
+            lanes.add::<LOSSES>(weight, &Element::load(lengths, first, old, new));
         }
-        let mut sums = lanes.added_up();
-        for element in whole..lengths.len() {
-            sums.add::<LOSSES>(lengths, weight, element, old, new);
+        let mut parts = [0, 1, 2, 3].map(|k| lanes.of_lane(k));
+        for (part, element) in parts.iter_mut().zip(whole..lengths.len()) {
+            part.add::<LOSSES>(weight, &Element::load(lengths, element, old, new));
         }
-        sums
+        Self::added_up(&parts)
     }
 }
 
 impl<T: Lane> Sums<T> {
+    /// Over all elements of several cases, given by number.
+    #[inline(always)]
+    pub(crate) fn over_cases(elements: usize, weight: f64, element: impl Fn(usize) -> Element<T>) -> Self {
+        let mut parts = [Self::zero(); WIDTH];
+        for i in 0..elements {
+            parts[i % WIDTH].add::<true>(weight, &element(i));
+        }
+        Self::added_up(&parts)
+    }
+
     fn zero() -> Self {
         let zero = T::splat(0.0);
         Self {
@@ -58,35 +92,54 @@ impl<T: Lane> Sums<T> {
         }
     }
 
-    fn added_up(&self) -> Sums<f64> {
-        let sum = |value: T| (0..T::WIDTH).map(|k| value.lane(k)).sum();
-        Sums {
-            quadratic: sum(self.quadratic),
-            slope_squared: self.slope_squared.map(sum),
-            rotation_change: sum(self.rotation_change),
-            viscous: sum(self.viscous),
-            heat_flow: sum(self.heat_flow),
-            jump: sum(self.jump),
+    fn added_up([one, two, three, four]: &[Self; WIDTH]) -> Self {
+        one.plus(two).plus(three).plus(four)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        let [old, new] = self.slope_squared;
+        Self {
+            quadratic: self.quadratic + other.quadratic,
+            slope_squared: [old + other.slope_squared[0], new + other.slope_squared[1]],
+            rotation_change: self.rotation_change + other.rotation_change,
+            viscous: self.viscous + other.viscous,
+            heat_flow: self.heat_flow + other.heat_flow,
+            jump: self.jump + other.jump,
         }
     }
 
-    /// Adds the elements `first..first + T::WIDTH`.
+    /// Those of one lane.
+    pub(crate) fn of_lane(&self, k: usize) -> Sums<f64> {
+        Sums {
+            quadratic: self.quadratic.lane(k),
+            slope_squared: self.slope_squared.map(|value| value.lane(k)),
+            rotation_change: self.rotation_change.lane(k),
+            viscous: self.viscous.lane(k),
+            heat_flow: self.heat_flow.lane(k),
+            jump: self.jump.lane(k),
+        }
+    }
+
     #[inline(always)]
-    fn add<const LOSSES: bool>(&mut self, lengths: &[f64], weight: f64, first: usize, old: &Level, new: &Level) {
-        let h = T::load(&lengths[first..]);
-        let inverse = T::from_fn(|k| 1.0 / h.lane(k));
+    fn add<const LOSSES: bool>(&mut self, weight: f64, element: &Element<T>) {
+        let Element { length: h, inverse, old, new } = *element;
         let (half, sixth) = (T::splat(0.5), h * T::splat(1.0 / 6.0));
         let square = |p: T| p * p;
         // ∫ p q, (p_x) and (u_x - φ at both ends), of P1 functions given by their values at the ends.
         let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
-        let mean_and_jump = |y, y0| mean_and_jump::<T>(y, y0, first);
-        let (u, du) = mean_and_jump(&new.u, &old.u);
-        let (phi, dphi) = mean_and_jump(&new.phi, &old.phi);
-        let (v, dv) = mean_and_jump(&new.v, &old.v);
-        let (w, dw) = mean_and_jump(&new.w, &old.w);
-        let (theta, dtheta) = mean_and_jump(&new.theta, &old.theta);
+        // The mean of a field's two levels, and their difference. With them `½ (‖y‖² - ‖y0‖²)` is a product, in which
+        // nothing cancels.
+        let mean_and_jump = |of: fn(&Fields<T>) -> T| {
+            let (y, y0) = ([of(&new[0]), of(&new[1])], [of(&old[0]), of(&old[1])]);
+            ([half * (y[0] + y0[0]), half * (y[1] + y0[1])], [y[0] - y0[0], y[1] - y0[1]])
+        };
+        let (u, du) = mean_and_jump(|fields| fields.u);
+        let (phi, dphi) = mean_and_jump(|fields| fields.phi);
+        let (v, dv) = mean_and_jump(|fields| fields.v);
+        let (w, dw) = mean_and_jump(|fields| fields.w);
+        let (theta, dtheta) = mean_and_jump(|fields| fields.theta);
 
         let kinetic_and_thermal = product(v, dv) + product(w, dw) + product(theta, dtheta);
         let elastic = product(shear(u, phi), shear(du, dphi)) + h * slope(phi) * slope(dphi);
@@ -109,17 +162,22 @@ impl<T: Lane> Sums<T> {
     }
 }
 
-/// Of the elements from `first` on, at both ends: the mean of a field's two levels, and their difference. With them
-/// `½ (‖y‖² - ‖y0‖²)` is a product, in which nothing cancels.
-#[inline(always)]
-fn mean_and_jump<T: Lane>(y: &[f64], y0: &[f64], first: usize) -> ([T; 2], [T; 2]) {
-    let (y, y0) = (ends::<T>(y, first), ends::<T>(y0, first));
-    let half = T::splat(0.5);
-    ([half * (y[0] + y0[0]), half * (y[1] + y0[1])], [y[0] - y0[0], y[1] - y0[1]])
+impl<T: Lane> Element<T> {
+    /// The elements `first..first + T::WIDTH` of one case.
+    #[inline(always)]
+    fn load(lengths: &[f64], first: usize, old: &Level, new: &Level) -> Self {
+        let length = T::load(&lengths[first..]);
+        let inverse = T::from_fn(|k| 1.0 / length.lane(k));
+        let ends = |level| [Fields::load(level, first), Fields::load(level, first + 1)];
+        Self { length, inverse, old: ends(old), new: ends(new) }
+    }
 }
 
-/// A field's values at both ends of the elements from `first` on.
-#[inline(always)]
-fn ends<T: Lane>(y: &[f64], first: usize) -> [T; 2] {
-    [T::load(&y[first..]), T::load(&y[first + 1..])]
+impl<T: Lane> Fields<T> {
+    /// At the nodes `first..first + T::WIDTH` of one case.
+    #[inline(always)]
+    fn load(level: &Level, first: usize) -> Self {
+        let at = |y: &[f64]| T::load(&y[first..]);
+        Self { u: at(&level.u), phi: at(&level.phi), v: at(&level.v), w: at(&level.w), theta: at(&level.theta) }
+    }
 }

@@ -1,5 +1,6 @@
 //! How the nonlinear system of a step is solved.
 
+mod balance;
 mod bound;
 pub(crate) mod fixed_point;
 pub(crate) mod newton;

@@ -57,11 +57,13 @@ pub(super) struct Control {
     pub(super) increment_slope: f64,
     pub(super) tip: Tip,
     /// The contact force of the step that led to the old level.
-    force: f64,
+    pub(super) force: f64,
     pub(super) iterations: usize,
     /// Bound on the next increment.
     pub(super) increment: f64,
     pub(super) state: Progress,
+    /// Passes that the case took part in, and its factorisations: what it would have taken alone.
+    work: Work,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +81,7 @@ pub(super) enum Progress {
 /// The stepper: one case (`T = f64`) or several in lanes; B = 2 without, 3 with temperature.
 pub(crate) struct Newton<T, const B: usize> {
     pub(super) cases: Vec<Case>,
-    scheme: Scheme,
+    pub(super) scheme: Scheme,
     pub(super) settings: Settings,
     scalars: Scalars<T>,
     pub(super) elements: Vec<Element<T>>,
@@ -88,7 +90,7 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) old: Vec<[T; B]>,
     pub(super) new: Vec<[T; B]>,
     /// (v, w, -) at the old level and room for the new one; kept only where V is not the new velocity itself.
-    velocity: [Vec<[T; B]>; 2],
+    pub(super) velocity: [Vec<[T; B]>; 2],
     /// The scheme's inertia: `v = v0 + weight (V - v0)`.
     weight: T,
     /// X: the present step's first, then those of the steps before.
@@ -242,6 +244,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let elements = &self.elements;
         let of_lane = |e: Element<T>| Element { inverse: e.inverse.lane(k), sixth: e.sixth.lane(k) };
         self.work.factorizations += 1;
+        self.controls[k].work.factorizations += 1;
         // Unusable until the elimination has gone through.
         self.controls[k].factorized = f64::NAN;
         self.factor.factorize(k, m, |i| {
@@ -326,6 +329,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for (k, control) in self.controls.iter_mut().enumerate() {
             if control.state == state {
                 control.iterations += 1;
+                control.work.passes += 1;
                 control.new_slope_squared = sums.slope_squared.lane(k);
                 control.increment_slope = sums.increment_slope_squared.lane(k).sqrt();
             }
@@ -405,9 +409,25 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         level.contact_force = self.controls[k].force;
     }
 
-    /// The work done so far, all cases together.
+    /// The work done so far, all cases together: a pass of the lanes is one.
     pub(crate) fn work(&self) -> Work {
         self.work
+    }
+
+    /// The work that case k has needed so far, as much as it would have taken alone.
+    pub(crate) fn work_of(&self, k: usize) -> Work {
+        self.controls[k].work
+    }
+
+    /// u(1) of the present level of case k; its last good one if it has failed.
+    pub(crate) fn tip(&self, k: usize) -> f64 {
+        let tip = self.old.len() - 1;
+        self.frozen[k].as_ref().map_or(self.old[tip][0].lane(k), |frozen| frozen.u[tip])
+    }
+
+    /// The contact force of the last step of case k.
+    pub(crate) fn contact_force(&self, k: usize) -> f64 {
+        self.controls[k].force
     }
 }
 
@@ -429,6 +449,7 @@ impl Control {
             iterations: 0,
             increment: f64::NAN,
             state: Progress::Iterating,
+            work: Work::default(),
         }
     }
 }

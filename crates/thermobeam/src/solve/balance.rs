@@ -1,0 +1,47 @@
+//! The energy balance of the last step, from the levels as the stepper holds them: all lanes at once, nothing copied.
+
+use crate::energy::sums::{Element, Fields, Sums};
+use crate::energy::{Balance, Tip};
+use crate::lanes::Lane;
+use crate::solve::newton::{Newton, Progress};
+
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// [`Balance`] of the last step of every case that has done it; the others' stay as they are.
+    pub(crate) fn balances(&self, balances: &mut [Balance]) {
+        let sums = self.sums();
+        let scheme = self.scheme;
+        let tip = self.old.len() - 1;
+        for (k, balance) in
+            balances.iter_mut().enumerate().filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
+        {
+            let (case, control) = (&self.cases[k], &self.controls[k]);
+            // The step is done: its new level is called old already, and the room for the next holds the one before.
+            let tip = Tip { old: self.new[tip][0].lane(k), new: self.old[tip][0].lane(k), force: control.force };
+            let obstacles = case.obstacles.as_ref();
+            *balance = Balance::from_sums(&case.beam, obstacles, &scheme, case.dt, &sums.of_lane(k), tip);
+        }
+    }
+
+    fn sums(&self) -> Sums<T> {
+        let [velocity, before] = match &self.velocity {
+            [velocity, before] if !velocity.is_empty() => [velocity, before],
+            _ => [&self.ring[1], &self.ring[2]],
+        };
+        let count = self.elements.len();
+        // One length for all slices: the compiler then needs no bounds checks in the loop.
+        let (elements, old, new) = (&self.elements[..count], &self.new[..count], &self.old[..count]);
+        let (before, velocity) = (&before[..count], &velocity[..count]);
+        Sums::over_cases(count - 1, 1.0 / self.scheme.inertia, |i| Element {
+            length: T::from_fn(|k| self.cases[k].lengths[i]),
+            inverse: elements[i + 1].inverse,
+            old: [fields(&old[i], &before[i]), fields(&old[i + 1], &before[i + 1])],
+            new: [fields(&new[i], &velocity[i]), fields(&new[i + 1], &velocity[i + 1])],
+        })
+    }
+}
+
+#[inline(always)]
+fn fields<T: Lane, const B: usize>(state: &[T; B], velocity: &[T; B]) -> Fields<T> {
+    let theta = if B == 3 { state[2] } else { T::splat(0.0) };
+    Fields { u: state[0], phi: state[1], v: velocity[0], w: velocity[1], theta }
+}

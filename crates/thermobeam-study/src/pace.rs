@@ -5,6 +5,7 @@
 
 use crate::simulate;
 use crate::{outcome::Table, scene::Scene};
+use std::hint::black_box;
 use std::time::Instant;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
@@ -33,7 +34,15 @@ struct Setting<'a> {
     problem: Problem,
     scene: &'a Scene,
     settings: Settings,
-    observed: bool,
+    watch: Watch,
+}
+
+/// What is looked at after each step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Watch {
+    Nothing,
+    Energy,
+    Balance,
 }
 
 impl Setting<'_> {
@@ -49,17 +58,14 @@ impl Setting<'_> {
             let stepping =
                 Stepping { scheme: self.scene.scheme, settings: self.settings, dt: self.scene.dt, loaded: false };
             let mut simulation = Simulation::new(self.problem.clone(), stepping)?;
-            let mut level = Level::new(n + 1);
+            let mut levels = [simulation.level(), simulation.level()];
             let start = Instant::now();
             for _ in 0..steps {
                 // A scene that fails is timed up to there; the paper's do not.
                 if simulation.advance().is_err() {
                     break;
                 }
-                if self.observed {
-                    simulation.observe(&mut level);
-                    std::hint::black_box(simulation.energy(&level));
-                }
+                self.look(&mut simulation, &mut levels);
             }
             let done = simulation.step().max(1);
             let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / (n * done) as f64;
@@ -72,6 +78,20 @@ impl Setting<'_> {
         Ok(best)
     }
 
+    fn look(&self, simulation: &mut Simulation, levels: &mut [Level; 2]) {
+        if self.watch == Watch::Nothing {
+            return;
+        }
+        let [old, new] = levels;
+        simulation.observe(new);
+        if self.watch == Watch::Energy {
+            black_box(simulation.energy(new));
+        } else {
+            black_box(simulation.balance(old, new));
+        }
+        levels.swap(0, 1);
+    }
+
     /// The same for four equal cases in lanes.
     fn lanes(&self) -> Result<Pace, SetupError> {
         let (n, steps, cases) = (self.problem.mesh.elements(), self.steps(), 4);
@@ -80,8 +100,13 @@ impl Setting<'_> {
             let (problems, dt) = (vec![self.problem.clone(); cases], vec![self.scene.dt; cases]);
             let mut ensemble = Ensemble::new(problems, &dt, self.scene.scheme, self.settings)?;
             let start = Instant::now();
+            let mut balances = vec![];
             for _ in 0..steps {
                 ensemble.advance();
+                if self.watch != Watch::Nothing {
+                    ensemble.balances(&mut balances);
+                    black_box(&balances);
+                }
             }
             let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / (n * steps * cases) as f64;
             let work = ensemble.work();
@@ -99,7 +124,7 @@ impl Setting<'_> {
 
 fn setting(scene: &Scene, mesh: Mesh) -> Setting<'_> {
     let scene_on_mesh = Scene { mesh, ..scene.clone() };
-    Setting { problem: simulate::problem(&scene_on_mesh), scene, settings: scene.settings, observed: false }
+    Setting { problem: simulate::problem(&scene_on_mesh), scene, settings: scene.settings, watch: Watch::Nothing }
 }
 
 fn row(name: &str, pace: &Pace, against: f64) -> Vec<String> {
@@ -127,12 +152,15 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     let with = |settings: Settings| -> Result<Pace, SetupError> { Setting { settings, ..base()? }.pace() };
     let newton = with(scene.settings)?;
     let graded = setting(scene, Mesh::mapped(elements, |s| s + 0.1 * (std::f64::consts::TAU * s).sin())?).pace()?;
+    let balanced = || -> Result<Setting<'_>, SetupError> { Ok(Setting { watch: Watch::Balance, ..base()? }) };
     let rows = [
         ("the paper's fixed point", with(Settings { solver: Solver::FixedPoint, ..scene.settings })?),
         ("Newton from the level before", with(Settings { start: Start::Previous, ..scene.settings })?),
         ("Newton, extrapolated start", newton),
         ("the same on a graded mesh", graded),
         ("four cases in lanes, per case", base()?.lanes()?),
+        ("Newton, and the balance of each step", balanced()?.pace()?),
+        ("four cases in lanes with it, per case", balanced()?.lanes()?),
     ];
     let rows = rows.iter().map(|(name, pace)| row(name, pace, newton.nanoseconds)).collect();
     Ok(table(&format!("Ways to solve a step, {elements} elements"), "way", rows))
@@ -158,7 +186,7 @@ pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
         ("everything", whole),
         (
             "everything, observed with its energy at each step",
-            Setting { observed: true, ..setting(scene, Mesh::uniform(elements)?) }.pace()?,
+            Setting { watch: Watch::Energy, ..setting(scene, Mesh::uniform(elements)?) }.pace()?,
         ),
         ("no obstacles: no contact", change(&|problem| problem.obstacles = None)?),
         ("rho = 0: no iteration", change(&|problem| problem.beam.rho = 0.0)?),

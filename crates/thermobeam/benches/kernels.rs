@@ -79,6 +79,17 @@ fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
     bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.advance());
 }
 
+/// Items are the elements of all four cases.
+#[divan::bench(args = SIZES)]
+fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
+    let problems = vec![thrown(elements); 4];
+    let mut ensemble =
+        Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
+    ensemble.advance();
+    let mut balances = vec![];
+    bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.balances(black_box(&mut balances)));
+}
+
 #[divan::bench(args = SIZES)]
 fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
     let build = || simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);

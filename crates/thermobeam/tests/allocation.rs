@@ -1,6 +1,7 @@
 //! The time loop allocates nothing: all memory is taken when the simulation is set up.
 
 use std::f64::consts::PI;
+use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
@@ -59,6 +60,21 @@ fn the_time_loop_allocates_nothing() {
             }
         }
     }
+}
+
+#[test]
+fn lanes_with_their_balances_allocate_nothing() {
+    let (problems, dt) = ([true, false, true, true, false].map(thrown).to_vec(), [1e-3; 5]);
+    let mut ensemble = Ensemble::new(problems, &dt, SCHEMES[0], Settings::default()).unwrap();
+    let mut balances = Vec::with_capacity(5);
+    let info = allocation_counter::measure(|| {
+        for _ in 0..500 {
+            ensemble.advance();
+            ensemble.balances(&mut balances);
+            assert!(balances.iter().all(|balance| balance.residual.abs() < 1e-9));
+        }
+    });
+    assert_eq!(info.count_total, 0);
 }
 
 #[test]

@@ -193,3 +193,33 @@ impl<W: Write> InOrder<W> {
         self.output.flush()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_that_agree_are_grouped_by_four_in_the_order_of_their_cases() {
+        let folder = tempfile::tempdir().unwrap();
+        let base = "[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        std::fs::write(folder.path().join("base.toml"), base).unwrap();
+        let grid = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = [0.0, 1.0, 2.0, 3.0, 4.0]\n\
+            time.t_end = [0.6, 0.8]\ntime.dt = [0.2, 0.3]\n";
+        std::fs::write(folder.path().join("sweep.toml"), grid).unwrap();
+        let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
+        let indices: Vec<usize> = (0..sweep.cases()).collect();
+        let found: Vec<(Vec<usize>, usize)> =
+            groups(&sweep, &indices).into_iter().map(|group| (group.indices, group.scenes.len())).collect();
+        // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others differ in their number of steps.
+        let mut expected = vec![];
+        for case in 0..20 {
+            match case {
+                _ if case % 4 == 3 => expected.push((vec![case], 0)),
+                0..4 => expected.push((vec![case, case + 4, case + 8, case + 12], 4)),
+                16.. => expected.push((vec![case], 1)),
+                _ => {}
+            }
+        }
+        assert_eq!(found, expected);
+    }
+}

@@ -9,8 +9,8 @@
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
-use crate::exact::Factors;
 use crate::exact::errors::ErrorMeter;
+use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::study::CaseFailure;
 use crate::study_file::{Axis, ConvergenceSpec};

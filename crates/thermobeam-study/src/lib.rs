@@ -61,19 +61,15 @@ pub mod contract;
 pub mod design;
 pub mod document;
 pub mod estimate;
-pub mod exact;
-pub mod expression;
 pub mod fit;
 pub mod free_vibration;
 pub mod junit;
 mod limits;
 pub mod march;
-mod nearest;
 pub mod outcome;
 pub mod pace;
 pub mod plots;
 pub mod provenance;
-pub mod quadrature;
 mod random;
 pub mod rates;
 pub mod record;
@@ -93,6 +89,9 @@ pub mod verdict;
 pub mod verification;
 pub mod writing;
 pub mod yardstick;
+
+pub use thermobeam_exact as exact;
+pub use thermobeam_exact::{expression, quadrature};
 
 /// The code of the README, held by the doc tests.
 #[cfg(doctest)]

@@ -8,9 +8,6 @@ use crate::document::{Field, InputError};
 /// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
 pub(crate) const FILE_BYTES: u64 = 10_000_000;
 
-/// Depth of a function's syntax tree. Reading, evaluating and dropping a tree recurse: this bounds the stack they need.
-pub(crate) const EXPRESSION_DEPTH: usize = 256;
-
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a slip of the pen.
 pub(crate) const STEPS: usize = 10_000_000_000;
 

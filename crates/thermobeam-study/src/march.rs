@@ -6,7 +6,7 @@
 //! goes: [`Spent`].
 
 use crate::design;
-use crate::exact::Factors;
+use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::scene::Scene;
 use crate::simulate;

@@ -39,13 +39,14 @@ use thermobeam::parameters::{Beam, Obstacles};
 use crate::document::{self, InputError, Section};
 use crate::shared_tables as tables;
 
+pub use crate::exact::norm::Norm;
+pub use crate::exact::solution::{Manufactured, Product};
 pub use control::Control;
 pub(crate) use control::control;
+pub use expectation::Expectation;
 pub(crate) use expectation::expectations;
-pub use expectation::{Expectation, Norm};
 pub(crate) use header::header;
 pub use header::{CONVERGENCE, StudyHeader, Tier};
-pub use manufactured::{Manufactured, Product};
 pub(crate) use refine::refine;
 pub use refine::{Axis, Perturbation, Refine};
 

@@ -51,8 +51,8 @@ struct Tests {
 
 /// The cheapest first; each judges what those before it have missed.
 pub(super) const JUDGES: [Judge; 3] = [
-    Judge { name: "own tests but the slow ones", tests: first_tests },
-    Judge { name: "own tests", tests: own_tests },
+    Judge { name: "own tests that notice most", tests: first_tests },
+    Judge { name: "all tests about it", tests: own_tests },
     Judge { name: "quick tier", tests: quick_tier },
 ];
 
@@ -62,7 +62,8 @@ fn first_tests(target: &Target) -> Tests {
 }
 
 fn own_tests(target: &Target) -> Tests {
-    Tests { package: target.package, targets: target.tests.to_vec(), arguments: vec![] }
+    let (package, tests) = target.tests;
+    Tests { package, targets: tests.to_vec(), arguments: vec![] }
 }
 
 fn quick_tier(_: &Target) -> Tests {

@@ -14,20 +14,19 @@ pub(super) struct Target {
     pub(super) package: &'static str,
     /// Its files; none for all.
     files: &'static [&'static str],
-    /// Its tests, as arguments of `cargo test`.
-    pub(super) tests: &'static [&'static str],
-    /// Those of them that notice most mistakes: each binary is linked anew for each mutant.
+    /// Those of its own tests that notice most mistakes: each binary is linked anew for each mutant.
     pub(super) first: &'static [&'static str],
     /// Tests that the first judge leaves out, because they take longer than all others together.
     pub(super) slow: &'static [&'static str],
+    /// All tests that are about it: a package, and arguments of `cargo test`.
+    pub(super) tests: (&'static str, &'static [&'static str]),
 }
 
 /// The numerics, and what turns them into verdicts.
-const TARGETS: [Target; 2] = [
+const TARGETS: [Target; 3] = [
     Target {
         package: "thermobeam",
         files: &[],
-        tests: &["--tests"],
         first: &[
             "--lib",
             "--test=allocation",
@@ -45,24 +44,34 @@ const TARGETS: [Target; 2] = [
             "newton_converges_for_every_compliance_step_force_and_stiffness",
             "no_coefficient_is_too_extreme",
         ],
+        tests: ("thermobeam", &["--tests"]),
+    },
+    Target {
+        package: "thermobeam-exact",
+        files: &[],
+        first: &["--tests"],
+        slow: &[],
+        tests: ("thermobeam-study", &["--test=manufactured", "--test=input"]),
     },
     Target {
         package: "thermobeam-study",
         files: &[
-            "crates/thermobeam-study/src/exact/*.rs",
             "crates/thermobeam-study/src/fit.rs",
             "crates/thermobeam-study/src/fit/*.rs",
             "crates/thermobeam-study/src/verdict.rs",
             "crates/thermobeam-study/src/verdict/*.rs",
         ],
-        tests: &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured", "--test=calibration"],
         first: &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured"],
         slow: &["every_study_of_the_repository_is_explained"],
+        tests: (
+            "thermobeam-study",
+            &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured", "--test=calibration"],
+        ),
     },
 ];
 
 /// The packages of the targets.
-pub(super) const PACKAGES: [&str; 2] = [TARGETS[0].package, TARGETS[1].package];
+pub(super) const PACKAGES: [&str; TARGETS.len()] = [TARGETS[0].package, TARGETS[1].package, TARGETS[2].package];
 
 /// One mistake.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,8 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::expression::{ExpressionError, NotFinite, did_you_mean};
+use crate::exact::nearest::did_you_mean;
+use crate::expression::{ExpressionError, NotFinite};
 
 /// A place in a text file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

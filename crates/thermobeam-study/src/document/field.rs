@@ -6,8 +6,8 @@ use toml::de::{DeInteger, DeValue};
 
 use super::error::{Complaint, InputError};
 use super::{Section, Source};
+use crate::exact::nearest::nearest;
 use crate::expression::{Expression, NotFinite, Variable};
-use crate::nearest::nearest;
 
 /// A value of the document, with its dotted name.
 #[derive(Debug, Clone)]

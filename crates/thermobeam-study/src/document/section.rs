@@ -6,7 +6,7 @@ use toml::de::DeTable;
 
 use super::error::{Complaint, InputError};
 use super::{Field, Source};
-use crate::nearest::nearest;
+use crate::exact::nearest::nearest;
 
 /// A table of the document, with its dotted name.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use crate::document::InputError;
-use crate::nearest::nearest;
+use crate::exact::nearest::nearest;
 use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Norm, StudyHeader};
 use crate::verdict::Reason;
 use kinds::{KINDS, Kind};

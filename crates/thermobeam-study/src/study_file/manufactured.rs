@@ -3,30 +3,11 @@
 use thermobeam::parameters::Beam;
 
 use crate::document::{Field, InputError, Section};
-use crate::expression::{Expression, Variable};
+use crate::exact::solution::{Manufactured, Product};
+use crate::expression::Variable;
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;
-
-/// One term X(x) T(t).
-#[derive(Debug, Clone, PartialEq)]
-pub struct Product {
-    /// X, a function of x; finite on [0, 1] with its first two derivatives.
-    pub x: Expression,
-    /// T, a function of t; finite on [0, t_end] with its first two derivatives.
-    pub t: Expression,
-}
-
-/// An exact solution: a sum of products for each field, an empty one being 0.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Manufactured {
-    /// Displacement; each X is 0 at x = 0.
-    pub u: Vec<Product>,
-    /// Rotation; each X is 0 at x = 0.
-    pub phi: Vec<Product>,
-    /// Physical temperature; the sum is θ_A at x = 0 and 0 at x = 1.
-    pub theta: Vec<Product>,
-}
 
 /// The table `[exact]`.
 pub(super) fn manufactured(root: &Section<'_>, beam: &Beam, t_end: f64) -> Result<Manufactured, InputError> {

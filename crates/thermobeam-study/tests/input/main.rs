@@ -1,6 +1,5 @@
-//! Everything that a user can write: functions, scenes, study files, and what is said when they are wrong.
+//! Everything that a user can write: scenes, study files, and what is said when they are wrong.
 
-mod expression;
 mod limits;
 mod scene;
 mod study_file;

@@ -10,7 +10,7 @@
 //! elements times evaluations, each with three solves with M.
 
 use super::{Timed, WorkPrecision};
-use crate::exact::Factors;
+use crate::exact::factors::Factors;
 use crate::march::{OnMesh, Spent};
 use crate::study::CaseFailure;
 use crate::study::work_precision::method::Measurement;

@@ -1,9 +1,21 @@
+//! Functions as text: what they mean, their derivatives, and what is said when they are wrong.
+
 use std::f64::consts::{E, PI};
 
 use proptest::prelude::*;
-use thermobeam_study::expression::{Expression, Variable};
+use thermobeam_exact::expression::{Expression, Variable};
 
-use crate::says;
+/// Asserts that a message holds each of these pieces, in this order.
+#[track_caller]
+fn says(message: &str, pieces: &[&str]) {
+    let mut rest = message;
+    for piece in pieces {
+        match rest.split_once(piece) {
+            Some((_, after)) => rest = after,
+            None => panic!("not said, or not in this order: {piece:?}\n{message}"),
+        }
+    }
+}
 
 fn function(text: &str) -> Expression {
     Expression::parse(text, Variable::X).unwrap_or_else(|error| panic!("{error}"))

@@ -22,7 +22,6 @@ use std::fmt;
 
 use num_dual::Dual2_64;
 
-pub(crate) use error::did_you_mean;
 pub use error::{ExpressionError, ExpressionProblem, NotFinite};
 use syntax::Node;
 
@@ -51,12 +50,12 @@ impl Variable {
 /// A function of one variable, together with the text that it was read from.
 ///
 /// ```
-/// use thermobeam_study::expression::{Expression, Variable};
+/// use thermobeam_exact::expression::{Expression, Variable};
 ///
 /// let f = Expression::parse("x^3 - 2*x", Variable::X)?;
 /// assert_eq!(f.eval(2.0), 4.0);
 /// assert_eq!(f.derivatives(0.0), [0.0, -2.0, 0.0]);
-/// # Ok::<(), thermobeam_study::expression::ExpressionError>(())
+/// # Ok::<(), thermobeam_exact::expression::ExpressionError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
@@ -129,7 +128,7 @@ impl Expression {
     }
 
     /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is left out.
-    pub(crate) fn size(&self, end: f64) -> f64 {
+    pub fn size(&self, end: f64) -> f64 {
         let size_at = |at: f64| {
             let [value, first, _] = self.derivatives(at);
             let slope = (at * first).abs();

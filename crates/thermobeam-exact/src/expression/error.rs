@@ -5,6 +5,7 @@ use std::fmt;
 use thiserror::Error;
 
 use super::Variable;
+use crate::nearest::did_you_mean;
 
 /// A text that is not a function of its variable, and the place.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -70,11 +71,6 @@ pub enum ExpressionProblem {
         /// The depth allowed.
         allowed: usize,
     },
-}
-
-/// The second half of a complaint about an unknown name.
-pub(crate) fn did_you_mean(suggestion: &Option<String>) -> String {
-    suggestion.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
 }
 
 impl ExpressionError {

@@ -13,9 +13,9 @@
 //! θ is the physical temperature; its lifting θ_A (1 - x) is harmonic and drops out of f_θ, and the solver's own term
 //! `a θ_A` is the part of `a θ_x` that it carries.
 
-use crate::exact::Factors;
+use crate::factors::Factors;
 use crate::quadrature::RULE;
-use crate::study_file::{Manufactured, Product};
+use crate::solution::{Manufactured, Product};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
@@ -143,8 +143,8 @@ struct Matrices {
     slope: Tridiagonal,
 }
 
-/// X at the nodes.
-pub(crate) fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
+/// X of a product at the nodes of a mesh; exactly zero at x = 0 where it is zero up to its rounding error.
+pub fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
     let mut values: Vec<f64> = mesh.nodes().iter().map(|&x| product.x.eval(x)).collect();
     // Zero up to round-off by the boundary condition of u and φ; θ may start at θ_A.
     if values[0].abs() < product.x.roundoff(1.0) {
@@ -155,14 +155,18 @@ pub(crate) fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
 
 /// The products of a manufactured solution at the nodes of a mesh.
 #[derive(Debug, Clone)]
-pub(crate) struct Nodal {
-    pub(crate) u: Vec<Vec<f64>>,
-    pub(crate) phi: Vec<Vec<f64>>,
-    pub(crate) theta: Vec<Vec<f64>>,
+pub struct Nodal {
+    /// X_j of the displacement, n + 1 values each.
+    pub u: Vec<Vec<f64>>,
+    /// Y_k of the rotation.
+    pub phi: Vec<Vec<f64>>,
+    /// Z_l of the temperature.
+    pub theta: Vec<Vec<f64>>,
 }
 
 impl Nodal {
-    pub(crate) fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
+    /// Evaluates each product once at each node.
+    pub fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
         let of = |products: &[Product]| products.iter().map(|product| nodal(product, mesh)).collect();
         Self { u: of(&exact.u), phi: of(&exact.phi), theta: of(&exact.theta) }
     }

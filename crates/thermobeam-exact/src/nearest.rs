@@ -1,10 +1,15 @@
 //! The name that was probably meant: a typing error away from one that exists.
 
+/// The second half of a complaint about an unknown name.
+pub fn did_you_mean(suggestion: &Option<String>) -> String {
+    suggestion.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
+}
+
 /// The candidate closest to `name`, if it is close enough to be a typing error.
 ///
 /// Upper and lower case count as equal; otherwise at most one edit for every three letters, and at least one edit is
 /// always granted. Of equally close candidates the first is taken.
-pub(crate) fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // Nobody misspells a name this long; the distance costs the product of both lengths.
     const LONGEST: usize = 40;
     let name: Vec<char> = name.chars().take(LONGEST + 1).flat_map(char::to_lowercase).collect();

@@ -4,8 +4,10 @@ use super::Variable;
 use super::error::{ExpressionError, ExpressionProblem};
 use super::syntax::{FUNCTIONS, Function, Node, Operator};
 use super::token::{Token, TokenKind, next_token};
-use crate::limits::EXPRESSION_DEPTH as MAX_DEPTH;
 use crate::nearest::nearest;
+
+/// Depth of the syntax tree. Reading, evaluating and dropping a tree recurse: this bounds the stack they need.
+const MAX_DEPTH: usize = 256;
 
 /// How tightly a sign binds its operand: more than a product, less than a power.
 const SIGN: u8 = 5;

@@ -1,17 +1,6 @@
-//! Manufactured solutions: from sums of products to sources and errors.
-//!
-//! With `u = Σ X_j(x) T_j(t)`, `φ = Σ Y_k S_k`, `θ = Σ Z_l Q_l`, every load of the scheme is a sum of a time coefficient
-//! times a space vector that is computed once, and every error norm is a few dot products. A step then costs a few vector
-//! updates instead of quadrature.
-//!
-//! * [`Factors`]: T, T', T'' and their like at one time, exact or as the scheme sees them.
-//! * [`sources::Sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
-//! * [`errors::ErrorMeter`]: the norms of the contract.
+//! Time factors: T, T', T'' and their like at one time, exact or as a scheme sees them.
 
-pub mod errors;
-pub mod sources;
-
-use crate::study_file::{Manufactured, Product};
+use crate::solution::{Manufactured, Product};
 
 /// Time factors of one field: value, first and second derivative for each product.
 #[derive(Debug, Clone, PartialEq, Default)]

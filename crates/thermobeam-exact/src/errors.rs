@@ -8,10 +8,11 @@
 //! `(d, η_x) = -(d_x, η)`. That leaves `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p of u, φ,
 //! `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
 
-use crate::exact::Factors;
-use crate::exact::sources::nodal;
+use crate::factors::Factors;
+use crate::norm::Norm;
 use crate::quadrature::RULE;
-use crate::study_file::{Manufactured, Norm, Product};
+use crate::solution::{Manufactured, Product};
+use crate::sources::nodal;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::{TheoremSquares, l2_squared};
 use thermobeam::solve::Level;

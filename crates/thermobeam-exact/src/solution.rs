@@ -1,0 +1,23 @@
+//! Exact solutions: sums of products of a function of x and a function of t.
+
+use crate::expression::Expression;
+
+/// One term X(x) T(t).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Product {
+    /// X, a function of x; finite on [0, 1] with its first two derivatives.
+    pub x: Expression,
+    /// T, a function of t; finite on [0, t_end] with its first two derivatives.
+    pub t: Expression,
+}
+
+/// An exact solution: a sum of products for each field, an empty one being 0.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Manufactured {
+    /// Displacement; each X is 0 at x = 0.
+    pub u: Vec<Product>,
+    /// Rotation; each X is 0 at x = 0.
+    pub phi: Vec<Product>,
+    /// Physical temperature; the sum is θ_A at x = 0 and 0 at x = 1.
+    pub theta: Vec<Product>,
+}

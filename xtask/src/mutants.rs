@@ -1,7 +1,7 @@
 //! `mutants`: the solver and the verdicts with one mistake at a time, to see whether the tests notice.
 //!
 //! `cargo-mutants` makes the mistakes and runs the tests. What it found is kept in `target/mutants/`, one line a mutant, so
-//! that a run that is killed goes on where it was, and a mutant is judged again only when its file has changed. First
+//! that a run that is killed goes on where it was, and a mutant is judged again only when the code of its file has changed. First
 //! judge are the tests of its own package, the slow ones last; what they miss is for the quick tier of `verify`. A survivor must be on the
 //! list of those that change nothing, each with its reason, or the command fails.
 

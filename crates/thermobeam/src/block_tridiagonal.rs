@@ -172,6 +172,15 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_pivot_that_is_zero_or_of_the_wrong_sign_or_no_number_is_refused() {
+        for pivot in [0.0, -1.0, f64::NAN] {
+            let refused = invert([[1.0, 0.0], [0.0, pivot]], [1.0, 1.0]).unwrap_err();
+            assert_eq!(refused.to_bits(), pivot.to_bits());
+        }
+        assert_eq!(invert([[1.0, 0.0], [0.0, -4.0]], [1.0, -1.0]), Ok([[1.0, 0.0], [0.0, -0.25]]));
+    }
+
     proptest! {
         #[test]
         fn a_solve_agrees_with_a_dense_one(seed in proptest::collection::vec(-1.0..1.0f64, 80)) {

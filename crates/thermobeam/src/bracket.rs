@@ -12,6 +12,7 @@ const SECTIONS: usize = 90;
 /// The point between `lo` and `hi` where f changes sign, down to two neighbouring floats.
 ///
 /// * f must have one sign at `lo` and the other, or zero, at `hi`; neither is evaluated again apart from the sign at `lo`.
+///   Zero counts with the negative numbers: of a function that is zero on one side, this is where it ceases to be.
 /// * Returns one of the two floats between which the sign changes.
 pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
     let starts_positive = f(lo) > 0.0;
@@ -63,6 +64,32 @@ mod tests {
         assert!((root - 2.0_f64.sqrt()).abs() <= 2.0 * f64::EPSILON);
         let falling = bisect(|x| 1e-200 - x, 0.0, 1e300);
         assert!((falling - 1e-200).abs() <= 1e-215);
+    }
+
+    #[test]
+    fn zero_counts_with_the_negative_numbers() {
+        let above = |x: f64| (x - 1.0).max(0.0);
+        for (lo, hi) in [(0.0, 2.0), (0.0, 3.0), (2.0, 0.0), (3.0, -1.0)] {
+            assert!((bisect(above, lo, hi) - 1.0).abs() <= 2.0 * f64::EPSILON, "{lo} {hi}");
+        }
+    }
+
+    #[test]
+    fn the_search_for_a_top_ends_where_enough_is_exceeded() {
+        let search = |f: fn(f64) -> f64, enough: f64| {
+            let count = std::cell::Cell::new(0);
+            let counted = |x| {
+                count.set(count.get() + 1);
+                f(x)
+            };
+            let (x, value) = climb(counted, 0.0, 1.0, enough);
+            (x < 0.5, value, count.get())
+        };
+        assert_eq!(search(|x| if x < 0.5 { 1.0 } else { 0.0 }, 0.5), (true, 1.0, 2));
+        assert_eq!(search(|x| if x > 0.5 { 1.0 } else { 0.0 }, 0.5), (false, 1.0, 2));
+        // As much as enough is not more.
+        assert_eq!(search(|x| if x < 0.5 { 1.0 } else { 0.0 }, 1.0).2, 2 + SECTIONS);
+        assert_eq!(search(|x| if x > 0.5 { 1.0 } else { 0.0 }, 1.0).2, 2 + SECTIONS);
     }
 
     #[test]

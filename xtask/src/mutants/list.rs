@@ -84,7 +84,7 @@ pub(super) struct Mutant {
     pub(super) what: String,
     /// The line of the file, without blanks at its ends.
     pub(super) code: String,
-    /// Hash of the file: an outcome holds for this text only.
+    /// Hash of the file but for its tests: an outcome holds for this text only.
     pub(super) text: u64,
     /// Of which package.
     pub(super) target: &'static Target,
@@ -127,8 +127,13 @@ fn mutant(root: &Path, name: &str, target: &'static Target) -> Option<Mutant> {
     let (file, line) = (place.next()?, place.next()?.parse::<usize>().ok()?);
     let text = std::fs::read_to_string(root.join(file)).ok()?;
     let code = text.lines().nth(line - 1)?.trim().to_owned();
-    let text = content_hash(text.as_bytes());
+    let text = content_hash(without_tests(&text).as_bytes());
     Some(Mutant { name: name.to_owned(), file: file.to_owned(), what: what.to_owned(), code, text, target })
+}
+
+/// A source up to its tests, which stand at its end: a test that is added does not undo what others have noticed.
+fn without_tests(text: &str) -> &str {
+    text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text)
 }
 
 /// The first `count` of a package in an order that the seed and each mutant's own name make.

@@ -2,18 +2,13 @@
 
 use std::path::Path;
 
-use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
 use thermobeam_study::design::{Defect, Disagreement, Prepared};
-use thermobeam_study::exact::errors::ErrorMeter;
-use thermobeam_study::exact::factors::Factors;
-use thermobeam_study::expression::{Expression, Variable};
 use thermobeam_study::study::controls::Controls;
 use thermobeam_study::study::convergence::Convergence;
 use thermobeam_study::study::energy::EnergyDecay;
 use thermobeam_study::study::fixed_point::FixedPoint;
 use thermobeam_study::study::{CaseFailure, Measured, Study};
-use thermobeam_study::study_file::{ConvergenceSpec, Manufactured, Norm, Product};
+use thermobeam_study::study_file::{ConvergenceSpec, Norm};
 use thermobeam_study::verdict::Verdict;
 
 fn file(name: &str) -> std::path::PathBuf {
@@ -200,68 +195,4 @@ fn no_nan_and_no_wrong_contraction_passes_for_the_fixed_point() {
         }
     }
     assert!(judged > 60, "{judged} of the planted mistakes were seen");
-}
-
-/// The root of `∫ f²` over [0, 1], by the midpoint rule on many panels of each element: nothing in common with the meter.
-fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
-    const PANELS: usize = 2000;
-    let on_element = |(i, ends): (usize, &[f64])| {
-        let h = (ends[1] - ends[0]) / PANELS as f64;
-        (0..PANELS).map(|k| f(i, ends[0] + (k as f64 + 0.5) * h).powi(2) * h).sum::<f64>()
-    };
-    mesh.nodes().windows(2).enumerate().map(on_element).sum::<f64>().sqrt()
-}
-
-#[test]
-fn the_errors_are_those_of_brute_force_far_from_the_solution() {
-    let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap(),
-        t: Expression::parse(t, Variable::T).unwrap(),
-    };
-    let exact = Manufactured {
-        u: vec![product("sin(2*x)", "cos(t)"), product("x^2", "1 + t")],
-        phi: vec![product("x*exp(x)", "exp(-t)"), product("sin(5*x)", "t^2")],
-        theta: vec![product("cos(3*x)", "1 - t^2")],
-    };
-    let mesh = Mesh::from_nodes(vec![0.0, 0.3, 0.45, 1.0]).unwrap();
-    let (t, theta_a) = (0.7, 2.0);
-    let mut factors = Factors::default();
-    factors.at(&exact, t);
-    let level = Level {
-        u: vec![0.0, 0.5, -0.2, 1.0],
-        v: vec![0.0, -1.0, 0.3, 0.4],
-        phi: vec![0.0, 0.7, 0.1, 2.0],
-        w: vec![0.0, 0.2, -0.6, 1.5],
-        theta: vec![0.4, -0.3, 0.8, 0.0],
-        contact_force: 0.0,
-    };
-    let value = |y: &[f64], i: usize, x: f64| {
-        let [a, b] = [mesh.nodes()[i], mesh.nodes()[i + 1]];
-        y[i] + (y[i + 1] - y[i]) * (x - a) / (b - a)
-    };
-    let slope = |y: &[f64], i: usize| (y[i + 1] - y[i]) / (mesh.nodes()[i + 1] - mesh.nodes()[i]);
-    // The kth derivative in x, with the jth of the time factors.
-    let sum = |products: &[Product], x: f64, k: usize, j: usize| -> f64 {
-        products.iter().map(|p| p.x.derivatives(x)[k] * p.t.derivatives(t)[j]).sum()
-    };
-    let Manufactured { u, phi, theta } = &exact;
-    let parts = [
-        l2_norm(&mesh, |i, x| value(&level.v, i, x) - sum(u, x, 0, 1)),
-        l2_norm(&mesh, |i, x| slope(&level.u, i) - value(&level.phi, i, x) - (sum(u, x, 1, 0) - sum(phi, x, 0, 0))),
-        l2_norm(&mesh, |i, x| value(&level.w, i, x) - sum(phi, x, 0, 1)),
-        l2_norm(&mesh, |i, x| slope(&level.phi, i) - sum(phi, x, 1, 0)),
-        l2_norm(&mesh, |i, x| value(&level.theta, i, x) + theta_a * (1.0 - x) - sum(theta, x, 0, 0)),
-    ];
-    let norm = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
-    let displacement = l2_norm(&mesh, |i, x| value(&level.u, i, x) - sum(u, x, 0, 0));
-    let mut meter = ErrorMeter::new(&exact, &mesh, false);
-    meter.lift(&mesh, theta_a);
-    let found = meter.measure(&level, &factors);
-    for (k, expected) in parts.into_iter().chain([norm, displacement]).enumerate() {
-        assert!((found[k] / expected - 1.0).abs() < 2e-6, "{:?}: {} {expected}", Norm::ALL[k], found[k]);
-    }
-    // Against the interpolant only nodal values count.
-    let mut nodal = ErrorMeter::new(&exact, &mesh, true);
-    nodal.lift(&mesh, theta_a);
-    assert!((nodal.measure(&level, &factors)[5] / found[7] - 1.0).abs() < 1e-14);
 }

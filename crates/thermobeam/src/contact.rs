@@ -200,6 +200,16 @@ mod tests {
     }
 
     #[test]
+    fn a_tip_between_the_obstacles_is_free_even_where_it_stands_at_zero() {
+        for rule in [ContactRule::Implicit, ContactRule::DiscreteGradient] {
+            for r in [0.0, -0.0, 0.05, -0.005] {
+                let tip = Obstacles::default().solve_tip(rule, r, 1.0, 0.0);
+                assert_eq!([tip.u, tip.force, tip.stiffness], [r, 0.0, 0.0]);
+            }
+        }
+    }
+
+    #[test]
     fn a_tip_that_is_not_a_number_stays_visible() {
         let tip = Obstacles::default().solve_tip(ContactRule::Implicit, f64::NAN, 1.0, 0.0);
         assert!(tip.u.is_nan() && tip.force.is_nan());

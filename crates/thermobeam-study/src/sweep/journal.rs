@@ -6,8 +6,8 @@
 //! | `journal.jsonl` | a line for each case that is done, as they came; gone when all are |
 //! | `results.jsonl` | the same lines in the order of the cases, when all are done |
 //!
-//! A line is written by one call of the operating system, when its case is done and before the next one begins. So a
-//! process that is killed loses the cases that it was at, and leaves at most one torn line, which the next one removes.
+//! A line is written by one call of the operating system, when its case is done, with those that ran side by side, and before
+//! the next ones begin. So a process that is killed loses the cases that it was at, and leaves at most one torn line, which the next one removes.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};

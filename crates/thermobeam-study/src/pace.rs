@@ -10,7 +10,7 @@ use std::time::Instant;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::{Problem, Simulation, Stepping};
+use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings, Solver, Start};
 
 /// Elements times steps of one timed run: some ten milliseconds.
@@ -204,16 +204,29 @@ pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     Ok(table(&format!("What a scene pays for, {elements} elements"), "scene", rows))
 }
 
-/// Cost over the number of elements.
+/// Cost and memory over the number of elements, of one case and of each of four in lanes.
 ///
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up.
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
-    let paces = elements
-        .iter()
-        .map(|&n| Ok((n, setting(scene, Mesh::uniform(n)?).pace()?)))
-        .collect::<Result<Vec<_>, SetupError>>()?;
-    let against = paces.iter().find(|(n, _)| *n >= 1000).map_or(f64::NAN, |(_, pace)| pace.nanoseconds);
-    let rows = paces.iter().map(|(n, pace)| row(&n.to_string(), pace, against)).collect();
-    Ok(table("Over the number of elements; the ratio is to the first mesh of 1000 or more", "elements", rows))
+    let pace = |&n: &usize| {
+        let setting = setting(scene, Mesh::uniform(n)?);
+        Ok((n, setting.pace()?, setting.lanes()?))
+    };
+    let paces = elements.iter().map(pace).collect::<Result<Vec<_>, SetupError>>()?;
+    let against = paces.iter().find(|(n, ..)| *n >= 1000).map_or(f64::NAN, |(_, pace, _)| pace.nanoseconds);
+    let row = |(n, alone, lanes): &(usize, Pace, Pace)| {
+        vec![
+            n.to_string(),
+            format!("{:.1}", alone.nanoseconds),
+            format!("{:.2}", alone.nanoseconds / against),
+            format!("{:.1}", lanes.nanoseconds),
+            format!("{:.3}", alone.passes),
+            format!("{:.2}", (n * BYTES_PER_ELEMENT) as f64 / f64::from(1 << 20)),
+        ]
+    };
+    let head = ["elements", "ns per element and step", "ratio", "in lanes, per case", "passes a step", "MiB a case"];
+    let title = "Over the number of elements; the ratio is to the first mesh of 1000 or more. Past the caches a step takes as long \
+                 as its numbers take to come from memory and go back";
+    Ok(Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows: paces.iter().map(row).collect() })
 }

@@ -63,9 +63,12 @@ pub struct Stepping {
     pub loaded: bool,
 }
 
+/// Memory of a heated simulation by Newton's method, in bytes an element: 144 are the factorisation's.
+pub const BYTES_PER_ELEMENT: usize = 392;
+
 /// A running simulation, standing at one time level.
 ///
-/// It holds 392 bytes an element by Newton's method, 256 where nothing is heated, and 248 by the fixed point.
+/// It holds [`BYTES_PER_ELEMENT`] by Newton's method, 256 where nothing is heated, and 248 by the fixed point.
 pub struct Simulation {
     problem: Problem,
     lengths: Vec<f64>,

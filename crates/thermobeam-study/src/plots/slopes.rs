@@ -129,10 +129,17 @@ impl Triangle {
             corners: [(self.left, self.base), (self.right, self.base), (self.right, self.top())].map(value).to_vec(),
             texts: vec![
                 ("1".to_owned(), value(foot), (0.0, 13.0), Anchor::Middle),
-                (format!("{}", self.order), value(side), (7.0, 0.0), Anchor::Start),
+                (written(self.order), value(side), (7.0, 0.0), Anchor::Start),
             ],
         }
     }
+}
+
+/// An order in a picture: 2/3 rather than 0.6666666666666666.
+fn written(order: f64) -> String {
+    let thirds = 3.0 * order;
+    let is_fraction = thirds.fract() == 0.0 && order.fract() != 0.0;
+    if is_fraction { format!("{thirds}/3") } else { order.to_string() }
 }
 
 #[cfg(test)]
@@ -165,6 +172,11 @@ mod tests {
         let line = Trend { order: None, points: vec![(middle, -0.5), (middle, -8.0)] };
         let [left, right] = place(&[curve, line]);
         assert!(right < middle || middle < left, "{left} to {right} around {middle}");
+    }
+
+    #[test]
+    fn an_order_is_written_as_one_reads_it() {
+        assert_eq!([1.0, 2.0, 0.5, 2.0 / 3.0, 4.0 / 3.0].map(written), ["1", "2", "0.5", "2/3", "4/3"]);
     }
 
     #[test]

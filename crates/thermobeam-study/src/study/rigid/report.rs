@@ -137,7 +137,7 @@ fn penetrations(study: &RigidStudy, found: &Found<'_>) -> String {
                 ..ErrorSeries::default()
             },
         ],
-        slopes: vec![1.0],
+        slopes: vec![1.0, 2.0 / 3.0],
         ..Convergence::default()
     })
 }

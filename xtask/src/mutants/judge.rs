@@ -140,10 +140,10 @@ fn judged<'m>(folder: &Path, mutants: &[&'m Mutant]) -> Vec<(&'m Mutant, Judged)
     Judged::ALL.into_iter().flat_map(read).collect()
 }
 
-/// A text as a regular expression that matches it alone. Angle brackets stand for themselves; escaped they are the edges of
-/// words.
+/// A text as a regular expression that matches it alone. Only what means something there may be escaped: not a dash of a
+/// typesetter's, nor angle brackets, which escaped are the edges of words.
 fn escaped(text: &str) -> String {
-    let special = |c: char| !(c.is_alphanumeric() || "_ /<>".contains(c));
+    let special = |c: char| c.is_ascii_punctuation() && !"_/<>".contains(c);
     text.chars().flat_map(|c| special(c).then_some('\\').into_iter().chain([c])).collect()
 }
 
@@ -152,8 +152,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_is_escaped_but_for_its_angle_brackets() {
+    fn only_what_means_something_in_an_expression_is_escaped() {
         let name = "src/a.rs:3:9: replace f -> Vec<f64> with vec![]";
         assert_eq!(escaped(name), r"src/a\.rs\:3\:9\: replace f \-> Vec<f64> with vec\!\[\]");
+        assert_eq!(escaped("delete match arm \"−\" | 'φ_1'"), "delete match arm \\\"−\\\" \\| \\'φ_1\\'");
     }
 }

@@ -259,6 +259,18 @@ fn a_function_that_is_not_finite_is_refused_at_the_place() {
 #[test]
 fn an_expression_shows_the_text_it_was_read_from() {
     assert_eq!(function(" 0.01*x * (x-2)").to_string(), " 0.01*x * (x-2)");
+    assert_eq!(function("2 * x").source(), "2 * x");
+}
+
+#[test]
+fn the_size_of_a_function_is_what_rounding_errors_of_it_and_of_its_argument_grow_with() {
+    // max (|f| + |x f'|): of x² it is 3x² at the end, of 1 + x/2 it is 1 + x.
+    for (text, size) in [("x^2", 12.0), ("-x^2", 12.0), ("1 + x/2", 3.0), ("7", 7.0)] {
+        let function = function(text);
+        assert_eq!((function.size(2.0), function.roundoff(2.0)), (size, 8.0 * f64::EPSILON * size), "{text}");
+    }
+    // The slope of the root is infinite at 0 and is left out there.
+    assert!((function("sqrt(x)").size(4.0) - 3.0).abs() < 1e-12);
 }
 
 /// Texts that are more often nearly right than arbitrary characters are.

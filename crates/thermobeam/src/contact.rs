@@ -200,6 +200,17 @@ mod tests {
     }
 
     #[test]
+    fn the_positive_root_cancels_nothing_and_may_be_zero() {
+        // x² + b x = c, for large b of either sign.
+        for (b, c, root) in
+            [(1e9, 1.0, 1e-9), (-1e9, 1.0, 1e9), (0.0, 4.0, 2.0), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (3.0, 4.0, 1.0)]
+        {
+            assert!((positive_root(1.0, b, c) - root).abs() <= 1e-15 * root, "{b} {c}");
+        }
+        assert_eq!(positive_root(2.0, 2.0, 12.0), 2.0);
+    }
+
+    #[test]
     fn a_tip_between_the_obstacles_is_free_even_where_it_stands_at_zero() {
         for rule in [ContactRule::Implicit, ContactRule::DiscreteGradient] {
             for r in [0.0, -0.0, 0.05, -0.005] {

@@ -133,6 +133,19 @@ mod tests {
     }
 
     #[test]
+    fn on_one_element_the_contact_lag_is_a_fraction_of_numbers() {
+        let (beam, obstacles) =
+            (Beam { zeta: 0.3, ..Beam::default() }, Obstacles { epsilon: 0.01, ..Obstacles::default() });
+        let (dt, n_value) = (0.1, 2.0);
+        for (scheme, slope) in [(EULER_CRANK_NICOLSON, 100.0), (MIDPOINT, 50.0)] {
+            // The tip's hat function has the mass 1/3 and the stiffness 1.
+            let operator = scheme.inertia / dt / 3.0 + 0.3 + 0.5 * dt * 3.0;
+            let found = contact_contraction(&beam, &obstacles, &[1.0], &scheme, dt, n_value);
+            assert!((found / (dt * slope / operator) - 1.0).abs() < 1e-14, "{found}");
+        }
+    }
+
+    #[test]
     fn the_coupling_lag_is_that_of_the_layer_at_the_free_end_where_it_is_thin() {
         let beam = Beam { zeta: 0.1, ..Beam::default() };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {

@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Mutants at a time, each with build folder and processes of its own
     #[arg(long, value_name = "N", default_value_t = NonZeroUsize::MIN)]
     jobs: NonZeroUsize,
-    /// Judge those again that were missed, after a test was added
+    /// Judge those again that were missed and not accepted, after a test was added
     #[arg(long)]
     again: bool,
     /// Judge nothing, and write the report on what has been judged
@@ -57,13 +57,18 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let chosen = |package: &&str| arguments.package.as_ref().is_none_or(|name| name == *package);
     let of = |package| list::sample(&all, package, arguments.seed, arguments.sample);
     let sample: Vec<_> = list::PACKAGES.into_iter().filter(chosen).flat_map(of).collect();
-    let mut ledger = Ledger::open(&root, arguments.again)?;
+    let mut ledger = Ledger::open(&root)?;
+    let is_accepted = |mutant: &Mutant| accepted.reason(mutant).is_some();
+    if arguments.again {
+        sample.iter().filter(|mutant| !is_accepted(mutant)).for_each(|mutant| ledger.forget_missed(mutant));
+    }
     let count = sample.len();
     interrupt::say(move || format!("the same command goes on where it was, with {count} mutants in all"));
     for (level, judge) in JUDGES.iter().enumerate().filter(|_| !arguments.report) {
         loop {
-            let mut open: Vec<&Mutant> =
-                sample.iter().copied().filter(|mutant| ledger.is_open(mutant, level)).collect();
+            // What is accepted needs one judge only, in case it is noticed after all.
+            let is_open = |mutant: &&Mutant| ledger.is_open(mutant, level) && (level == 0 || !is_accepted(mutant));
+            let mut open: Vec<&Mutant> = sample.iter().copied().filter(is_open).collect();
             // In the order of the sources: from one mutant to the next, the compiler then finds little that has changed.
             open.sort_by_key(|mutant| mutant.place());
             let Some(first) = open.first() else { break };
@@ -75,13 +80,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             }
         }
     }
-    let judged = |mutant| ledger.of(mutant).is_some() || sample.contains(&mutant);
-    let findings: Vec<_> =
-        all.iter().filter(|mutant| judged(mutant)).map(|mutant| (mutant, ledger.of(mutant))).collect();
+    let last_word = |mutant: &Mutant| ledger.of(mutant, is_accepted(mutant));
+    let judged = |mutant: &&Mutant| last_word(mutant).is_some() || sample.contains(mutant);
+    let findings: Vec<_> = all.iter().filter(judged).map(|mutant| (mutant, last_word(mutant))).collect();
     let page = report::page(&findings, &all, arguments.seed, &accepted);
     atomic::write(&root.join("reports/mutants.md"), &page)?;
     let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));
-    let bare = survivors.filter(|(mutant, _)| accepted.reason(mutant).is_none()).count();
+    let bare = survivors.filter(|(mutant, _)| !is_accepted(mutant)).count();
     let stale = accepted.stale(&all);
     output::print(&format!("{}\nreport: reports/mutants.md\n", report::sentence(&findings, &accepted)))?;
     stale.iter().for_each(|entry| output::complain(&format!("{}: no such mutant: {entry}", accepted::FILE)));

@@ -17,9 +17,7 @@ pub(super) struct Ledger {
 
 impl Ledger {
     /// Opens it in the workspace's `target/mutants`.
-    ///
-    /// * `again`: whether to forget what was missed.
-    pub(super) fn open(root: &Path, again: bool) -> io::Result<Self> {
+    pub(super) fn open(root: &Path) -> io::Result<Self> {
         let path = root.join("target/mutants/outcomes.tsv");
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
         let text = match fs::read_to_string(&path) {
@@ -30,16 +28,18 @@ impl Ledger {
         for (key, level, judged) in text.lines().filter_map(entry) {
             known.entry(key).or_insert([None; JUDGES.len()])[level] = Some(judged);
         }
-        if again {
-            let levels = known.values_mut().flatten();
-            levels.filter(|judged| **judged == Some(Judged::Missed)).for_each(|judged| *judged = None);
-        }
         let mut file = OpenOptions::new().create(true).append(true).open(&path)?;
         if !text.is_empty() && !text.ends_with('\n') {
             // A line that a killed run has left torn is no entry; the next one begins on its own.
             file.write_all(b"\n")?;
         }
         Ok(Self { file, known })
+    }
+
+    /// Forgets who has missed a mutant.
+    pub(super) fn forget_missed(&mut self, mutant: &Mutant) {
+        let levels = self.known.get_mut(&key(mutant)).into_iter().flatten();
+        levels.filter(|judged| **judged == Some(Judged::Missed)).for_each(|judged| *judged = None);
     }
 
     /// Keeps what a judge said.
@@ -56,9 +56,13 @@ impl Ledger {
         levels[level].is_none() && levels[..level].iter().all(|judged| *judged == Some(Judged::Missed))
     }
 
-    /// The last word on a mutant; `None` while it is open.
-    pub(super) fn of(&self, mutant: &Mutant) -> Option<Judged> {
+    /// The last word on a mutant; `None` while it is open. One that is accepted need not be missed by more than the first
+    /// judge.
+    pub(super) fn of(&self, mutant: &Mutant, is_accepted: bool) -> Option<Judged> {
         let levels = self.known.get(&key(mutant)).copied().unwrap_or_default();
+        if is_accepted {
+            return levels.into_iter().flatten().last();
+        }
         match levels.iter().find(|judged| **judged != Some(Judged::Missed)) {
             Some(judged) => *judged,
             None => Some(Judged::Missed),

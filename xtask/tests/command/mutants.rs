@@ -93,6 +93,15 @@ fn a_survivor_fails_until_a_test_catches_it_or_a_reason_is_given() {
     let explained = mutants(&root, &[]);
     assert_eq!(explained.status, Some(0), "{}{}", explained.stdout, explained.stderr);
     assert!(page().contains("| `c * d;` | d is 1 |"), "{}", page());
+    // What is accepted is not judged again, and is shown to one judge only.
+    let before = calls(&root);
+    assert_eq!((mutants(&root, &["--again"]).status, calls(&root)), (Some(0), before));
+    fs::remove_file(root.join("target/mutants/outcomes.tsv")).expect("a ledger");
+    assert_eq!((mutants(&root, &[]).status, calls(&root)), (Some(0), before + 1));
+    // A test that is added to a file changes nothing of what is known.
+    let tested = fs::read_to_string(root.join("src/a.rs")).expect("a file") + "\n#[cfg(test)]\nmod tests {}\n";
+    fs::write(root.join("src/a.rs"), tested).expect("a file");
+    assert_eq!((mutants(&root, &[]).status, calls(&root)), (Some(0), before + 1));
     entry(" ");
     assert_eq!(mutants(&root, &[]).status, Some(2));
 

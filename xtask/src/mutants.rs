@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Mutants at a time, each with build folder and processes of its own
     #[arg(long, value_name = "N", default_value_t = NonZeroUsize::MIN)]
     jobs: NonZeroUsize,
-    /// Judge those again that were missed and not accepted, after a test was added
+    /// Judge those again that a judge has missed and that are not accepted, after a test was added, and no others
     #[arg(long)]
     again: bool,
     /// Judge nothing, and write the report on what has been judged
@@ -56,11 +56,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let all = list::mutants(&root)?;
     let chosen = |package: &&str| arguments.package.as_ref().is_none_or(|name| name == *package);
     let of = |package| list::sample(&all, package, arguments.seed, arguments.sample);
-    let sample: Vec<_> = list::PACKAGES.into_iter().filter(chosen).flat_map(of).collect();
+    let mut sample: Vec<_> = list::PACKAGES.into_iter().filter(chosen).flat_map(of).collect();
     let mut ledger = Ledger::open(&root)?;
     let is_accepted = |mutant: &Mutant| accepted.reason(mutant).is_some();
     if arguments.again {
-        sample.iter().filter(|mutant| !is_accepted(mutant)).for_each(|mutant| ledger.forget_missed(mutant));
+        sample.retain(|mutant| !is_accepted(mutant) && ledger.forget_missed(mutant));
     }
     let count = sample.len();
     interrupt::say(move || format!("the same command goes on where it was, with {count} mutants in all"));

@@ -36,10 +36,14 @@ impl Ledger {
         Ok(Self { file, known })
     }
 
-    /// Forgets who has missed a mutant.
-    pub(super) fn forget_missed(&mut self, mutant: &Mutant) {
-        let levels = self.known.get_mut(&key(mutant)).into_iter().flatten();
-        levels.filter(|judged| **judged == Some(Judged::Missed)).for_each(|judged| *judged = None);
+    /// Forgets who has missed a mutant; whether anybody has and nobody noticed it.
+    pub(super) fn forget_missed(&mut self, mutant: &Mutant) -> bool {
+        let Some(levels) = self.known.get_mut(&key(mutant)) else { return false };
+        let is_missed = levels.iter().flatten().all(|judged| *judged == Judged::Missed);
+        if is_missed {
+            *levels = [None; JUDGES.len()];
+        }
+        is_missed
     }
 
     /// Keeps what a judge said.

@@ -81,8 +81,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
     }
     let last_word = |mutant: &Mutant| ledger.of(mutant, is_accepted(mutant));
-    let judged = |mutant: &&Mutant| last_word(mutant).is_some() || sample.contains(mutant);
-    let findings: Vec<_> = all.iter().filter(judged).map(|mutant| (mutant, last_word(mutant))).collect();
+    // One that the first judge missed counts as open until all have seen it: the others alone would make a better rate.
+    let begun = |mutant: &&Mutant| ledger.is_begun(mutant) || sample.contains(mutant);
+    let findings: Vec<_> = all.iter().filter(begun).map(|mutant| (mutant, last_word(mutant))).collect();
     let page = report::page(&findings, &all, arguments.seed, &accepted);
     atomic::write(&root.join("reports/mutants.md"), &page)?;
     let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));

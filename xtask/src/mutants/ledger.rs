@@ -60,6 +60,11 @@ impl Ledger {
         levels[level].is_none() && levels[..level].iter().all(|judged| *judged == Some(Judged::Missed))
     }
 
+    /// Has any judge seen this mutant?
+    pub(super) fn is_begun(&self, mutant: &Mutant) -> bool {
+        self.known.get(&key(mutant)).is_some_and(|levels| levels.iter().any(Option::is_some))
+    }
+
     /// The last word on a mutant; `None` while it is open. One that is accepted need not be missed by more than the first
     /// judge.
     pub(super) fn of(&self, mutant: &Mutant, is_accepted: bool) -> Option<Judged> {

@@ -121,6 +121,10 @@ fn tests_that_fail_without_a_mutant_judge_none() {
     let ended = mutants(&root, &[]);
     assert_eq!((ended.status, calls(&root)), (Some(2), 2), "{}", ended.stderr);
     assert!(ended.stderr.contains("without a mutant this fails: cargo test --profile=mutants --package xtask"));
+    // What is missed so far is open, not left out.
+    fs::remove_file(root.join("broken")).expect("a file");
+    let report = mutants(&root, &["--report", "--sample", "0"]);
+    assert!(report.stdout.contains("3 mutants: 1 caught") && report.stdout.contains("2 open"), "{}", report.stdout);
     // What the judges before have said is kept.
     assert!(fs::read_to_string(root.join("target/mutants/outcomes.tsv")).expect("a ledger").lines().count() == 5);
 }

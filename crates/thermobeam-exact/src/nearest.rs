@@ -70,5 +70,14 @@ mod tests {
     #[test]
     fn a_very_long_name_is_near_nothing() {
         assert_eq!(nearest(&"s".repeat(1_000_000), ["sin"]), None);
+        let [forty, more] = [40, 41].map(|count| "s".repeat(count));
+        assert_eq!([&forty, &more].map(|name| nearest(name, [forty.as_str()])), [Some(forty.as_str()), None]);
+    }
+
+    #[test]
+    fn one_edit_for_every_three_letters_is_granted_but_not_the_whole_name() {
+        let edited = ["abcdefghX", "abcdefgXX", "abcdefXXX", "abcdeXXXX"].map(|name| nearest(name, ["abcdefghi"]));
+        assert_eq!(edited, [Some("abcdefghi"), Some("abcdefghi"), Some("abcdefghi"), None]);
+        assert_eq!((nearest("y", ["x"]), nearest("xx", ["x"])), (None, None));
     }
 }

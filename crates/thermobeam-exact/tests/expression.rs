@@ -180,6 +180,8 @@ fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
         ("x**2", 1, &["found `**`", "a power is written ^"]),
         ("1 − x", 2, &["found `−`", "a minus is written -"]),
         ("π*x", 0, &["found `π`", "write pi"]),
+        ("2×x", 1, &["found `×`", "a product is written *"]),
+        ("2·x", 1, &["found `·`", "a product is written *"]),
         ("(x", 2, &["found the end", "`)`, which closes the bracket at byte 0"]),
         ("sin(x", 5, &["found the end", "closes the bracket at byte 3"]),
         ("sin(x]", 5, &["found `]`", "closes the bracket at byte 3"]),
@@ -204,11 +206,25 @@ fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
 }
 
 #[test]
+fn a_product_is_only_missed_where_two_operands_meet() {
+    for (text, is_missed) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
+        assert_eq!(refusal(text).contains("a product needs its *"), is_missed, "{text}");
+    }
+}
+
+#[test]
+fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
+    assert_eq!(function("abs(x)").derivatives(0.0), [0.0, 1.0, 0.0]);
+}
+
+#[test]
 fn the_caret_stands_below_the_mistake() {
     assert_eq!(refusal("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
     let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
     let lines: Vec<String> = refusal(&long).lines().map(str::to_owned).collect();
     assert_eq!(lines.len(), 3);
+    assert!(lines[1].starts_with("    ...") && lines[1].ends_with("..."), "{lines:?}");
+    assert_eq!(refusal("ä + 2x").lines().nth(1), Some("    ä + 2x"));
     assert!(lines.iter().all(|line| line.chars().count() < 120), "{lines:?}");
     let column = lines[2].find('^').expect("a caret");
     assert!(lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"), "{lines:?}");

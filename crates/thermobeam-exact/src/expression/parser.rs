@@ -76,7 +76,7 @@ impl Parser<'_> {
             TokenKind::Symbol('(') => {
                 self.advance();
                 let inner = self.expression(0)?;
-                self.close(token.start, false)?;
+                self.close(token.start)?;
                 Ok(inner)
             }
             TokenKind::Symbol('-') => {
@@ -125,7 +125,7 @@ impl Parser<'_> {
             self.advance();
             arguments.push(self.expression(0)?);
         }
-        self.close(opened, true)?;
+        self.close(opened)?;
         let (found, allowed) = (arguments.len(), function.arguments());
         let depth = arguments.iter().map(|argument| argument.depth).max().unwrap_or(0);
         let mut nodes = arguments.into_iter().map(|argument| argument.node);
@@ -141,13 +141,13 @@ impl Parser<'_> {
     }
 
     /// Reads the bracket that closes the one at byte `opened`.
-    fn close(&mut self, opened: usize, comma: bool) -> Result<(), ExpressionError> {
+    fn close(&mut self, opened: usize) -> Result<(), ExpressionError> {
         match self.token.kind {
             TokenKind::Symbol(')') => {
                 self.advance();
                 Ok(())
             }
-            TokenKind::Symbol(',') if !comma => Err(self.unexpected("an operator or `)`: no function is being called")),
+            TokenKind::Symbol(',') => Err(self.unexpected("an operator or `)`: no function is being called")),
             _ => {
                 let found = self.found();
                 Err(self.error(self.token.start, ExpressionProblem::Unclosed { found, opened }))

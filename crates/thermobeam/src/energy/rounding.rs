@@ -137,6 +137,11 @@ mod tests {
         let warm = Level { theta: vec![4.0, 0.0], ..turned };
         near(terms(&warm), (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0);
 
+        // What counts is how far a node has moved, at either end of an element: 1 here, of values of 3.
+        let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level { phi: vec![0.0, a, b], ..Level::new(3) });
+        let both = Rounding::of(&beam, None, dt, &[h, h], &old, &new).residual / (32.0 * f64::EPSILON);
+        near(both, 2.0 * 4.0 * 3.0 / h);
+
         let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
         let touching = Level { v: end(5.0), ..moved };
         let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);

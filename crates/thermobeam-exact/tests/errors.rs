@@ -71,3 +71,11 @@ fn the_errors_are_those_of_brute_force_far_from_the_solution() {
     nodal.lift(&mesh, theta_a);
     assert!((nodal.measure(&level, &factors)[5] / found[7] - 1.0).abs() < 1e-14);
 }
+
+#[test]
+fn norms_go_by_the_names_of_the_contract() {
+    let names = Norm::ALL.map(Norm::name);
+    let expected =
+        ["velocity", "shear", "rotation-rate", "curvature", "temperature", "theorem-3.4", "displacement", "superclose"];
+    assert_eq!(names, expected);
+}

@@ -132,6 +132,8 @@ mod tests {
         near(terms(&moved), 20.0 * 2.0 * 2.0 / h);
         near(terms(&Level { v: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
         near(terms(&Level { w: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
+        let swinging = Level { v: end(-5.0), w: end(3.0), ..moved.clone() };
+        near(terms(&swinging), (20.0 * 2.0 + 0.25 * 8.0) * 2.0 / h + h * 64.0);
         let turned = Level { phi: end(-3.0), ..still.clone() };
         near(terms(&turned), 4.0 * 3.0 * 3.0 / h);
         let warm = Level { theta: vec![4.0, 0.0], ..turned };

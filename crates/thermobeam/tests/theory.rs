@@ -46,8 +46,10 @@ fn tests_of(source: &str) -> impl Iterator<Item = String> {
 
 fn known(root: &Path) -> BTreeSet<String> {
     let mut sources = vec![];
-    for part in ["thermobeam/src", "thermobeam/tests", "thermobeam-study/src", "thermobeam-study/tests"] {
-        files(&root.join("crates").join(part), "rs", &mut sources);
+    for part in ["thermobeam", "thermobeam-exact", "thermobeam-study"] {
+        for folder in ["src", "tests"] {
+            files(&root.join("crates").join(part).join(folder), "rs", &mut sources);
+        }
     }
     let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
     let tests = sources.iter().flat_map(|path| tests_of(&read(path)).collect::<Vec<_>>());

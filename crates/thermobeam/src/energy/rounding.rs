@@ -153,6 +153,11 @@ mod tests {
             assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
+        // A tip that stands at the obstacle has no force yet, but a rounding error that the obstacle stores.
+        let level = Level { u: end(0.5), ..still.clone() };
+        let delta_at = 8.0 * f64::EPSILON * 0.5;
+        let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &level, &level);
+        assert!((rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14, "{rounding:?}");
         // The force of the step counts where it is larger than those of the law: 7 against 3.
         let pressed = Level { contact_force: -7.0, ..touching };
         let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &still, &pressed);

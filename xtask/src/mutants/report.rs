@@ -79,8 +79,12 @@ pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted
         let judged = findings.iter().filter(|(mutant, _)| mutant.target.package == package).count();
         format!("{judged} of {all} mutants of `{package}`")
     };
-    let drawn = if findings.len() == all.len() { String::new() } else { format!(", drawn at random, seed {seed}") };
-    let sample = format!("{}{drawn}.", PACKAGES.map(of).join(" and "));
+    let drawn = if findings.len() == all.len() {
+        String::new()
+    } else {
+        format!(" so far: file by file, and a sample drawn at random, seed {seed}")
+    };
+    let sample = format!("{}{drawn}.", PACKAGES.map(of).join(", "));
     let mut files: BTreeMap<&str, Vec<&Finding<'_>>> = BTreeMap::new();
     findings.iter().for_each(|finding| files.entry(&finding.0.file).or_default().push(finding));
     let mut rows: Vec<_> = files.into_iter().map(|(file, findings)| Counts::of(findings, accepted).row(file)).collect();

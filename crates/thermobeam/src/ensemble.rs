@@ -79,8 +79,9 @@ impl Ensemble {
             starts.push((Case { beam: problem.beam, obstacles: problem.obstacles, dt, lengths }, level));
         }
         let lengths = starts.iter().map(|(case, _)| case.lengths.clone()).collect();
-        let heated = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
-        let groups = starts.chunks(WIDTH).map(|starts| Group::new(starts, scheme, settings)).collect();
+        let heated: Vec<bool> = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
+        let group = |(starts, heated): (&[_], &[bool])| Group::new(starts, heated.contains(&true), scheme, settings);
+        let groups = starts.chunks(WIDTH).zip(heated.chunks(WIDTH)).map(group).collect();
         let failed = vec![None; problems.len()];
         Ok(Self { problems, lengths, dt: dt.to_vec(), groups, step: 0, failed, heated })
     }
@@ -184,14 +185,13 @@ impl Ensemble {
 
 impl Group {
     /// Lanes for these cases; the last one again where a lane is left over.
-    fn new(starts: &[(Case, Level)], scheme: Scheme, settings: Settings) -> Self {
+    fn new(starts: &[(Case, Level)], heated: bool, scheme: Scheme, settings: Settings) -> Self {
         let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
         let cases: Vec<Case> = lanes().map(|(case, _)| case.clone()).collect();
         let fields = |level: &Level| (0..level.u.len()).map(|i| [level.u[i], level.phi[i], level.theta[i]]).collect();
         let velocities = |level: &Level| (0..level.v.len()).map(|i| [level.v[i], level.w[i]]).collect();
         let initial: Vec<Vec<[f64; 3]>> = lanes().map(|(_, level)| fields(level)).collect();
         let velocity: Vec<Vec<[f64; 2]>> = lanes().map(|(_, level)| velocities(level)).collect();
-        let heated = starts.iter().any(|(case, level)| is_heated(&case.beam, level));
         let stepper = if heated {
             Stepper::Heated(Box::new(Newton::new(cases, scheme, settings, &initial, &velocity)))
         } else {

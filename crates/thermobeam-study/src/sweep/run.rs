@@ -47,12 +47,12 @@ impl Line {
     ///
     /// * `limit`: the longest that it may take; the line then says where it was stopped.
     pub fn compute(sweep: &Sweep, index: usize, limit: Option<Duration>) -> Self {
-        let compute = || time_limit::within(limit, || simulate(sweep, index)).0;
-        // A panic is a mistake of the program's, yet no reason to lose the other cases.
-        panic::catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|_| {
-            let case = sweep.case(index);
-            Self::failed(&case, "the program panicked".to_owned())
-        })
+        let read = || scene(sweep, index).map_or_else(|line| line, |scene| simulate(sweep, index, &scene));
+        caught(|| time_limit::within(limit, read).0).unwrap_or_else(|| Self::panicked(sweep, index))
+    }
+
+    fn panicked(sweep: &Sweep, index: usize) -> Self {
+        Self::failed(&sweep.case(index), "the program panicked".to_owned())
     }
 
     fn failed(case: &Case<'_>, reason: String) -> Self {
@@ -66,6 +66,11 @@ impl Line {
     }
 }
 
+/// What a computation gives; `None` where it panics: a mistake of the program's, yet no reason to lose the other cases.
+fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
+    panic::catch_unwind(AssertUnwindSafe(compute)).ok()
+}
+
 /// The scene of a case, or the line that says why there is none.
 fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
@@ -76,13 +81,9 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     })
 }
 
-fn simulate(sweep: &Sweep, index: usize) -> Line {
-    let scene = match scene(sweep, index) {
-        Ok(scene) => scene,
-        Err(line) => return line,
-    };
-    match Simulator::new(&scene) {
-        Ok(simulator) => line(sweep, index, &scene, &simulator.run(Recording::Summary, &mut |_| ())),
+fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
+    match Simulator::new(scene) {
+        Ok(simulator) => line(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_| ())),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     }
 }
@@ -101,14 +102,16 @@ struct Group {
     together: Option<Together>,
     indices: Vec<usize>,
     scenes: Vec<Scene>,
+    /// The line of a case that has no scene.
+    refused: Option<Line>,
 }
 
 /// Puts cases into groups; a case without a scene is in one of its own, without a scene.
 fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for &index in indices {
-        let scene = panic::catch_unwind(AssertUnwindSafe(|| scene(sweep, index).ok())).unwrap_or_default();
-        let together = scene.as_ref().and_then(Together::of);
+        let read = caught(|| scene(sweep, index)).unwrap_or_else(|| Err(Line::panicked(sweep, index)));
+        let together = read.as_ref().ok().and_then(Together::of);
         let fits = |group: &&mut Group| group.indices.len() < LANES && group.together == together;
         let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
             Some(group) => group,
@@ -118,23 +121,31 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
             }
         };
         group.indices.push(index);
-        group.scenes.extend(scene);
+        match read {
+            Ok(scene) => group.scenes.push(scene),
+            Err(line) => group.refused = Some(line),
+        }
     }
     groups
 }
 
 /// The lines of a group: of all cases at once, or of one after the other where that cannot be.
 fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
-    let Group { indices, scenes, .. } = group;
+    let Group { indices, scenes, refused, .. } = group;
+    if let Some(line) = refused {
+        return sink(line.clone());
+    }
     let together = || {
         let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
         let of = |((&index, scene), run)| line(sweep, index, scene, run);
         Some(indices.iter().zip(scenes).zip(&runs).map(of).collect::<Vec<_>>())
     };
-    match panic::catch_unwind(AssertUnwindSafe(together)).unwrap_or_default() {
-        Some(lines) => lines.into_iter().try_for_each(sink),
-        None => indices.iter().try_for_each(|&index| sink(Line::compute(sweep, index, None))),
+    if let Some(lines) = caught(together).flatten() {
+        return lines.into_iter().try_for_each(sink);
     }
+    indices.iter().zip(scenes).try_for_each(|(&index, scene)| {
+        sink(caught(|| simulate(sweep, index, scene)).unwrap_or_else(|| Line::panicked(sweep, index)))
+    })
 }
 
 /// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to

@@ -102,7 +102,8 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) controls: Vec<Control>,
     /// The last good level of the cases that have failed.
     frozen: Vec<Option<Level>>,
-    work: Work,
+    /// Passes of the lanes, whoever took part in them.
+    passes: usize,
 }
 
 impl<T: Lane, const B: usize> Newton<T, B> {
@@ -160,7 +161,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             scheme,
             settings,
             cases,
-            work: Work::default(),
+            passes: 0,
         }
     }
 
@@ -243,7 +244,6 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let count = self.elements.len();
         let elements = &self.elements;
         let of_lane = |e: Element<T>| Element { inverse: e.inverse.lane(k), sixth: e.sixth.lane(k) };
-        self.work.factorizations += 1;
         self.controls[k].work.factorizations += 1;
         // Unusable until the elimination has gone through.
         self.controls[k].factorized = f64::NAN;
@@ -259,7 +259,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     pub(super) fn pass(&mut self, state: Progress, first: bool) {
         let active = T::from_fn(|k| f64::from(self.controls[k].state == state));
         let m = T::from_fn(|k| self.controls[k].m);
-        self.work.passes += 1;
+        self.passes += 1;
         self.forward(m, first);
         let tip = self.solve_tip(active);
         let [iterate, ..] = &mut self.ring;
@@ -411,7 +411,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// The work done so far, all cases together: a pass of the lanes is one.
     pub(crate) fn work(&self) -> Work {
-        self.work
+        let factorizations = self.controls.iter().map(|control| control.work.factorizations).sum();
+        Work { passes: self.passes, factorizations, ..Work::default() }
     }
 
     /// The work that case k has needed so far, as much as it would have taken alone.

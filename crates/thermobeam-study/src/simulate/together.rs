@@ -1,4 +1,4 @@
-//! Scenes that run side by side in lanes, three times as fast as one after the other, each with the bits that it gets alone.
+//! Scenes that run side by side in lanes, twice as fast as one after the other, each with the bits that it gets alone.
 
 use std::time::{Duration, Instant};
 

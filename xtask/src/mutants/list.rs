@@ -61,8 +61,8 @@ const TARGETS: [Target; 3] = [
             "crates/thermobeam-study/src/verdict.rs",
             "crates/thermobeam-study/src/verdict/*.rs",
         ],
-        first: &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured"],
-        slow: &["every_study_of_the_repository_is_explained"],
+        first: &["--test=fit", "--test=verdict_laws"],
+        slow: &["the_joint_region_holds_the_orders_95_times_in_100"],
         tests: (
             "thermobeam-study",
             &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured", "--test=calibration"],

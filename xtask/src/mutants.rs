@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
     /// Judge the mutants of this package only
     #[arg(long, value_parser = list::PACKAGES)]
     package: Option<String>,
+    /// Judge the mutants of files with this in their path only; may be given more than once
+    #[arg(long, value_name = "PART")]
+    file: Vec<String>,
     /// Judge so many mutants of each package, drawn at random; a larger sample holds a smaller one [default: all]
     #[arg(long, value_name = "N")]
     sample: Option<usize>,
@@ -57,6 +60,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let chosen = |package: &&str| arguments.package.as_ref().is_none_or(|name| name == *package);
     let of = |package| list::sample(&all, package, arguments.seed, arguments.sample);
     let mut sample: Vec<_> = list::PACKAGES.into_iter().filter(chosen).flat_map(of).collect();
+    if !arguments.file.is_empty() {
+        sample.retain(|mutant| arguments.file.iter().any(|part| mutant.file.contains(part)));
+        if sample.is_empty() {
+            return Err(Unusable::because(&format!("no mutant in a file of {}", arguments.file.join(" or "))));
+        }
+    }
     let mut ledger = Ledger::open(&root)?;
     let is_accepted = |mutant: &Mutant| accepted.reason(mutant).is_some();
     if arguments.again {

@@ -139,10 +139,8 @@ impl Ensemble {
     pub fn balances(&self, balances: &mut Vec<Balance>) {
         balances.clear();
         balances.resize(self.cases(), Balance::NAN);
-        if self.step > 0 {
-            let groups = self.groups.iter().zip(balances.chunks_mut(WIDTH));
-            groups.for_each(|(group, balances)| group.balances(balances));
-        }
+        let groups = self.groups.iter().zip(balances.chunks_mut(WIDTH));
+        groups.for_each(|(group, balances)| group.balances(balances));
     }
 
     /// u(1) of the present level of case k; of its last good one if the case has failed.

@@ -64,6 +64,9 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
                 assert_eq!(lane, level, "{}: case {k}", scheme.name);
                 assert_eq!([ensemble.tip(k), ensemble.contact_force(k)], [level.u[N], level.contact_force]);
                 assert_eq!(bits(&balances[k]), bits(&simulation.balance(&old, &level)), "{}: case {k}", scheme.name);
+                assert_eq!(ensemble.energy_scale(k, &level), simulation.energy_scale(&level));
+                assert_eq!(ensemble.energy(k, &level), simulation.energy(&level));
+                assert_eq!(ensemble.rounding(k, &old, &level), simulation.rounding(&old, &level));
                 let alone = simulation.work();
                 assert_eq!(
                     (ensemble.work_of(k).passes, ensemble.work_of(k).factorizations),
@@ -72,6 +75,21 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
             }
         }
     }
+}
+
+/// A pass is shared by the four lanes of a group, factorisations are each lane's own.
+#[test]
+fn the_work_of_an_ensemble_is_that_of_its_groups() {
+    let dt = [DT, DT].concat();
+    let problems = (0..8).map(|k| problem(k % 4)).collect();
+    let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
+    (0..20).for_each(|_| ensemble.advance());
+    let of = |k: usize| ensemble.work_of(k);
+    assert_eq!(ensemble.work().factorizations, (0..8).map(|k| of(k).factorizations).sum());
+    let longest = (0..4).map(|k| of(k).passes).max().unwrap();
+    let all: usize = (0..8).map(|k| of(k).passes).sum();
+    let passes = ensemble.work().passes;
+    assert!((2 * longest..all).contains(&passes), "{passes} passes, {longest} of one case, {all} of all");
 }
 
 #[test]

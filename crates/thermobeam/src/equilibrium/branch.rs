@@ -168,3 +168,89 @@ impl Branch<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::EquilibriumError::{Bifurcation, Inaccurate};
+    use super::*;
+
+    fn branch(beam: &Beam, support: Option<Support>, pinch: Option<Law>) -> Branch<'_> {
+        let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
+        Branch { beam, contact, law: Law { drive: beam.a * beam.theta_a, support }, pinch }
+    }
+
+    #[test]
+    fn what_misses_the_scalar_equation_is_called_inaccurate_by_how_much() {
+        let beam = Beam { beta: -3.0, rho: 5.0, a: 1.0, theta_a: 0.4, ..Beam::default() };
+        for support in [None, Some(Support { epsilon: 0.5, position: 0.1 })] {
+            let branch = branch(&beam, support, None);
+            for s in [0.7, 4.0, -0.5] {
+                let root = Root { place: Place::Between(s), unstable_directions: None, fold: true };
+                let (n, stretch) = (s - 1.0, beam.rho * branch.law.solve(s).stretch());
+                let largest = n.abs().max(3.0).max(stretch);
+                let Err(Inaccurate { n_value, defect, .. }) = branch.settle(&root) else { panic!("{s} is no root") };
+                assert!((n_value - n).abs() < 1e-12);
+                assert!((defect - (n + 3.0 - stretch) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
+            }
+            let nan = Root { place: Place::Between(f64::NAN), unstable_directions: None, fold: true };
+            assert!(matches!(branch.settle(&nan), Err(Inaccurate { .. })));
+        }
+    }
+
+    #[test]
+    fn a_mode_carries_the_load_of_its_law_and_needs_a_buckling_value_above_beta() {
+        let beam = Beam { beta: -4.0, rho: 2.0, a: 1.0, theta_a: 0.25, ..Beam::default() };
+        let branch = branch(&beam, Some(Support { epsilon: 0.5, position: 0.1 }), None);
+        let values = [branch.law.buckling(1), branch.law.deep_buckling().unwrap()];
+        for s in values {
+            let shape = branch.buckled(s, -1.0).unwrap();
+            let drive = match shape {
+                Shape::Wave(wave) => wave.drive,
+                Shape::Deep(deep) => deep.drive,
+                Shape::Line { .. } => f64::NAN,
+            };
+            assert_eq!(drive, 0.25);
+        }
+        let stiff = Beam { beta: 3.0, ..beam };
+        let branch = Branch { beam: &stiff, ..branch };
+        for s in values {
+            let Err(Bifurcation { n_value, contact }) = branch.buckled(s, 1.0) else { panic!("{s} is below beta") };
+            assert_eq!((n_value, contact), (s - 1.0, Contact::Upper));
+        }
+    }
+
+    /// β with 1 + β equal to the bits of s, where there is one.
+    fn beta_at(s: f64) -> Option<f64> {
+        Some(s - 1.0).filter(|beta| 1.0 + beta == s)
+    }
+
+    #[test]
+    fn a_pinched_beam_at_its_own_buckling_value_is_not_called_stable() {
+        let mut tried = 0;
+        for k in 0..50 {
+            let support = Support { epsilon: 1e-3 * f64::from(1 + k), position: 0.0 };
+            let pinch = Law { drive: 0.0, support: Some(support) };
+            let Some(beta) = beta_at(pinch.buckling(1)) else { continue };
+            let at = Beam { beta, theta_a: 0.0, ..Beam::default() };
+            let above = Beam { beta: beta + 1e-12, ..at };
+            assert!(!branch(&at, None, Some(pinch)).straight().stable, "{support:?}");
+            assert!(branch(&above, None, Some(pinch)).straight().stable, "{support:?}");
+            tried += 1;
+        }
+        assert!(tried > 5, "{tried}");
+    }
+
+    #[test]
+    fn at_a_free_buckling_value_the_straight_beam_alone_is_left() {
+        let mut tried = 0;
+        for k in 1..=HALF_WAVES {
+            let Some(beta) = beta_at(free_buckling(k)) else { continue };
+            let beam = Beam { beta, theta_a: 0.0, ..Beam::default() };
+            let states = branch(&beam, None, None).states().unwrap();
+            assert_eq!(states.len(), 1 + 2 * (k - 1), "quarter waves {k}");
+            assert!(!states[0].stable && states[0].unstable_directions == Some(k - 1));
+            tried += 1;
+        }
+        assert!(tried > 0);
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::{close, driven, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{Contact, EquilibriumError, equilibria, lists_all};
+use thermobeam::equilibrium::{Contact, EquilibriumError, HALF_WAVES, equilibria, lists_all};
 use thermobeam::parameters::Obstacles;
 
 /// N_k, where the beam without support buckles.
@@ -92,9 +92,31 @@ fn the_straight_beam_pinched_between_two_obstacles_at_zero_is_stiffer() {
 #[test]
 fn at_minus_one_the_stress_vanishes() {
     // ρ(aθ_A)² = -1 - β, all exact in binary.
-    let found = states(&driven(-1.25, 1.0, 0.5), None);
-    let state = found.iter().find(|state| state.n_value == -1.0).expect("the state at N = -1");
-    assert_eq!((state.u_tip, state.phi_tip, state.u_x(0.3), state.unstable_directions), (-0.5, 0.0, -0.5, None));
+    for (beta, rho) in [(-1.25, 1.0), (-3.0, 8.0)] {
+        let found = states(&driven(beta, rho, 0.5), None);
+        let state = found.iter().find(|state| state.n_value == -1.0).expect("the state at N = -1");
+        assert_eq!((state.u_tip, state.phi_tip, state.u_x(0.3), state.unstable_directions), (-0.5, 0.0, -0.5, None));
+        assert!(states(&driven(beta, 1.001 * rho, 0.5), None).iter().all(|state| state.n_value != -1.0));
+    }
+}
+
+/// Below β = -1 the list ends at N_17 from above, and goes on from N = -1 down.
+#[test]
+fn sixteen_quarter_waves_are_listed_whatever_beta() {
+    for beta in [-1.0, -1.5] {
+        let unloaded = states(&driven(beta, 1.0, 0.0), None);
+        assert_eq!(unloaded.len(), 1 + 2 * HALF_WAVES, "one straight, and a pair each: {beta}");
+        assert!((1..=16).all(|k| unloaded.iter().filter(|s| (s.n_value - buckling(k)).abs() < 1e-13).count() == 2));
+        let straight = unloaded.iter().find(|state| state.u_tip == 0.0).expect("the straight beam");
+        assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
+    }
+    // A load splits each pair, to both sides of N_k, but for N_1, above which one is; N_17 gives its upper one.
+    let last = f64::from(HALF_WAVES as u32 + 1);
+    let loaded = states(&driven(-1.5, 1.0, 1e-6), None);
+    let shallow: Vec<f64> = loaded.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
+    assert_eq!(shallow.len(), 2 * HALF_WAVES + 1, "{shallow:?}");
+    assert!(shallow.iter().all(|n| *n > buckling(last as u32)));
+    assert!(loaded.iter().any(|state| state.n_value < -1.0));
 }
 
 #[test]

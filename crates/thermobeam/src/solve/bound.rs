@@ -74,3 +74,75 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         Bound { m, increment, remaining, contraction }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::Beam;
+    use crate::scheme::EULER_CRANK_NICOLSON;
+    use crate::solve::Settings;
+    use crate::solve::newton::Case;
+
+    const DT: f64 = 0.5;
+
+    /// One element with this force and stiffness, ζ = 1.
+    fn stepper(beta: f64, rho: f64) -> Newton<f64, 2> {
+        let beam = Beam { beta, rho, zeta: 1.0, ..Beam::default() };
+        let case = Case { beam, obstacles: None, dt: DT, lengths: vec![1.0] };
+        let (initial, velocity) = (vec![vec![[0.0; 3]; 2]], vec![vec![[0.0; 2]; 2]]);
+        Newton::new(vec![case], EULER_CRANK_NICOLSON, Settings::default(), &initial, &velocity)
+    }
+
+    /// The module's head, with numbers put in: compressed and stretched, where the bound is finite and where it is not.
+    #[test]
+    fn the_bound_is_that_of_the_modules_head() {
+        for (beta, rho, finite) in
+            [(-2.0, 0.125, true), (-2.0, 2.0, false), (3.0, 0.125, true), (3.0, 8.0, false), (3.0, 0.5, true)]
+        {
+            let mut newton = stepper(beta, rho);
+            let control = &mut newton.controls[0];
+            // ‖u_x‖ = 1/2, and 1 at the old level.
+            (control.new_slope_squared, control.slope_squared) = (0.25, 1.0);
+            control.forces[0] = beta + 1.0;
+            (control.m, control.factorized) = (beta + 0.75, beta + 0.625);
+            control.increment_slope = 0.375;
+            let bound = newton.bound(0);
+
+            let m = beta + (0.25 * rho + 1.0) / 2.0;
+            let c = (m - (beta + 0.75)).abs() * 0.75 + 0.125 * 0.25 * 0.375;
+            let lambda = BUCKLING * 1.25 + m * 0.25;
+            let soft = if m < 0.0 { 1.0 + m.abs() * 0.25 / lambda } else { 1.0 };
+            let increment = (1.0 / lambda * soft).sqrt() * c;
+            let q = 0.5 * (0.125 / 2.0 + rho * 0.75 * 0.5) / lambda;
+            let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
+            assert!(lambda > 0.0 && (q < 0.5) == finite, "what this case is for: {lambda}, {q}");
+            assert_eq!(bound.m, m);
+            assert!(close(bound.increment, increment) && close(bound.contraction, q), "{bound:?}, {increment}, {q}");
+            let remaining = if finite { increment / (1.0 - q) } else { f64::INFINITY };
+            assert!(bound.remaining == remaining || close(bound.remaining, remaining), "{bound:?}, {remaining}");
+            assert!(close(newton.coercivity(0, m), lambda));
+            let kept = newton.kept_contraction(0, m);
+            assert!(close(kept, 0.25 * (m - (beta + 0.625)).abs() / lambda), "{kept}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_left_without_a_residual_and_everything_without_coercivity() {
+        let mut newton = stepper(1.0, 0.0);
+        let control = &mut newton.controls[0];
+        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (control.m, control.factorized) = (1.0, 1.0);
+        let exact = newton.bound(0);
+        assert_eq!([exact.m, exact.increment, exact.remaining, exact.contraction], [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(newton.kept_contraction(0, 1.0), 0.0);
+
+        let mut newton = stepper(-5.0, 0.0);
+        let control = &mut newton.controls[0];
+        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (control.m, control.factorized) = (-4.0, -4.0);
+        let lost = newton.bound(0);
+        assert!(newton.coercivity(0, -5.0) < 0.0);
+        assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
+        assert_eq!((newton.kept_contraction(0, -5.0), newton.kept_contraction(0, -4.0)), (f64::INFINITY, 0.0));
+    }
+}

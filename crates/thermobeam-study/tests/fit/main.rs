@@ -112,6 +112,9 @@ fn the_range_is_what_its_two_rules_leave() {
     assert_eq!((above.used, above.at_floor), (2..5, 0));
     let below = asymptotic_range(&data, at_the_finest * (1.0 + 1e-12));
     assert_eq!((below.used, below.pre_asymptotic, below.at_floor), (2..4, 2, 1));
+    let exact = with_log2(&[3.0, 2.0, 1.0, (FLOOR_MARGIN / 1024.0).log2()]);
+    assert_eq!(exact[3].error, FLOOR_MARGIN / 1024.0, "at, and not above: all exact in binary");
+    assert_eq!(asymptotic_range(&exact, 1.0 / 1024.0).at_floor, 1);
     // Only the finest levels are dropped for the floor: one that dips down to it and comes back counts.
     let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
     assert_eq!(asymptotic_range(&dip, 1e-10).at_floor, 0);

@@ -179,6 +179,16 @@ mod tests {
     }
 
     #[test]
+    fn as_many_free_buckling_values_lie_above_as_are_larger() {
+        let law = Law { drive: 0.0, support: None };
+        for k in 1..=40 {
+            let s = free_buckling(k);
+            assert_eq!([s * (1.0 + 1e-9), s * (1.0 - 1e-9)].map(|s| law.buckling_above(s)), [k - 1, k]);
+        }
+        assert_eq!([0.5, 1.0, 7.0].map(|s| law.buckling_above(s)), [0; 3]);
+    }
+
+    #[test]
     fn supported_buckling_values_interlace_with_the_free_ones() {
         for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
             let law = Law { drive: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
@@ -186,7 +196,24 @@ mod tests {
                 let s = law.buckling(k);
                 assert!(free_buckling(k + 1) < s && s < free_buckling(k), "{k}-th at epsilon = {epsilon}");
                 assert_eq!((law.buckling_above(s * 1.000001), law.buckling_above(s * 0.999999)), (k - 1, k));
+                assert_eq!(law.buckling_above(s), k - 1, "strictly above");
             }
         }
+    }
+
+    #[test]
+    fn below_minus_one_a_support_gives_way_once_at_its_compliance() {
+        for epsilon in [1e-8, 1e-4, 0.01, 0.3, 1.0, 3.0, 100.0, 1e4, 1e8] {
+            let law = Law { drive: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            let s = law.deep_buckling().unwrap();
+            let flexibility = |s: f64| match law.mode(s) {
+                mode @ Shape::Deep(_) => mode.u(1.0),
+                shape => panic!("{shape:?} at {s}"),
+            };
+            // A unit of stress moves the tip by -ε there, by less above and by more below.
+            assert!((flexibility(s) / -epsilon - 1.0).abs() < 1e-12, "{epsilon}: {s}");
+            assert!(flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999));
+        }
+        assert_eq!(Law { drive: 0.0, support: None }.deep_buckling(), None);
     }
 }

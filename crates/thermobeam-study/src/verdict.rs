@@ -238,3 +238,28 @@ pub fn moves_away(rates: &[f64], tolerance: f64) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_is_compared_with_its_ends_and_those_of_the_band() {
+        let judge = Judge::new(0.25).expect("a tolerance");
+        for (interval, reason) in [
+            ([0.75, 1.25], Reason::Agrees),
+            ([0.875, 1.0], Reason::Agrees),
+            ([0.5, 0.625], Reason::TooLow),
+            ([1.375, 1.5], Reason::TooHigh),
+            // They share a point with the band.
+            ([0.5, 0.75], Reason::AtTheEdge),
+            ([1.25, 1.5], Reason::AtTheEdge),
+            ([0.5, 1.0], Reason::AtTheEdge),
+            ([1.0, 1.5], Reason::AtTheEdge),
+            ([0.5, 1.0625], Reason::IntervalTooWide),
+            ([0.5, 1.5], Reason::IntervalTooWide),
+        ] {
+            assert_eq!(judge.compare(interval, 1.0), reason, "{interval:?}");
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! What the judge must never do, and what it must always do.
 
 use thermobeam_study::verdict::{
-    Judge, JudgeError, Level, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict, judge, judge_pairs,
+    Judge, JudgeError, Level, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict, falls_away, judge, judge_pairs, moves_away,
 };
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
@@ -237,6 +237,139 @@ fn the_worst_verdict_wins_and_none_at_all_is_inconclusive() {
     assert_eq!(Verdict::worst([Pass, Inconclusive]), Inconclusive);
     assert_eq!(Verdict::worst([Inconclusive, Fail, Pass]), Fail);
     assert_eq!(Verdict::worst([]), Inconclusive);
+}
+
+#[test]
+fn settings_that_mean_nothing_are_refused() {
+    let judge = || Judge::new(0.125).expect("usable");
+    assert_eq!(judge().tolerance(), 0.125);
+    for confidence in [0.0, 1.0, -0.5] {
+        assert_eq!(judge().with_confidence(confidence), Err(JudgeError::Confidence(confidence)));
+    }
+    for floor in [-1e-300, f64::INFINITY] {
+        assert_eq!(judge().with_floor(floor), Err(JudgeError::Floor(floor)));
+    }
+    assert!(judge().with_floor(f64::NAN).is_err() && judge().with_confidence(f64::NAN).is_err());
+    assert!(judge().with_floor(0.0).is_ok());
+}
+
+#[test]
+fn more_confidence_takes_a_wider_interval_and_a_higher_floor_fewer_levels() {
+    let levels = with_rates(&[1.1, 0.95, 1.02, 0.99]);
+    let judge = || Judge::new(0.4).expect("usable");
+    let width = |judge: Judge| judge.judge(&levels, 1.0).interval.map(|[low, high]| high - low).expect("regular");
+    assert!(width(judge().with_confidence(0.99).expect("usable")) > 1.5 * width(judge()));
+    let floor = judge().with_floor(levels[4].error / 1000.0).expect("usable");
+    assert_eq!(floor.judge(&levels, 1.0).used, 0..4);
+}
+
+#[test]
+fn rates_fall_away_when_they_fall_twice_and_end_half_an_order_below() {
+    for (rates, expected) in [
+        (&[0.75, 0.625, 0.375][..], true),
+        (&[2.0, 0.75, 0.625, 0.375], true),
+        (&[0.75, 0.625, 0.5], false),
+        (&[0.625, 0.625, 0.375], false),
+        (&[0.75, 0.375, 0.375], false),
+        (&[0.5, 0.625, 0.375], false),
+        (&[0.75, 0.25, 0.375], false),
+        (&[0.75, 0.375], false),
+        (&[0.75, f64::NAN, 0.375], false),
+    ] {
+        assert_eq!(falls_away(rates, 1.0), expected, "{rates:?}");
+    }
+}
+
+#[test]
+fn rates_move_away_when_their_last_change_is_the_largest() {
+    for (rates, tolerance, expected) in [
+        (&[1.0, 1.0, 1.25][..], 0.25, true),
+        (&[1.0, 1.125, 0.75], 0.25, true),
+        // Not more than half the tolerance.
+        (&[1.0, 1.0, 1.25], 0.5, false),
+        (&[1.0, 1.0, 1.25], 0.49, true),
+        // Not more than an earlier one, whichever that is.
+        (&[1.0, 1.25, 1.5], 0.25, false),
+        (&[1.0, 1.5, 1.5, 1.75], 0.25, false),
+        (&[1.0, 1.25], 0.25, false),
+        (&[], 0.25, false),
+    ] {
+        assert_eq!(moves_away(rates, tolerance), expected, "{rates:?} {tolerance}");
+    }
+}
+
+#[test]
+fn a_rate_five_orders_off_is_wild_and_one_of_just_that_is_not() {
+    check_rates(&[6.25, 1.0, 1.0], 1.0, Reason::WildRate, Verdict::Inconclusive);
+    let kept = judge(&with_rates(&[5.75, 1.0, 1.0]), 1.0, 0.05);
+    check(&kept, Reason::Agrees, Verdict::Pass);
+    assert_eq!(kept.used, 1..4);
+    check_rates(&[-4.25, 1.0, 1.0], 1.0, Reason::WildRate, Verdict::Inconclusive);
+    // The step down to the floor counts, those at the floor do not.
+    let floored = |rates: &[f64], floor_at: usize| {
+        let levels = with_rates(rates);
+        let floor = levels[floor_at].error / 999.0;
+        Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
+    };
+    check(&floored(&[1.0, 1.0, 7.0], 3), Reason::WildRate, Verdict::Inconclusive);
+    check(&floored(&[1.0, 1.0, 3.0, 7.0], 3), Reason::Agrees, Verdict::Pass);
+}
+
+#[test]
+fn too_few_levels_are_put_down_to_what_removed_more_of_them() {
+    let judged = |rates: &[f64], at_floor: usize| {
+        let levels = with_rates(rates);
+        let floor = levels[levels.len() - at_floor].error / 999.0;
+        Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
+    };
+    check(&judged(&[0.5, 1.0, 1.0], 1), Reason::RoundOffFloor, Verdict::Inconclusive);
+    check(&judged(&[0.5, 0.5, 1.0, 1.0], 1), Reason::NotAsymptotic, Verdict::Inconclusive);
+    check(&judged(&[0.5, 1.0, 1.0, 1.0], 2), Reason::RoundOffFloor, Verdict::Inconclusive);
+}
+
+#[test]
+fn infinite_steps_are_none() {
+    let pairs = [f64::INFINITY, 0.5, 0.25, 0.125].into_iter().zip([1.0, 0.5, 0.25, 0.125]);
+    check(&judge_pairs(pairs, 1.0, 0.05), Reason::StepsNotDecreasing, Verdict::Inconclusive);
+}
+
+#[test]
+fn a_verdict_says_on_what_it_rests() {
+    let outcome = judge(&with_rates(&[0.4, 1.0, 1.0, 1.0]), 1.0, 0.05);
+    let expected = "the rate agrees with the order: 1.000 to 1.000 from levels 2 to 5 of 5, claimed 1 ± 0.05";
+    assert_eq!(outcome.reason, expected);
+    assert_eq!((outcome.order, outcome.tolerance), (1.0, 0.05));
+    assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
+    let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
+    assert_eq!((nothing.reason.as_str(), nothing.used), ("too few levels", 0..0));
+    assert_eq!(
+        format!("{:>14}|{:<6}|{}", Verdict::Inconclusive, Verdict::Pass, Verdict::Fail),
+        "  inconclusive|pass  |fail"
+    );
+}
+
+#[test]
+fn each_reason_has_a_verdict_and_words_of_its_own() {
+    use Reason::*;
+    let failing = [NonFiniteError, NegativeError, ErrorGrows, FallsAway, TooLow, TooHigh];
+    let ignorant = [
+        ZeroError,
+        StepsNotDecreasing,
+        ClaimUnusable,
+        ToleranceTooWide,
+        TooFewLevels,
+        NotAsymptotic,
+        RoundOffFloor,
+        WildRate,
+        IntervalTooWide,
+        AtTheEdge,
+    ];
+    assert_eq!(Agrees.verdict(), Verdict::Pass);
+    assert!(failing.iter().all(|reason| reason.verdict() == Verdict::Fail));
+    assert!(ignorant.iter().all(|reason| reason.verdict() == Verdict::Inconclusive));
+    let texts: Vec<_> = [Agrees].iter().chain(&failing).chain(&ignorant).map(|reason| reason.text()).collect();
+    let distinct: std::collections::BTreeSet<_> = texts.iter().collect();
+    assert!(distinct.len() == 17 && texts.iter().all(|text| text.len() > 10), "{texts:?}");
 }
 
 mod whatever_is_measured {

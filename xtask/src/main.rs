@@ -9,6 +9,7 @@ mod drift;
 mod equilibria;
 mod exit;
 mod explain;
+mod fuzz;
 mod github;
 mod history;
 mod interrupt;
@@ -56,6 +57,7 @@ enum Command {
     Bench(bench::Arguments),
     Drift(drift::Arguments),
     Mutants(mutants::Arguments),
+    Fuzz(fuzz::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
         Command::Drift(arguments) => exit::status(drift::drift(&arguments)),
         Command::Mutants(arguments) => exit::code(mutants::run(&arguments)),
+        Command::Fuzz(arguments) => exit::code(fuzz::run(&arguments)),
         Command::Completions(arguments) => exit::code(completions::run(&arguments)),
     }
 }

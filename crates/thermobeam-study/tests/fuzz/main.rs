@@ -2,7 +2,7 @@
 //!
 //! Every reader of files gets every file. No panic, no hang, and a refusal is one message that begins with the file's
 //! name and says where. `THERMOBEAM_FUZZ` sets the number of inputs, `THERMOBEAM_FUZZ_SEED` where they begin; what fails
-//! is written beside the corpus, to be kept there.
+//! is written beside the corpus, to be kept there. `cargo xtask fuzz` makes a report of what is printed.
 
 mod corpus;
 mod damage;
@@ -41,30 +41,52 @@ fn tried(bench: &Bench, reading: Reading, bytes: &[u8]) -> Result<bool, String> 
     }
 }
 
+/// What became of the inputs of one kind.
+#[derive(Default, Clone, Copy)]
+struct Tally {
+    inputs: u64,
+    read: u64,
+    failed: u64,
+    slowest: Duration,
+}
+
+impl Tally {
+    fn print(&self, name: &str) {
+        let Self { inputs, read, failed, slowest } = self;
+        println!("fuzz {name} {inputs} {read} {} {failed} {:.3}", inputs - read - failed, 1e3 * slowest.as_secs_f64());
+    }
+}
+
 #[test]
 fn damaged_files_are_read_or_refused_with_their_place() {
     let count = number("THERMOBEAM_FUZZ").unwrap_or(INPUTS);
     let first = number("THERMOBEAM_FUZZ_SEED").unwrap_or(0);
     let (bench, seeds) = (Bench::new(), seeds());
-    let (mut read, mut slowest, mut failures) = (0, (Duration::ZERO, 0), vec![]);
+    let (mut tallies, mut failures) = ([Tally::default(); Reading::ALL.len()], vec![]);
     for case in first..first + count {
         let mut dice = Dice::new(case);
         let (reading, text) = &seeds[dice.below(seeds.len())];
         let bytes = damaged(text.as_bytes(), &mut dice);
+        let tally = &mut tallies[Reading::ALL.iter().position(|one| one == reading).expect("a kind of file")];
+        tally.inputs += 1;
         let start = Instant::now();
         match tried(&bench, *reading, &bytes) {
-            Ok(is_read) => read += u64::from(is_read),
+            Ok(is_read) => tally.read += u64::from(is_read),
             Err(reason) => {
+                tally.failed += 1;
                 let kept = corpus::folder().join(format!("{}-failed-{case}", reading.name()));
                 std::fs::write(&kept, &bytes).expect("a writable folder");
                 failures.push(format!("{}: {reason}", kept.display()));
             }
         }
-        slowest = slowest.max((start.elapsed(), case));
+        tally.slowest = tally.slowest.max(start.elapsed());
     }
-    println!("{count} inputs from {first}: {read} read, {} refused, slowest {slowest:?}", count - read);
+    // On a line of its own, whatever the test harness has begun.
+    println!();
+    Reading::ALL.iter().zip(&tallies).for_each(|(reading, tally)| tally.print(reading.name()));
     assert!(failures.is_empty(), "{} of {count} failed:\n{}", failures.len(), failures.join("\n"));
     // Were all refused, the readers would not be reached; were none, the files would not be damaged.
+    let read: u64 = tallies.iter().map(|tally| tally.read).sum();
     assert!(read > count / 50 && read < count, "{read} of {count} read");
 }
 

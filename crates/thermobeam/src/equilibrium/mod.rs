@@ -231,3 +231,30 @@ fn is_consistent(state: &Equilibrium, obstacles: Option<&Obstacles>) -> bool {
         Contact::Lower => state.contact_force < 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_state_presses_and_a_free_one_lies_between_the_obstacles_or_touches() {
+        let obstacles = Obstacles { epsilon: 1.0, g1: -0.25, g2: 0.5 };
+        let state = |contact, contact_force, u_tip| Equilibrium {
+            contact,
+            n_value: 0.0,
+            u_tip,
+            phi_tip: 0.0,
+            contact_force,
+            stable: true,
+            unstable_directions: Some(0),
+            shape: Shape::Line { slope: u_tip },
+        };
+        for (contact, presses) in [(Contact::Upper, [false, false, true]), (Contact::Lower, [true, false, false])] {
+            let found = [-1.0, 0.0, 1.0].map(|force| is_consistent(&state(contact, force, 0.0), Some(&obstacles)));
+            assert_eq!(found, presses, "{contact:?}");
+        }
+        let free = |u_tip| is_consistent(&state(Contact::Free, 0.0, u_tip), Some(&obstacles));
+        assert_eq!([-0.26, -0.25, 0.0, 0.5, 0.51].map(free), [false, true, true, true, false]);
+        assert!(is_consistent(&state(Contact::Free, 0.0, 7.0), None));
+    }
+}

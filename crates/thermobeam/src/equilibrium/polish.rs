@@ -113,6 +113,47 @@ mod tests {
     }
 
     #[test]
+    fn the_conditions_are_those_of_the_modules_head() {
+        let law = |epsilon, position| Law { drive: 0.5, support: Some(Support { epsilon, position }) };
+        for s in [0.25, 2.0, -0.5] {
+            let Shape::Wave(Wave { alpha, stress, .. }) = law(0.5, 0.125).solve(s) else {
+                let deep = law(0.5, 0.125).solve(s);
+                let found = residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.0, deep.stress()]);
+                let balance = s + 2.0 - 2.0 * deep.stretch();
+                assert!(found[0] == 0.0 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14, "{found:?}");
+                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, deep.stress()])[0], 0.25);
+                continue;
+            };
+            let at = |law: &Law| residual(law, -3.0, 2.0, [s, alpha, stress]);
+            let found = at(&law(0.5, 0.125));
+            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).stretch();
+            assert!(
+                found[0].abs() < 1e-14 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14,
+                "{found:?}"
+            );
+            // A stiffness and a place of the obstacle that the shape does not meet.
+            assert!((at(&law(2.5, 0.125))[1] - 2.0 * stress).abs() < 1e-14);
+            assert!((at(&law(0.5, 1.125))[1] + 1.0).abs() < 1e-14);
+            assert_eq!(at(&Law { drive: 0.5, support: None })[1], stress);
+        }
+    }
+
+    #[test]
+    fn a_start_beside_a_state_is_improved_to_round_off_and_one_far_off_left_as_it_is() {
+        let law = Law { drive: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
+        // β that has a state at each of these N.
+        for s in [0.7, 2.0, -0.5] {
+            let beta = s - 1.0 - 2.0 * law.solve(s).stretch();
+            let n = |start: f64| polish(&law, beta, 2.0, law.solve(start)).n_value();
+            assert!((n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14, "{s}: {:e}", n(s * (1.0 + 1e-5)) - (s - 1.0));
+            let far = law.solve(1.1 * s);
+            assert_eq!(polish(&law, beta, 2.0, far), far, "{s}");
+        }
+        let line = Shape::Line { slope: 1.0 };
+        assert_eq!(polish(&law, 0.0, 1.0, line), line);
+    }
+
+    #[test]
     fn a_system_of_three_is_solved_and_a_singular_one_is_not() {
         let a = [[2.0, -1.0, 0.5], [0.0, 3.0, 1.0], [4.0, 1.0, -2.0]];
         let x = [1.0, -2.0, 4.0];

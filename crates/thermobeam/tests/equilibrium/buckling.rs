@@ -111,11 +111,10 @@ fn sixteen_quarter_waves_are_listed_whatever_beta() {
         assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
     }
     // A load splits each pair, to both sides of N_k, but for N_1, above which one is; N_17 gives its upper one.
-    let last = f64::from(HALF_WAVES as u32 + 1);
     let loaded = states(&driven(-1.5, 1.0, 1e-6), None);
     let shallow: Vec<f64> = loaded.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
     assert_eq!(shallow.len(), 2 * HALF_WAVES + 1, "{shallow:?}");
-    assert!(shallow.iter().all(|n| *n > buckling(last as u32)));
+    assert!(shallow.iter().all(|n| *n > buckling(HALF_WAVES as u32 + 1)));
     assert!(loaded.iter().any(|state| state.n_value < -1.0));
 }
 
@@ -126,4 +125,6 @@ fn what_cannot_be_told_is_an_error() {
     let bad = equilibria(&driven(f64::NAN, 1.0, 0.1), None);
     assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
     assert!(lists_all(&driven(-0.999, 1.0, 0.0)) && !lists_all(&driven(-1.0, 1.0, 0.0)));
+    let last = buckling(HALF_WAVES as u32 + 1);
+    assert!(lists_all(&driven(last + 1e-9, 1.0, 0.0)) && !lists_all(&driven(last - 1e-9, 1.0, 0.0)));
 }

@@ -182,3 +182,85 @@ enum Top {
     Touching(f64),
     Below,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::HALF_WAVES;
+    use super::super::law::Support;
+    use super::*;
+
+    fn laws() -> [Law; 4] {
+        let support = |epsilon, position| Some(Support { epsilon, position });
+        [(0.5, None), (0.5, support(0.5, 0.125)), (-0.25, support(0.01, -0.5)), (0.0, support(2.0, 0.25))]
+            .map(|(drive, support)| Law { drive, support })
+    }
+
+    #[test]
+    fn a_root_is_found_wherever_it_is() {
+        let mut deep = 0;
+        for law in laws() {
+            for s in [5.0, 1.5, 0.9, 0.5, 0.15, 0.06, 0.011, -0.02, -0.3, -0.9, -2.0, -6.0, -40.0, -200.0] {
+                for rho in [0.25, 30.0] {
+                    // β that has a root at this s.
+                    let beta = s - 1.0 - rho * law.solve(s).stretch();
+                    let scan = Scan { law: &law, beta, rho };
+                    let roots = if s > 0.0 { scan.shallow(HALF_WAVES + 1) } else { scan.deep() };
+                    let is_found = |root: &Root| match root.place {
+                        Place::Between(found) => (found / s - 1.0).abs() < 1e-9,
+                        Place::Buckling(..) => false,
+                    };
+                    let found: Vec<&Root> = roots.iter().filter(|root| is_found(root)).collect();
+                    assert_eq!(found.len(), 1, "{s}, rho {rho} of {law:?}: {roots:?}");
+                    deep += usize::from(found[0].unstable_directions.is_none());
+                }
+            }
+        }
+        assert_eq!(deep, 4 * 7 * 2, "no count of unstable directions below N = -1");
+    }
+
+    #[test]
+    fn nothing_is_sought_below_minus_one_unless_beta_is() {
+        for law in laws() {
+            for beta in [3.0, -0.5, -1.0, -1.0 + f64::EPSILON] {
+                assert_eq!(Scan { law: &law, beta, rho: 1.0 }.deep(), []);
+            }
+        }
+    }
+
+    /// At a fold f touches zero from below; what round-off allows is 32 units of the sum of its terms.
+    #[test]
+    fn a_double_root_is_told_from_two_and_from_none_to_round_off() {
+        for (law, rho) in laws().into_iter().zip([6.0, 4.0, 3.0, 20.0]) {
+            let (low, high) = (law.buckling(2), law.buckling(1));
+            let (a, b) = (low + 1e-3 * (high - low), high - 1e-3 * (high - low));
+            // f = climbed - β, highest at the fold.
+            let climbed = |s: f64| s - 1.0 - rho * law.solve(s).stretch();
+            let (mut left, mut right) = (a, b);
+            while right - left > 1e-9 {
+                let (c, d) = (left + (right - left) / 3.0, right - (right - left) / 3.0);
+                if climbed(c) < climbed(d) { left = c } else { right = d }
+            }
+            let (s, beta) = (left, climbed(left));
+            let terms = s + (1.0 + beta).abs() + rho * law.solve(s).stretch();
+            let allowed = 32.0 * f64::EPSILON * terms;
+            for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
+                let scan = Scan { law: &law, beta: beta + shift * allowed, rho };
+                let found = match scan.top(a, b) {
+                    Top::Above(_) => 2,
+                    Top::Touching(_) => 1,
+                    Top::Below => 0,
+                };
+                assert_eq!(found, expected, "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}");
+            }
+            let fold = Scan { law: &law, beta, rho }.interval(End::Buckling(low), End::Buckling(high), Some(1));
+            let [Root { place: Place::Between(at), unstable_directions: Some(0), fold: true }] = fold[..] else {
+                panic!("{fold:?} of {law:?}");
+            };
+            assert!((at - s).abs() < 1e-6);
+            let apart =
+                Scan { law: &law, beta: beta - 1e-6, rho }.interval(End::Buckling(low), End::Buckling(high), Some(1));
+            let told = apart.iter().map(|root| (root.unstable_directions, root.fold)).collect::<Vec<_>>();
+            assert_eq!(told, [(Some(1), false), (Some(0), false)], "{law:?}");
+        }
+    }
+}

@@ -23,7 +23,7 @@ use ledger::Ledger;
 use list::Mutant;
 
 /// Mutants judged by one call of cargo-mutants, which first checks that the tests pass without any.
-const BATCH: usize = 100;
+const BATCH: usize = 250;
 
 /// Judge the tests: do they notice a mistake in the solver or in the verdicts?
 #[derive(Debug, clap::Args)]

@@ -219,6 +219,53 @@ mod tests {
         }
     }
 
+    /// A determinant is called zero below 1e-13 of the sum of its terms' sizes, and N a pole within 1e-13 of itself.
+    #[test]
+    fn resonance_is_called_to_round_off() {
+        let is_resonant = |beta: f64, support: Option<Support>| {
+            let beam = Beam { beta, rho: 0.0, a: 1.0, theta_a: 0.5, ..Beam::default() };
+            branch(&beam, support, None).resonant(1.0 + beta).is_some()
+        };
+        for support in [None, Some(Support { epsilon: 12.0, position: 0.1 })] {
+            let law = Law { drive: 0.5, support };
+            let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
+            let excess = |beta: f64| {
+                let q = 1.0 / (1.0 + beta);
+                law.determinant(q).abs() / (RESONANCE * size(q))
+            };
+            let mut told = [0, 0];
+            for k in 1..=3 {
+                let beta = law.buckling(k) - 1.0;
+                for step in -40..=40 {
+                    let beta = beta + f64::from(step) * 4e-15;
+                    told[usize::from(is_resonant(beta, support))] += 1;
+                    assert_eq!(is_resonant(beta, support), excess(beta) <= 1.0, "{beta} of {law:?}: {}", excess(beta));
+                }
+            }
+            assert!(told[0] > 50 && told[1] > 10, "{told:?}");
+        }
+        let support = Some(Support { epsilon: 0.05, position: 0.1 });
+        let pole = Law { drive: 0.5, support }.deep_buckling().unwrap();
+        for (relative, expected) in [(-2e-13, false), (-7e-14, true), (0.0, true), (7e-14, true), (2e-13, false)] {
+            assert_eq!(is_resonant(pole * (1.0 + relative) - 1.0, support), expected, "{relative:e}");
+        }
+    }
+
+    #[test]
+    fn a_linear_beam_has_one_state_with_as_many_unstable_directions_as_buckling_values_above() {
+        let state = |beta: f64| {
+            let beam = Beam { beta, rho: 0.0, a: 1.0, theta_a: 0.5, ..Beam::default() };
+            let [state] = branch(&beam, None, None).states().unwrap()[..] else { panic!("one state at {beta}") };
+            state
+        };
+        for (beta, unstable) in [(2.0, Some(0)), (0.0, Some(0)), (-0.8, Some(1)), (-0.99, Some(3)), (-2.0, None)] {
+            assert_eq!(state(beta).unstable_directions, unstable, "{beta}");
+            assert!((state(beta).n_value - beta).abs() < 1e-15);
+        }
+        let line = state(-1.0);
+        assert_eq!((line.n_value, line.u_tip, line.unstable_directions), (-1.0, -0.5, None));
+    }
+
     /// β with 1 + β equal to the bits of s, where there is one.
     fn beta_at(s: f64) -> Option<f64> {
         Some(s - 1.0).filter(|beta| 1.0 + beta == s)

@@ -162,11 +162,11 @@ mod tests {
 
     #[test]
     fn the_mode_changes_sign_at_each_buckling_value_as_announced() {
-        let support = Some(Support { epsilon: 0.3, position: 0.2 });
-        for law in
-            [(0.4, None), (-0.4, None), (0.4, support), (-0.7, support)].map(|(drive, support)| Law { drive, support })
+        let support = |position| Some(Support { epsilon: 0.3, position });
+        for law in [(0.4, None), (-0.4, None), (0.4, support(0.2)), (-0.7, support(0.2)), (0.7, support(-0.2))]
+            .map(|(drive, support)| Law { drive, support })
         {
-            for s in (1..=5).map(|k| law.buckling(k)).chain(law.deep_buckling()) {
+            for s in (1..=12).map(|k| law.buckling(k)).chain(law.deep_buckling()) {
                 let amplitude = |s: f64| match (law.solve(s), law.mode(s)) {
                     (Shape::Wave(found), Shape::Wave(mode)) => found.alpha / mode.alpha,
                     (found, mode) => found.stress() / mode.stress(),

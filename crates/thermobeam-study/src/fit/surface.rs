@@ -269,7 +269,7 @@ impl LeastSquaresProblem<f64, Dyn, U4> for Surface<'_> {
 mod tests {
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-    use super::fisher_quantile_2;
+    use super::*;
 
     #[test]
     fn closed_form_of_the_f_quantile_agrees_with_the_distribution() {
@@ -278,5 +278,31 @@ mod tests {
             let law = FisherSnedecor::new(2.0, dof as f64).expect("positive degrees of freedom");
             assert!((law.cdf(f) - 0.95).abs() < 1e-12, "dof {dof}: {}", law.cdf(f));
         }
+    }
+
+    /// Few scattered points have several minima, and it is not always the same start that finds the lowest.
+    #[test]
+    fn the_lowest_of_the_minima_found_is_the_fit() {
+        let mut winners = std::collections::BTreeSet::new();
+        for seed in [19, 66, 97, 185, 195_u64] {
+            let mut state = seed * 7919 + 1;
+            let mut next = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (state >> 11) as f64 / (1_u64 << 53) as f64
+            };
+            let (p, q, ratio) = (0.5 + 2.0 * next(), 0.5 + 2.0 * next(), (4.0 * next() - 2.0).exp());
+            let mut point = || {
+                let (h, dt) = (0.5 * (-3.0 * next()).exp(), 0.5 * (-3.0 * next()).exp());
+                SurfacePoint { h, dt, error: h.powf(p).hypot(ratio * dt.powf(q)) * (0.1 * next()).exp() }
+            };
+            let points: Vec<SurfacePoint> = (0..5 + seed % 6).map(|_| point()).collect();
+            let from = |(p, q)| LevenbergMarquardt::new().minimize(Surface::start(&points, 2.0, p, q)).0.rss();
+            let minima = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)].map(from);
+            let lowest = minima.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!(minima.iter().any(|rss| *rss > 1.2 * lowest), "seed {seed} has one minimum: {minima:?}");
+            assert_eq!(minimize(&points, 2.0).expect("regular").rss(), lowest, "seed {seed}");
+            winners.extend(minima.iter().position(|rss| *rss == lowest));
+        }
+        assert!(winners.len() > 1, "{winners:?}");
     }
 }

@@ -142,3 +142,18 @@ fn the_sum_of_the_contributions_is_told_from_the_root_of_their_squares() {
     let sum = fit_surface(&grid(|h, dt| 0.4 * h.powf(1.2) + 0.7 * dt), &quantiles()).expect("regular");
     assert!(sum.rms_additive < 1e-7 && sum.rms > 1e-3, "{sum:?}");
 }
+
+/// The iteration gives up from every start; what it has then is no minimum.
+#[test]
+fn a_fit_that_does_not_converge_is_none() {
+    let (least, largest) = (5e-324, 1e308);
+    let wild = [
+        (least, 1.0, 1.0),
+        (largest, largest, least),
+        (largest, least, largest),
+        (1.0, 1.0, 1.0),
+        (least, largest, largest),
+    ];
+    let found = fit_surface(&wild.map(|(h, dt, error)| SurfacePoint { h, dt, error }), &quantiles());
+    assert!(matches!(found, Err(SurfaceError::NotConverged(_))), "{found:?}");
+}

@@ -35,32 +35,30 @@ const SLOW: &[&str] = &[
     "no_coefficient_is_too_extreme",
 ];
 
+/// Files of the solver, or all but some, and the tests of it that notice most mistakes in them.
+const fn solver(
+    files: &'static [&'static str],
+    except: &'static [&'static str],
+    first: &'static [&'static str],
+) -> Target {
+    Target { package: "thermobeam", files, except, first, slow: SLOW, tests: ("thermobeam", &["--tests"]) }
+}
+
+const EQUILIBRIUM: &str = "crates/thermobeam/src/equilibrium/*.rs";
+const VIBRATION: &str = "crates/thermobeam/src/vibration/*.rs";
+const SOLVE: &str = "crates/thermobeam/src/solve/*.rs";
+const BOUND: &str = "crates/thermobeam/src/solve/bound.rs";
+const BALANCE: &str = "crates/thermobeam/src/solve/balance.rs";
+const ENSEMBLE: &str = "crates/thermobeam/src/ensemble.rs";
+
 /// The numerics, and what turns them into verdicts.
-const TARGETS: [Target; 5] = [
-    Target {
-        package: "thermobeam",
-        files: &[],
-        except: &["crates/thermobeam/src/equilibrium/*.rs", "crates/thermobeam/src/vibration/*.rs"],
-        first: &["--lib", "--test=solver"],
-        slow: SLOW,
-        tests: ("thermobeam", &["--tests"]),
-    },
-    Target {
-        package: "thermobeam",
-        files: &["crates/thermobeam/src/equilibrium/*.rs"],
-        except: &[],
-        first: &["--lib", "--test=equilibrium"],
-        slow: SLOW,
-        tests: ("thermobeam", &["--tests"]),
-    },
-    Target {
-        package: "thermobeam",
-        files: &["crates/thermobeam/src/vibration/*.rs"],
-        except: &[],
-        first: &["--lib", "--test=vibration"],
-        slow: SLOW,
-        tests: ("thermobeam", &["--tests"]),
-    },
+const TARGETS: [Target; 8] = [
+    solver(&[], &[EQUILIBRIUM, VIBRATION, SOLVE, ENSEMBLE], &["--lib", "--test=solver"]),
+    solver(&[SOLVE], &[BOUND, BALANCE], &["--test=solver"]),
+    solver(&[BOUND], &[], &["--lib"]),
+    solver(&[BALANCE, ENSEMBLE], &[], &["--test=lanes"]),
+    solver(&[EQUILIBRIUM], &[], &["--lib", "--test=equilibrium"]),
+    solver(&[VIBRATION], &[], &["--lib", "--test=vibration"]),
     Target {
         package: "thermobeam-exact",
         files: &[],

@@ -109,3 +109,41 @@ fn invert(block: Symmetric) -> (usize, Symmetric) {
     };
     (negative, Symmetric { a: d / determinant, b: -b / determinant, d: a / determinant })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_singular_block_is_shifted_by_round_off_to_the_positive_side() {
+        let square = f64::EPSILON * f64::EPSILON;
+        let (negative, inverse) = invert(Symmetric { a: 1.0, b: 2.0, d: 4.0 });
+        assert_eq!((negative, inverse.a * square), (0, 4.0 / 21.0));
+        assert_eq!((inverse.b * square, inverse.d * square), (-2.0 / 21.0, 1.0 / 21.0));
+        let (negative, inverse) = invert(Symmetric { a: -4.0, b: 0.0, d: 0.0 });
+        assert_eq!((negative, inverse.a, inverse.d * square), (2, 0.0, -0.25));
+        let (negative, inverse) = invert(Symmetric { a: 0.0, b: 0.0, d: 0.0 });
+        assert_eq!((negative, inverse.a, inverse.d), (0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn negative_eigenvalues_of_a_block_are_counted() {
+        for (a, b, d, negative) in [(2.0, 1.0, 3.0, 0), (2.0, 3.0, 3.0, 1), (-1.0, 0.5, 4.0, 1), (-2.0, 1.0, -3.0, 2)] {
+            let (found, inverse) = invert(Symmetric { a, b, d });
+            assert_eq!(found, negative, "{a} {b} {d}");
+            let identity =
+                [a * inverse.a + b * inverse.b, a * inverse.b + b * inverse.d, b * inverse.b + d * inverse.d];
+            assert!(
+                identity.iter().zip([1.0, 0.0, 1.0]).all(|(found, one)| (found - one).abs() < 1e-15),
+                "{identity:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_spectrum_ends_below_its_bound() {
+        let bound = spectral_bound(&[0.5, 0.25, 0.25]);
+        assert_eq!(bound, (24.0 * 16.0 + 2.0_f64).sqrt());
+        assert_eq!(count_below(&[0.5, 0.25, 0.25], bound * bound), 6);
+    }
+}

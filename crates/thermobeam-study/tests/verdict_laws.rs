@@ -305,6 +305,10 @@ fn a_rate_five_orders_off_is_wild_and_one_of_just_that_is_not() {
     check(&kept, Reason::Agrees, Verdict::Pass);
     assert_eq!(kept.used, 1..4);
     check_rates(&[-4.25, 1.0, 1.0], 1.0, Reason::WildRate, Verdict::Inconclusive);
+    // Exactly five orders off, to the bit.
+    let levels = with_rates(&[6.0, 1.0, 1.0]);
+    let order = judge(&levels, 1.0, 0.05).pairwise[0] - 5.0;
+    check(&judge(&levels, order, 0.05), Reason::Agrees, Verdict::Pass);
     // The step down to the floor counts, those at the floor do not.
     let floored = |rates: &[f64], floor_at: usize| {
         let levels = with_rates(rates);

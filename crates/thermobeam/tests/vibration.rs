@@ -168,6 +168,7 @@ fn a_viscosity_that_is_none_is_an_error() {
         assert_eq!(error.name, "zeta");
     }
     assert!(DampedMode::starting_from(Mode::new(0), 0.1, 1.0, f64::NAN).is_err());
+    assert_eq!(DampedMode::new(Mode::new(0), 0.1).expect("a viscosity").zeta(), 0.1);
 }
 
 #[test]

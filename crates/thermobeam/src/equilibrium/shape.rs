@@ -217,5 +217,6 @@ mod tests {
         let wave = Shape::Wave(Wave { q: 0.25, alpha: 1.0, stress: 0.0, drive: 0.0 });
         let deep = Shape::Deep(Deep { q: -0.5, stress: 0.0, drive: 0.0 });
         assert_eq!([Shape::Line { slope: 2.0 }, wave, deep].map(|shape| shape.n_value()), [-1.0, 3.0, -3.0]);
+        assert_eq!(Shape::Line { slope: 3.0 }.stretch(), 9.0);
     }
 }

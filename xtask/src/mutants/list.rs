@@ -33,6 +33,8 @@ const SLOW: &[&str] = &[
     "discrete_states_converge_at_second_order_and_have_as_many_unstable_directions",
     "newton_converges_for_every_compliance_step_force_and_stiffness",
     "no_coefficient_is_too_extreme",
+    "the_default_tolerance_is_enough_for_the_balance",
+    "the_energy_falls_and_its_balance_closes_to_round_off",
 ];
 
 /// Files of the solver, or all but some, and the tests of it that notice most mistakes in them.

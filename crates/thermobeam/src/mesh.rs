@@ -104,3 +104,26 @@ impl Mesh {
         self.lengths().fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_that_a_map_misses_by_round_off_are_set_and_others_refused() {
+        let ends = |miss: f64| {
+            let mesh = Mesh::mapped(4, |s| miss * f64::EPSILON * (1.0 - s) + s * (1.0 + miss * f64::EPSILON));
+            mesh.map(|mesh| [mesh.nodes()[0], mesh.nodes()[4]])
+        };
+        assert_eq!([ends(0.0), ends(4.0), ends(8.0)], [Ok([0.0, 1.0]), Ok([0.0, 1.0]), Ok([0.0, 1.0])]);
+        assert!(matches!(ends(16.0), Err(MeshError::Ends { index: 0, .. })));
+        let beyond = Mesh::mapped(4, |s| s * (1.0 + 16.0 * f64::EPSILON));
+        assert!(matches!(beyond, Err(MeshError::Ends { index: 4, .. })), "{beyond:?}");
+    }
+
+    #[test]
+    fn the_size_of_a_mesh_is_its_largest_element() {
+        let mesh = Mesh::from_nodes(vec![0.0, 0.25, 0.875, 1.0]).unwrap();
+        assert_eq!((mesh.elements(), mesh.size()), (3, 0.625));
+    }
+}

@@ -52,13 +52,14 @@ const SOLVE: &str = "crates/thermobeam/src/solve/*.rs";
 const BOUND: &str = "crates/thermobeam/src/solve/bound.rs";
 const BALANCE: &str = "crates/thermobeam/src/solve/balance.rs";
 const ENSEMBLE: &str = "crates/thermobeam/src/ensemble.rs";
+const LANES: &str = "crates/thermobeam/src/lanes.rs";
 
 /// The numerics, and what turns them into verdicts.
 const TARGETS: [Target; 8] = [
-    solver(&[], &[EQUILIBRIUM, VIBRATION, SOLVE, ENSEMBLE], &["--lib", "--test=solver"]),
+    solver(&[], &[EQUILIBRIUM, VIBRATION, SOLVE, ENSEMBLE, LANES], &["--lib", "--test=solver"]),
     solver(&[SOLVE], &[BOUND, BALANCE], &["--test=solver"]),
     solver(&[BOUND], &[], &["--lib"]),
-    solver(&[BALANCE, ENSEMBLE], &[], &["--test=lanes"]),
+    solver(&[BALANCE, ENSEMBLE, LANES], &[], &["--test=lanes"]),
     solver(&[EQUILIBRIUM], &[], &["--lib", "--test=equilibrium"]),
     solver(&[VIBRATION], &[], &["--lib", "--test=vibration"]),
     Target {

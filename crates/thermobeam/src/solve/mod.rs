@@ -135,3 +135,20 @@ impl Level {
         self.contact_force = other.contact_force;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_added_count_by_count() {
+        let one = Work { passes: 1, factorizations: 2, loads: 3, observations: 4 };
+        let other = Work { passes: 50, factorizations: 60, loads: 70, observations: 80 };
+        assert_eq!(one.plus(other), Work { passes: 51, factorizations: 62, loads: 73, observations: 84 });
+    }
+
+    #[test]
+    fn methods_are_called_what_the_files_call_them() {
+        assert_eq!(Solver::ALL.map(Solver::name), ["newton", "fixed-point"]);
+    }
+}

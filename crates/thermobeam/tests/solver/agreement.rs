@@ -1,8 +1,8 @@
 //! Different ways to the solution of a step lead to the same one.
 
 use crate::scenes::{EXPERIMENTS, paper, relative_difference, schemes_and_meshes, simulate, stepping};
-use thermobeam::simulation::Stepping;
-use thermobeam::solve::{Settings, Solver, Start};
+use thermobeam::simulation::{Initial, Problem, Stepping};
+use thermobeam::solve::{Level, Settings, Solver, Start};
 
 /// Runs all experiments twice, side by side, and compares every nodal value at every step.
 #[track_caller]
@@ -33,6 +33,27 @@ fn tight() -> Settings {
 #[test]
 fn newton_and_the_fixed_point_agree() {
     agree(tight(), Settings { solver: Solver::FixedPoint, ..tight() }, 1e-3, 1000, 1e-10);
+}
+
+/// (4.1): a step starts from the level before alone, so that a run goes on from a level as if it had begun there.
+#[test]
+fn the_fixed_point_knows_nothing_but_the_level_before() {
+    let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
+    for (scheme, mesh) in schemes_and_meshes(20) {
+        let problem = paper(mesh, EXPERIMENTS[0]);
+        let stepping = Stepping { scheme, settings, ..stepping(1e-3) };
+        let mut simulation = simulate(&problem, stepping);
+        for _ in 0..5 {
+            simulation.advance().unwrap();
+        }
+        let Level { u, v, phi, w, theta, .. } = simulation.level();
+        let afresh = Problem { initial: Initial { u, u_t: v, phi, phi_t: w, theta }, ..problem };
+        let mut afresh = simulate(&afresh, stepping);
+        for _ in 0..5 {
+            assert_eq!(simulation.advance(), afresh.advance());
+            assert_eq!(simulation.level(), afresh.level(), "{}", scheme.name);
+        }
+    }
 }
 
 #[test]

@@ -80,4 +80,18 @@ mod tests {
         // ∫ (3 - x)² = 19/3
         assert!((shear_squared(&lengths, &line, &nodes) - 19.0 / 3.0).abs() < 1e-14);
     }
+
+    #[test]
+    fn the_theorems_norm_is_the_root_of_the_sum_of_five_squares() {
+        let lengths = [1.0];
+        // ‖û‖² = 3, ‖u_x - φ‖² = 27, ‖φ̂‖² = 12, ‖φ_x‖² = 0, ‖θ‖² = 48, from linear functions 3x and the like.
+        let (v, u, w, phi, theta) = ([0.0, 3.0], [0.0, 0.0], [0.0, 6.0], [27.0_f64.sqrt(); 2], [0.0, 12.0]);
+        let squares = TheoremSquares::of(&lengths, &v, &u, &w, &phi, &theta);
+        let found = [squares.velocity, squares.shear, squares.rotation_rate, squares.curvature, squares.temperature];
+        let close = |found: f64, expected: f64| (found - expected).abs() < 1e-13 * (1.0 + expected);
+        assert!(found.iter().zip([3.0, 27.0, 12.0, 0.0, 48.0]).all(|(&found, expected)| close(found, expected)));
+        assert!(close(squares.norm(), 90.0_f64.sqrt()));
+        let bent = TheoremSquares { curvature: 10.0, ..squares };
+        assert!(close(bent.norm(), 10.0));
+    }
 }

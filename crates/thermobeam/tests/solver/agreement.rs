@@ -1,6 +1,7 @@
 //! Different ways to the solution of a step lead to the same one.
 
 use crate::scenes::{EXPERIMENTS, paper, relative_difference, schemes_and_meshes, simulate, stepping};
+use thermobeam::norms::TheoremSquares;
 use thermobeam::simulation::{Initial, Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver, Start};
 
@@ -52,6 +53,50 @@ fn the_fixed_point_knows_nothing_but_the_level_before() {
         for _ in 0..5 {
             assert_eq!(simulation.advance(), afresh.advance());
             assert_eq!(simulation.level(), afresh.level(), "{}", scheme.name);
+        }
+    }
+}
+
+#[test]
+fn newton_and_the_fixed_point_agree_under_loads() {
+    for (scheme, mesh) in schemes_and_meshes(20) {
+        let problem = paper(mesh, EXPERIMENTS[1]);
+        let mut pair = Solver::ALL.map(|solver| {
+            let settings = Settings { solver, ..tight() };
+            simulate(&problem, Stepping { scheme, settings, loaded: true, ..stepping(1e-3) })
+        });
+        for step in 0..100 {
+            let levels = pair.each_mut().map(|simulation| {
+                for (i, load) in simulation.load_mut().unwrap().iter_mut().enumerate() {
+                    let phase = 0.1 * f64::from(step) + i as f64;
+                    *load = [0.2 * phase.sin(), 0.1 * phase.cos(), 0.05 * (2.0 * phase).sin()];
+                }
+                simulation.advance().unwrap();
+                simulation.level()
+            });
+            let difference = relative_difference(&levels[0], &levels[1]);
+            assert!(difference < 1e-10, "{} step {step}: {difference:e}", scheme.name);
+        }
+    }
+}
+
+/// Accepted after one iteration, the fixed point's increment is all that the step has changed.
+#[test]
+fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
+    for (scheme, mesh) in schemes_and_meshes(20) {
+        let problem = paper(mesh, EXPERIMENTS[3]);
+        let settings = Settings { solver: Solver::FixedPoint, tolerance: 1e9, ..Settings::default() };
+        let mut simulation = simulate(&problem, Stepping { scheme, settings, ..stepping(1e-3) });
+        for _ in 0..3 {
+            let old = simulation.level();
+            let report = simulation.advance().unwrap();
+            let new = simulation.level();
+            let change = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<_>>();
+            let [v, u] = [change(&new.v, &old.v), change(&new.u, &old.u)];
+            let [w, phi, theta] = [change(&new.w, &old.w), change(&new.phi, &old.phi), change(&new.theta, &old.theta)];
+            let expected = TheoremSquares::of(simulation.lengths(), &v, &u, &w, &phi, &theta).norm();
+            assert_eq!((report.iterations, report.contraction), (1, None));
+            assert!((report.increment / expected - 1.0).abs() < 1e-12, "{}: {report:?}, {expected}", scheme.name);
         }
     }
 }

@@ -305,3 +305,16 @@ fn check_field(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_at_rest_is_straight_and_has_the_steady_temperature() {
+        let mesh = Mesh::from_nodes(vec![0.0, 0.25, 1.0]).unwrap();
+        let Initial { u, u_t, phi, phi_t, theta } = Initial::at_rest(&mesh, 2.0);
+        assert_eq!(theta, [2.0, 1.5, 0.0]);
+        assert!([u, u_t, phi, phi_t].iter().all(|field| *field == [0.0; 3]));
+    }
+}

@@ -105,4 +105,13 @@ mod tests {
         let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 2, 1.0, -5.0, -5.0);
         assert!(matches!(failure, Err(StepFailure::Indefinite { node: 1, n_value: -5.0, .. })));
     }
+
+    #[test]
+    fn a_pivot_of_exactly_zero_is_refused() {
+        let mut factor = TridiagonalFactor::new(1);
+        // One element of length 1: mass/3 + stiffness = 0, exact in binary.
+        let refused = factor.factorize(&[1.0], 1, 0.75, -0.25, -2.0);
+        assert_eq!(refused, Err(StepFailure::Indefinite { node: 1, pivot: 0.0, n_value: -2.0 }));
+        assert_eq!(factor.factorize(&[1.0], 1, 0.75, -0.125, -2.0), Ok(()));
+    }
 }

@@ -59,3 +59,15 @@ pub const SCHEMES: [Scheme; 2] = [EULER_CRANK_NICOLSON, MIDPOINT];
 pub fn by_name(name: &str) -> Option<Scheme> {
     SCHEMES.into_iter().find(|scheme| scheme.name == name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scheme_is_found_by_its_name_and_no_other_is() {
+        assert_eq!(SCHEMES.map(|scheme| by_name(scheme.name)), SCHEMES.map(Some));
+        assert_ne!(SCHEMES[0].name, SCHEMES[1].name);
+        assert_eq!(by_name("euler"), None);
+    }
+}

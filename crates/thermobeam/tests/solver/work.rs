@@ -28,12 +28,9 @@ fn levels_are_copied_for_observers_and_loads_filled_only_as_often_as_asked_for()
                 let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
                 assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
                 assert!(work.passes >= STEPS, "{work:?}");
-                match solver {
-                    Solver::Newton => {
-                        assert!(work.factorizations < STEPS, "a factor is kept over many steps: {work:?}")
-                    }
-                    Solver::FixedPoint => assert_eq!(work.factorizations, work.passes, "m changes with every iterate"),
-                }
+                // A factor is kept over many steps; in the fixed point m changes with every iterate.
+                let expected = if solver == Solver::Newton { 1..STEPS } else { work.passes..work.passes + 1 };
+                assert!(expected.contains(&work.factorizations), "{solver:?}: {work:?}");
             }
         }
     }

@@ -57,7 +57,7 @@ const LANES: &str = "crates/thermobeam/src/lanes.rs";
 /// The numerics, and what turns them into verdicts.
 const TARGETS: [Target; 8] = [
     solver(&[], &[EQUILIBRIUM, VIBRATION, SOLVE, ENSEMBLE, LANES], &["--lib", "--test=solver"]),
-    solver(&[SOLVE], &[BOUND, BALANCE], &["--test=solver"]),
+    solver(&[SOLVE], &[BOUND, BALANCE], &["--test=solver", "--test=lanes"]),
     solver(&[BOUND], &[], &["--lib"]),
     solver(&[BALANCE, ENSEMBLE, LANES], &[], &["--test=lanes"]),
     solver(&[EQUILIBRIUM], &[], &["--lib", "--test=equilibrium"]),

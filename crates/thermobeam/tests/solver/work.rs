@@ -2,7 +2,7 @@
 
 use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings, Solver};
+use thermobeam::solve::{Level, Settings, Solver, Start};
 
 const STEPS: usize = 50;
 
@@ -50,4 +50,17 @@ fn a_free_linear_beam_is_solved_once_a_step_and_factorized_once() {
     problem.obstacles = None;
     assert_eq!(passes(&problem), (STEPS, 1));
     assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "more passes, with the same factor: {nonlinear:?}");
+}
+
+#[test]
+fn a_start_extrapolated_from_three_levels_saves_passes() {
+    let problem = paper(uniform(20), EXPERIMENTS[0]);
+    let passes = |start: Start| {
+        let settings = Settings { start, ..Settings::default() };
+        let mut simulation = simulate(&problem, Stepping { settings, ..stepping(1e-4) });
+        advance(&mut simulation, STEPS);
+        simulation.work().passes
+    };
+    let (extrapolated, previous) = (passes(Start::Extrapolated), passes(Start::Previous));
+    assert!(4 * extrapolated < 3 * previous, "{extrapolated} passes, {previous} from the level before");
 }

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::{Ended, Folder, ended, xtask};
 
-/// Lists three mutants, none for a target of certain files; the tests catch the first, and whatever `caught` names besides. It counts its calls.
+/// Lists three mutants, none for a target of certain files; the tests catch the first, and whatever `caught` names besides.
+/// It counts its calls.
 const CARGO: &str = r#"#!/bin/sh
 [ "$2" = --version ] && exit 0
 [ "$1" = test ] && { [ ! -e broken ]; exit; }

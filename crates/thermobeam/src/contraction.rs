@@ -36,8 +36,8 @@ pub fn contact_contraction(
     };
     let stiffness = beam.zeta + 0.5 * dt * (1.0 + n_value);
     let mut factor = TridiagonalFactor::new(lengths.len());
-    match factor.factorize(lengths, lengths.len(), scheme.inertia / dt, stiffness, n_value) {
-        Ok(()) => dt * slope * factor.last_of_inverse(lengths.len()),
+    match factor.factorize(lengths, scheme.inertia / dt, stiffness, n_value) {
+        Ok(()) => dt * slope * factor.last_of_inverse(),
         Err(_) => f64::INFINITY,
     }
 }
@@ -68,15 +68,15 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     let stretch = s + 0.5 * dt * n_value;
     let (mut of_u, mut of_phi) = (TridiagonalFactor::new(n), TridiagonalFactor::new(n));
     let factorized = of_u
-        .factorize(lengths, n, kappa, stretch, n_value)
-        .and_then(|()| of_phi.factorize(lengths, n, kappa + s, s, n_value));
+        .factorize(lengths, kappa, stretch, n_value)
+        .and_then(|()| of_phi.factorize(lengths, kappa + s, s, n_value));
     if factorized.is_err() {
         return f64::INFINITY;
     }
     // A load on the tip starts the layer there, and has a share of every mode.
     let mut v = vec![0.0; n + 1];
     v[n] = 1.0;
-    of_u.solve_in_place(n, &mut v);
+    of_u.solve_in_place(&mut v);
     let (mut w, mut image) = (vec![0.0; n + 1], vec![0.0; n + 1]);
     let mut factor = 0.0;
     for _ in 0..ITERATIONS {
@@ -89,7 +89,7 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
             w[i + 1] += shear;
         }
         w[0] = 0.0;
-        of_phi.solve_in_place(n, &mut w);
+        of_phi.solve_in_place(&mut w);
         image.fill(0.0);
         for i in 0..n {
             let stress = 0.5 * s * (w[i] + w[i + 1]);
@@ -99,7 +99,7 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
         // The quotient (V, s C W)/(V, A_u V).
         let quotient: f64 = v.iter().zip(&image).map(|(v, image)| v * image).sum();
         image[0] = 0.0;
-        of_u.solve_in_place(n, &mut image);
+        of_u.solve_in_place(&mut image);
         std::mem::swap(&mut v, &mut image);
         let change = (quotient - factor).abs();
         factor = quotient;

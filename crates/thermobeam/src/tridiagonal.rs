@@ -12,25 +12,18 @@ pub struct TridiagonalFactor {
 }
 
 impl TridiagonalFactor {
-    /// Room for n elements.
-    pub fn new(elements: usize) -> Self {
-        Self { multiplier: vec![0.0; elements + 1], inverse: vec![0.0; elements + 1] }
+    /// Room for the nodes 1..=last; `last` is n, or n - 1 where the tip is fixed.
+    pub fn new(last: usize) -> Self {
+        Self { multiplier: vec![0.0; last + 1], inverse: vec![0.0; last + 1] }
     }
 
-    /// Factorises `mass M + stiffness K`, rows and columns 1..=last; `last` is n, or n - 1 where the tip is fixed.
+    /// Factorises `mass M + stiffness K`, rows and columns 1..=last.
     ///
     /// # Errors
     /// [`StepFailure::Indefinite`] at the first pivot that is not positive.
-    pub fn factorize(
-        &mut self,
-        lengths: &[f64],
-        last: usize,
-        mass: f64,
-        stiffness: f64,
-        n_value: f64,
-    ) -> Result<(), StepFailure> {
+    pub fn factorize(&mut self, lengths: &[f64], mass: f64, stiffness: f64, n_value: f64) -> Result<(), StepFailure> {
         let mut previous_inverse = 0.0;
-        for i in 1..=last {
+        for i in 1..self.inverse.len() {
             let left = lengths[i - 1];
             let mut pivot = mass * left / 3.0 + stiffness / left;
             if let Some(right) = lengths.get(i) {
@@ -49,7 +42,8 @@ impl TridiagonalFactor {
     }
 
     /// Replaces the right-hand side in nodes 1..=last by the solution.
-    pub fn solve_in_place(&self, last: usize, x: &mut [f64]) {
+    pub fn solve_in_place(&self, x: &mut [f64]) {
+        let last = self.inverse.len() - 1;
         for i in 2..=last {
             x[i] -= self.multiplier[i] * x[i - 1];
         }
@@ -60,8 +54,8 @@ impl TridiagonalFactor {
     }
 
     /// Entry (last, last) of the matrix's inverse: the last pivot is its reciprocal.
-    pub fn last_of_inverse(&self, last: usize) -> f64 {
-        self.inverse[last]
+    pub fn last_of_inverse(&self) -> f64 {
+        self.inverse[self.inverse.len() - 1]
     }
 }
 
@@ -89,11 +83,11 @@ mod tests {
             });
             let right = DVector::from_fn(last, |i, _| (i as f64 + 1.0).sin());
             let expected = dense.lu().solve(&right).unwrap();
-            let mut factor = TridiagonalFactor::new(6);
-            factor.factorize(&lengths, last, 7.0, 0.3, 0.0).unwrap();
+            let mut factor = TridiagonalFactor::new(last);
+            factor.factorize(&lengths, 7.0, 0.3, 0.0).unwrap();
             let mut x = vec![0.0; 7];
             x[1..=last].copy_from_slice(right.as_slice());
-            factor.solve_in_place(last, &mut x);
+            factor.solve_in_place(&mut x);
             for i in 0..last {
                 assert!((x[i + 1] - expected[i]).abs() < 1e-14);
             }
@@ -102,7 +96,7 @@ mod tests {
 
     #[test]
     fn an_indefinite_matrix_is_reported() {
-        let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 2, 1.0, -5.0, -5.0);
+        let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 1.0, -5.0, -5.0);
         assert!(matches!(failure, Err(StepFailure::Indefinite { node: 1, n_value: -5.0, .. })));
     }
 
@@ -110,8 +104,8 @@ mod tests {
     fn a_pivot_of_exactly_zero_is_refused() {
         let mut factor = TridiagonalFactor::new(1);
         // One element of length 1: mass/3 + stiffness = 0, exact in binary.
-        let refused = factor.factorize(&[1.0], 1, 0.75, -0.25, -2.0);
+        let refused = factor.factorize(&[1.0], 0.75, -0.25, -2.0);
         assert_eq!(refused, Err(StepFailure::Indefinite { node: 1, pivot: 0.0, n_value: -2.0 }));
-        assert_eq!(factor.factorize(&[1.0], 1, 0.75, -0.125, -2.0), Ok(()));
+        assert_eq!(factor.factorize(&[1.0], 0.75, -0.125, -2.0), Ok(()));
     }
 }

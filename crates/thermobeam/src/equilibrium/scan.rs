@@ -57,14 +57,6 @@ enum End {
     Plain(f64),
 }
 
-impl End {
-    fn s(self) -> f64 {
-        match self {
-            End::Buckling(s) | End::Plain(s) => s,
-        }
-    }
-}
-
 /// f for one law, as a function of `s = 1 + N`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scan<'a> {
@@ -83,12 +75,12 @@ impl Scan<'_> {
         let mut hi = End::Plain(self.beyond(self.law.buckling(1)));
         let mut roots = Vec::new();
         for above in 0..waves {
-            let lo = End::Buckling(self.law.buckling(above + 1));
-            roots.extend(self.interval(lo, hi, Some(above)));
-            if lo.s() <= rest {
+            let pole = self.law.buckling(above + 1);
+            roots.extend(self.interval(End::Buckling(pole), hi, Some(above)));
+            if pole <= rest {
                 break;
             }
-            hi = lo;
+            hi = End::Buckling(pole);
         }
         roots
     }
@@ -115,13 +107,11 @@ impl Scan<'_> {
     }
 
     /// Some s above the largest pole where f > 0.
+    ///
+    /// With `s > max(pole, 1 + β)`, `f(s + 2ρS(s)) >= s - (1 + β) + ρS(s) > 0`, because S falls there.
     fn beyond(&self, pole: f64) -> f64 {
-        let mut s = 2.0 * (pole + (1.0 + self.beta).abs());
-        // f grows like s: this ends long before s overflows, or f was not finite to begin with.
-        while self.f(s) <= 0.0 && s < f64::MAX / 4.0 {
-            s *= 2.0;
-        }
-        s
+        let s = 2.0 * (pole + (1.0 + self.beta).abs());
+        s + 2.0 * self.rho * self.law.solve(s).stretch()
     }
 
     /// The roots of f, concave between `lo` and `hi`, where `above` poles lie above.
@@ -164,9 +154,7 @@ impl Scan<'_> {
             let stretch = self.rho * self.law.solve(s).stretch();
             FOLD * (s.abs() + (1.0 + self.beta).abs() + stretch)
         };
-        // The top may be much closer to one end than to the other, most of all to N = -1.
-        let enough = 2.0 * noise(b).min(noise(a));
-        let (s, value) = climb(|s| self.f(s), a, b, enough);
+        let (s, value) = climb(|s| self.f(s), a, b);
         if value > noise(s) {
             Top::Above(s)
         } else if value >= -noise(s) {

@@ -57,9 +57,9 @@ impl FixedPoint {
         let n = case.lengths.len();
         let (kappa, s) = (scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
         let mut factor_phi = TridiagonalFactor::new(n);
-        factor_phi.factorize(&case.lengths, n, kappa + s, s, 0.0)?;
-        let mut factor_theta = TridiagonalFactor::new(n);
-        factor_theta.factorize(&case.lengths, n - 1, 2.0 / case.dt, 1.0, 0.0)?;
+        factor_phi.factorize(&case.lengths, kappa + s, s, 0.0)?;
+        let mut factor_theta = TridiagonalFactor::new(n - 1);
+        factor_theta.factorize(&case.lengths, 2.0 / case.dt, 1.0, 0.0)?;
         let iterate = Iterate { v: level.v.clone(), w: level.w.clone(), theta: level.theta.clone() };
         Ok(Self {
             scheme,
@@ -142,7 +142,7 @@ impl FixedPoint {
             theta[i + 1] += mass * (t[0] + 2.0 * t[1]) - heating;
         }
         add_load(theta, &self.load, 2);
-        self.factor_theta.solve_in_place(n - 1, theta);
+        self.factor_theta.solve_in_place(theta);
         (theta[0], theta[n]) = (0.0, 0.0);
     }
 
@@ -164,7 +164,7 @@ impl FixedPoint {
         }
         add_load(w, &self.load, 1);
         w[0] = 0.0;
-        self.factor_phi.solve_in_place(lengths.len(), w);
+        self.factor_phi.solve_in_place(w);
     }
 
     fn solve_u(&mut self) -> Result<(), StepFailure> {
@@ -173,7 +173,7 @@ impl FixedPoint {
         let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
         let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
         self.work.factorizations += 1;
-        self.factor_u.factorize(lengths, n, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;
+        self.factor_u.factorize(lengths, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;
         let v = &mut self.now.v;
         v.fill(0.0);
         for (i, &h) in lengths.iter().enumerate() {
@@ -193,7 +193,7 @@ impl FixedPoint {
             v[n] -= self.force;
         }
         v[0] = 0.0;
-        self.factor_u.solve_in_place(n, v);
+        self.factor_u.solve_in_place(v);
         Ok(())
     }
 

@@ -201,7 +201,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 self.conclude(k, outcome, report);
             }
         }
-        if T::WIDTH > 1 || self.any(Progress::Accepted) {
+        if self.any(Progress::Accepted) {
             self.commit(report);
         }
     }
@@ -227,12 +227,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     }
 
     fn weights(&self) -> [f64; 3] {
-        let known = if self.settings.start == Start::Previous { 1 } else { self.known };
-        match known {
-            1 => [1.0, 0.0, 0.0],
-            2 => [2.0, -1.0, 0.0],
-            _ => [3.0, -3.0, 1.0],
-        }
+        // Three levels are known from the third step on.
+        if self.settings.start == Start::Previous || self.known < 3 { [1.0, 0.0, 0.0] } else { [3.0, -3.0, 1.0] }
     }
 
     fn any(&self, state: Progress) -> bool {

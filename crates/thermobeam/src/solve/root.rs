@@ -5,6 +5,22 @@ use crate::error::StepFailure;
 use crate::lanes::Lane;
 use crate::solve::newton::{Newton, Progress};
 
+/// What m, which carries the rounding errors of a sum over the elements, is certain to: below it nothing can be gained.
+fn rounding(forces: [f64; 3]) -> f64 {
+    8.0 * f64::EPSILON * forces.iter().map(|force| force.abs()).sum::<f64>()
+}
+
+/// Newton's m where it lies inside the bracket; else the bracket's middle, or a leap upwards while it has no upper end.
+fn safeguarded(low: f64, high: f64, newton: f64) -> f64 {
+    if low < newton && newton < high {
+        newton
+    } else if high.is_finite() {
+        0.5 * (low + high)
+    } else {
+        low + (1.0 + low.abs())
+    }
+}
+
 impl<T: Lane, const B: usize> Newton<T, B> {
     /// Solves `F(m) = m - ½(N(u(m)) + N(u0)) = 0` for case k, from N(u0) on.
     ///
@@ -28,8 +44,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             if !f.is_finite() {
                 return Err(StepFailure::NonFinite { iterations: control.iterations, increment: previous });
             }
-            // m carries the rounding errors of a sum over the elements; below that nothing can be gained.
-            let rounding = 8.0 * f64::EPSILON * (m.abs() + n0.abs() + self.cases[k].beam.beta.abs());
+            let rounding = rounding([m, n0, self.cases[k].beam.beta]);
             if bound.remaining <= self.settings.tolerance || f.abs() <= rounding {
                 return Ok(());
             }
@@ -43,10 +58,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             if high - low <= rounding {
                 return Ok(());
             }
-            m -= f / self.derivative(k);
-            if !(low < m && m < high) {
-                m = if high.is_finite() { 0.5 * (low + high) } else { low + (1.0 + low.abs()) };
-            }
+            m = safeguarded(low, high, m - f / self.derivative(k));
         }
         let control = &self.controls[k];
         Err(StepFailure::IterationLimit {
@@ -105,5 +117,39 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             z = next;
         }
         1.0 + rho * dt * product
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outside_of_the_bracket_newton_gives_way_to_the_middle() {
+        assert_eq!(safeguarded(-1.0, 4.0, 3.5), 3.5);
+        // At an end of the bracket F has been looked at already.
+        for outside in [-7.0, -1.0, 4.0, 5.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(safeguarded(-1.0, 4.0, outside), 1.5, "{outside}");
+        }
+    }
+
+    #[test]
+    fn without_an_upper_end_leaps_get_anywhere_soon() {
+        for start in [-1e9, -3.0, -1.0, -0.25, 0.0, 0.75, 1e4] {
+            assert_eq!(safeguarded(start, f64::INFINITY, start + 0.5), start + 0.5);
+            let leaps = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
+            let count = leaps.take_while(|&m| m < 1e12).count();
+            assert!(count < 80, "{count} leaps from {start}");
+        }
+    }
+
+    #[test]
+    fn what_is_certain_scales_with_the_forces() {
+        let forces = [-0.5, 3.0, 1.25];
+        assert_eq!(rounding(forces), 8.0 * f64::EPSILON * 4.75);
+        for scale in [1e-6, 1e6] {
+            let scaled = rounding(forces.map(|force| scale * force));
+            assert!((scaled / (scale * rounding(forces)) - 1.0).abs() < 1e-12);
+        }
     }
 }

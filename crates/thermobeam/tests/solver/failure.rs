@@ -69,22 +69,34 @@ fn the_contact_force_of_the_start_is_that_of_the_initial_tip() {
 }
 
 #[test]
-fn too_few_iterations_are_reported() {
+fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
     for stepping in everywhere() {
-        for max_iterations in [1, 2, 3] {
+        let mut problem = paper(uniform(10), (0.0, 0.0));
+        problem.beam.rho = 1e4;
+        let failed_at = |max_iterations: usize| {
             let settings = Settings { tolerance: 1e-300, max_iterations, ..stepping.settings };
-            let mut problem = paper(uniform(10), (0.0, 0.0));
-            problem.beam.rho = 1e4;
-            let mut simulation = simulate(&problem, Stepping { settings, ..stepping });
-            let error = simulation.advance().unwrap_err();
-            let (StepFailure::IterationLimit { iterations, increment, .. }
-            | StepFailure::Diverged { iterations, increment, .. }) = error.failure
+            let error = simulate(&problem, Stepping { settings, dt: 0.1, ..stepping }).advance().unwrap_err();
+            let (StepFailure::IterationLimit { iterations, increment, contraction }
+            | StepFailure::Diverged { iterations, increment, contraction }) = error.failure
             else {
                 panic!("{stepping:?}: {error}")
             };
             assert_eq!(iterations, max_iterations, "{stepping:?}");
             assert!(increment > 0.0, "{error}");
+            (increment, contraction)
+        };
+        let mut told = 0;
+        let mut previous = f64::NAN;
+        for max_iterations in 1..=4 {
+            let (increment, contraction) = failed_at(max_iterations);
+            // Newton's method does not know it before it searches for the root.
+            if !contraction.is_nan() {
+                assert_eq!(contraction, increment / previous, "{stepping:?} {max_iterations}");
+                told += 1;
+            }
+            previous = increment;
         }
+        assert!(told > 1, "{stepping:?}");
     }
 }
 

@@ -18,7 +18,7 @@ pub(super) fn discrete_buckling_force(mesh: &Mesh) -> Result<f64, StepFailure> {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let n = lengths.len();
     let mut factor = TridiagonalFactor::new(n);
-    factor.factorize(&lengths, n, 1.0, 1.0, 0.0)?;
+    factor.factorize(&lengths, 1.0, 1.0, 0.0)?;
     let (mut p, mut lambda) = (vec![1.0; n], f64::NAN);
     for _ in 0..ITERATIONS {
         let mut w = vec![0.0; n + 1];
@@ -27,7 +27,7 @@ pub(super) fn discrete_buckling_force(mesh: &Mesh) -> Result<f64, StepFailure> {
             w[i + 1] += 0.5 * h * p[i];
         }
         w[0] = 0.0;
-        factor.solve_in_place(n, &mut w);
+        factor.solve_in_place(&mut w);
         let image: Vec<f64> = w.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
         lambda = product(&lengths, &p, &image) / product(&lengths, &p, &p);
         let norm = product(&lengths, &image, &image).sqrt();

@@ -44,10 +44,10 @@ pub(super) fn tip_compliance(scene: &Scene) -> Result<f64, StepFailure> {
     let lengths: Vec<f64> = scene.mesh.lengths().collect();
     let n = lengths.len();
     let mut factor = TridiagonalFactor::new(n);
-    factor.factorize(&lengths, n, 1.0 / dt, beam.zeta + 0.5 * dt * (1.0 + beam.beta), beam.beta)?;
+    factor.factorize(&lengths, 1.0 / dt, beam.zeta + 0.5 * dt * (1.0 + beam.beta), beam.beta)?;
     let mut tip = vec![0.0; n + 1];
     tip[n] = 1.0;
-    factor.solve_in_place(n, &mut tip);
+    factor.solve_in_place(&mut tip);
     Ok(dt * tip[n])
 }
 

@@ -45,10 +45,10 @@ impl<'a> SemiDiscrete<'a> {
         let (mesh, beam) = (on.mesh(), on.problem().beam);
         let lengths: Vec<f64> = mesh.lengths().collect();
         let n = lengths.len();
-        let mut factors = [TridiagonalFactor::new(n), TridiagonalFactor::new(n)];
-        for (factor, last) in factors.iter_mut().zip([n, n - 1]) {
+        let mut factors = [n, n - 1].map(TridiagonalFactor::new);
+        for factor in &mut factors {
             let failure = |_| CaseFailure { reason: "the mass matrix is not definite".to_owned() };
-            factor.factorize(&lengths, last, 1.0, 0.0, 0.0).map_err(failure)?;
+            factor.factorize(&lengths, 1.0, 0.0, 0.0).map_err(failure)?;
         }
         let c = coupling(mesh);
         let matrices = [mass(mesh), stiffness(mesh), c.transpose(), c];
@@ -93,8 +93,7 @@ impl System<f64, DVector<f64>> for &SemiDiscrete<'_> {
         let mut rates = [force, moment, flux];
         for (k, rate) in rates.iter_mut().enumerate() {
             rate.iter_mut().zip(column(k)).for_each(|(rate, load)| *rate += load);
-            let last = if k == 2 { n - 1 } else { n };
-            self.factors[usize::from(k == 2)].solve_in_place(last, rate);
+            self.factors[usize::from(k == 2)].solve_in_place(rate);
             rate[0] = 0.0;
         }
         rates[2][n] = 0.0;

@@ -1,9 +1,10 @@
 //! Reports are put on their shelf as a set: after a crash the next run finds the old set or completes the new one.
 //!
-//! All files are first written into a staging folder. Its renaming to `pending` is the one moment at which the new set
-//! counts: from then on files are only moved to their places, which can be done again after any interruption. What the
-//! former set had and the new one does not is removed; a manifest, moved last, lists the set. Files that no
-//! manifest lists are never touched. A lock, which the operating system frees even after a crash, keeps two runs apart.
+//! All files that differ from those on the shelf are first written into a staging folder. Its renaming to `pending` is the
+//! one moment at which the new set counts: from then on files are only moved to their places, which can be done again
+//! after any interruption. What the former set had and the new one does not is removed; a manifest, moved last, lists the
+//! set. Files that no manifest lists are never touched. A lock, which the operating system frees even after a crash,
+//! keeps two runs apart.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -87,12 +88,17 @@ impl Shelf {
         let _writing = writing::begin();
         self.tidy()?;
         let staging = self.staging();
-        for (path, bytes) in set.files() {
+        for (path, bytes) in set.files().filter(|(path, bytes)| !self.holds(path, bytes)) {
             write_new(&staging.join(path), bytes)?;
         }
         write_new(&staging.join(MANIFEST), set.manifest().as_bytes())?;
         fs::rename(&staging, self.pending())?;
         self.complete_interrupted()
+    }
+
+    /// Whether a file is there as it should be: it is then left alone.
+    fn holds(&self, path: &str, bytes: &[u8]) -> bool {
+        fs::read(self.place.join(path)).is_ok_and(|found| found == bytes)
     }
 
     /// Completes a replacement that was interrupted, and removes what was not yet one. Call it with the [`lock`] held.

@@ -1,5 +1,6 @@
-use std::fs;
+use std::fs::{self, File};
 use std::path::Path;
+use std::time::{Duration, SystemTime};
 
 use thermobeam_study::shelf::{ReportSet, Shelf, lock};
 
@@ -49,6 +50,26 @@ fn a_new_set_replaces_the_old_one_and_spares_what_is_not_its_own() {
     assert_eq!(fs::read_to_string(shelf.place.join("README.md")).unwrap(), "two");
     shelf.publish(&set(&[("README.md", "three")])).unwrap();
     assert!(!shelf.place.join("figures").exists());
+}
+
+#[test]
+fn what_has_not_changed_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let shelf = shelf(folder.path());
+    shelf.publish(&set(&[("README.md", "one"), ("figures/a.svg", "a"), ("figures/b.svg", "b")])).unwrap();
+    let long_ago = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000);
+    let written = |path: &str| fs::metadata(shelf.place.join(path)).unwrap().modified().unwrap();
+    for path in ["README.md", "figures/a.svg", "figures/b.svg"] {
+        File::options().append(true).open(shelf.place.join(path)).unwrap().set_modified(long_ago).unwrap();
+    }
+    shelf.publish(&set(&[("README.md", "two"), ("figures/a.svg", "a"), ("figures/b.svg", "c")])).unwrap();
+    let is_untouched = ["README.md", "figures/a.svg", "figures/b.svg"].map(|path| written(path) == long_ago);
+    assert_eq!(is_untouched, [false, true, false]);
+    let expected = [("README.md", "two"), ("figures/a.svg", "a"), ("figures/b.svg", "c")];
+    let found = found(&shelf.place);
+    let found =
+        found.iter().map(|(path, bytes)| (path.as_str(), bytes.as_str())).filter(|(path, _)| *path != "manifest.txt");
+    assert!(found.eq(expected));
 }
 
 #[test]

@@ -90,6 +90,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let file = root.join("reports/fuzz.md");
     atomic::write(&file, page(arguments, &all, &table))?;
     output::print(&format!("{}\nreport: reports/fuzz.md\n", sentence(&all)))?;
+    if !passed && all.failed == 0 {
+        output::complain(&format!("no input failed, but the test {TEST} failed: see above"));
+    }
     Ok(if passed && all.failed == 0 { Verdict::Pass } else { Verdict::Fail })
 }
 

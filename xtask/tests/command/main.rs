@@ -4,6 +4,8 @@ mod accuracy;
 mod equilibria;
 mod failure;
 mod first_steps;
+#[cfg(unix)]
+mod fuzz;
 mod interrupted;
 mod killed;
 #[cfg(unix)]

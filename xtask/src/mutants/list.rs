@@ -12,10 +12,8 @@ use crate::exit::Unusable;
 pub(super) struct Target {
     /// The package.
     pub(super) package: &'static str,
-    /// Its files; none for all.
-    files: &'static [&'static str],
-    /// Files of it that other targets hold.
-    except: &'static [&'static str],
+    /// How the paths of its files begin.
+    paths: &'static [&'static str],
     /// Those of its own tests that notice most mistakes: each binary is linked anew for each mutant.
     pub(super) first: &'static [&'static str],
     /// Tests that the first judge leaves out, because they take longer than all others together.
@@ -37,48 +35,36 @@ const SLOW: &[&str] = &[
     "the_energy_falls_and_its_balance_closes_to_round_off",
 ];
 
-/// Files of the solver, or all but some, and the tests of it that notice most mistakes in them.
-const fn solver(
-    files: &'static [&'static str],
-    except: &'static [&'static str],
-    first: &'static [&'static str],
-) -> Target {
-    Target { package: "thermobeam", files, except, first, slow: SLOW, tests: ("thermobeam", &["--tests"]) }
+/// Files of the solver, and the tests of it that notice most mistakes in them.
+const fn solver(paths: &'static [&'static str], first: &'static [&'static str]) -> Target {
+    Target { package: "thermobeam", paths, first, slow: SLOW, tests: ("thermobeam", &["--tests"]) }
 }
 
-const EQUILIBRIUM: &str = "crates/thermobeam/src/equilibrium/*.rs";
-const VIBRATION: &str = "crates/thermobeam/src/vibration/*.rs";
-const SOLVE: &str = "crates/thermobeam/src/solve/*.rs";
-const BOUND: &str = "crates/thermobeam/src/solve/bound.rs";
-const BALANCE: &str = "crates/thermobeam/src/solve/balance.rs";
-const ENSEMBLE: &str = "crates/thermobeam/src/ensemble.rs";
-const LANES: &str = "crates/thermobeam/src/lanes.rs";
-
-/// The numerics, and what turns them into verdicts.
+/// The numerics, and what turns them into verdicts. A file belongs to the first target that names it.
 const TARGETS: [Target; 8] = [
-    solver(&[], &[EQUILIBRIUM, VIBRATION, SOLVE, ENSEMBLE, LANES], &["--lib", "--test=solver"]),
-    solver(&[SOLVE], &[BOUND, BALANCE], &["--test=solver", "--test=lanes"]),
-    solver(&[BOUND], &[], &["--lib"]),
-    solver(&[BALANCE, ENSEMBLE, LANES], &[], &["--test=lanes"]),
-    solver(&[EQUILIBRIUM], &[], &["--lib", "--test=equilibrium"]),
-    solver(&[VIBRATION], &[], &["--lib", "--test=vibration"]),
+    solver(&["crates/thermobeam/src/equilibrium/"], &["--lib", "--test=equilibrium"]),
+    solver(&["crates/thermobeam/src/vibration/"], &["--lib", "--test=vibration"]),
+    solver(&["crates/thermobeam/src/solve/bound.rs"], &["--lib"]),
+    solver(
+        &[
+            "crates/thermobeam/src/solve/balance.rs",
+            "crates/thermobeam/src/ensemble.rs",
+            "crates/thermobeam/src/lanes.rs",
+        ],
+        &["--test=lanes"],
+    ),
+    solver(&["crates/thermobeam/src/solve/"], &["--lib", "--test=solver", "--test=lanes"]),
+    solver(&[""], &["--lib", "--test=solver"]),
     Target {
         package: "thermobeam-exact",
-        files: &[],
-        except: &[],
+        paths: &[""],
         first: &["--tests"],
         slow: &[],
         tests: ("thermobeam-study", &["--test=manufactured", "--test=input"]),
     },
     Target {
         package: "thermobeam-study",
-        files: &[
-            "crates/thermobeam-study/src/fit.rs",
-            "crates/thermobeam-study/src/fit/*.rs",
-            "crates/thermobeam-study/src/verdict.rs",
-            "crates/thermobeam-study/src/verdict/*.rs",
-        ],
-        except: &[],
+        paths: &["crates/thermobeam-study/src/fit", "crates/thermobeam-study/src/verdict"],
         first: &["--test=fit", "--test=verdict_laws"],
         slow: &["the_joint_region_holds_the_orders_95_times_in_100"],
         tests: (
@@ -87,6 +73,12 @@ const TARGETS: [Target; 8] = [
         ),
     },
 ];
+
+impl Target {
+    fn holds(&self, package: &str, file: &str) -> bool {
+        self.package == package && self.paths.iter().any(|path| file.starts_with(path))
+    }
+}
 
 /// The packages of the targets.
 pub(super) const PACKAGES: [&str; 3] = ["thermobeam", "thermobeam-exact", "thermobeam-study"];
@@ -119,29 +111,26 @@ impl Mutant {
 /// All mutants, as cargo-mutants lists them.
 pub(super) fn mutants(root: &Path) -> Result<Vec<Mutant>, Unusable> {
     let mut mutants = vec![];
-    for target in &TARGETS {
+    for package in PACKAGES {
         let mut command = Command::new("cargo");
-        command.args(["mutants", "--list", "--colors=never", "--package", target.package]).current_dir(root);
-        command.args(target.files.iter().flat_map(|file| ["--file", file]));
-        command.args(target.except.iter().flat_map(|file| ["--exclude", file]));
+        command.args(["mutants", "--list", "--colors=never", "--package", package]).current_dir(root);
         let output = command.output()?;
         if !output.status.success() {
-            return Err(Unusable::because(&format!(
-                "cargo mutants --list: {}",
-                String::from_utf8_lossy(&output.stderr)
-            )));
+            let reason = format!("cargo mutants --list: {}", String::from_utf8_lossy(&output.stderr));
+            return Err(Unusable::because(&reason));
         }
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        mutants.extend(text.lines().filter_map(|line| mutant(root, line, target)));
+        let text = String::from_utf8_lossy(&output.stdout);
+        mutants.extend(text.lines().filter_map(|line| mutant(root, line, package)));
     }
     Ok(mutants)
 }
 
-/// A line `file:line:column: what`.
-fn mutant(root: &Path, name: &str, target: &'static Target) -> Option<Mutant> {
+/// A line `file:line:column: what`, where a target holds the file.
+fn mutant(root: &Path, name: &str, package: &str) -> Option<Mutant> {
     let (place, what) = name.split_once(": ")?;
     let mut place = place.split(':');
     let (file, line) = (place.next()?, place.next()?.parse::<usize>().ok()?);
+    let target = TARGETS.iter().find(|target| target.holds(package, file))?;
     let text = std::fs::read_to_string(root.join(file)).ok()?;
     let code = text.lines().nth(line - 1)?.trim().to_owned();
     let text = content_hash(without_tests(&text).as_bytes());

@@ -9,6 +9,7 @@ use std::time::Instant;
 use thermobeam_study::outcome::Table;
 use thermobeam_study::provenance::Provenance;
 use thermobeam_study::scene::Scene;
+use thermobeam_study::study::FromFile;
 use thermobeam_study::study::Study;
 use thermobeam_study::study::work_precision::{WORK_PRECISION, WorkPrecision};
 use thermobeam_study::study_file::Tier;

@@ -61,15 +61,6 @@ pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
     })
 }
 
-/// Reads a file and hands its topmost table, and the folder that its own file names are relative to, to `read`.
-pub(crate) fn read<T>(
-    path: &Path,
-    read: impl FnOnce(&Section<'_>, &Path) -> Result<T, InputError>,
-) -> Result<T, InputError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    parse(&read_text(path)?, &path.display().to_string(), |root| read(root, folder))
-}
-
 /// Parses `text` and hands its topmost table to `read`.
 pub(crate) fn parse<T>(
     text: &str,
@@ -79,6 +70,16 @@ pub(crate) fn parse<T>(
     let source = Source { file, text };
     let root = table(source, text)?;
     read(&Section::root(source, &root))
+}
+
+/// As [`parse`]; `read` is also handed the folder of the file, which its own file names are relative to.
+pub(crate) fn parse_beside<T>(
+    text: &str,
+    file: &Path,
+    read: impl FnOnce(&Section<'_>, &Path) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    parse(text, &file.display().to_string(), |root| read(root, folder))
 }
 
 /// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.

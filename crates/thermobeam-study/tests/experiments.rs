@@ -203,12 +203,12 @@ fn the_full_study_reads_like_the_quick_one() {
 #[test]
 fn complaints_name_the_field() {
     use thermobeam_study::study::{
-        bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
+        FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
     };
     let complaint = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(path(file)).unwrap();
         assert!(text.contains(from), "{file} has no {from}");
-        let (text, name) = (text.replacen(from, to, 1), path(file).display().to_string());
+        let (text, name) = (text.replacen(from, to, 1), path(file));
         let error = match file {
             "section-5.toml" => Experiments::parse(&text, &name).err(),
             "equilibria.toml" => EndStates::parse(&text, &name).err(),

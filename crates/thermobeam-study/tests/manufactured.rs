@@ -7,7 +7,7 @@ use thermobeam_study::study::controls::Controls;
 use thermobeam_study::study::convergence::Convergence;
 use thermobeam_study::study::energy::EnergyDecay;
 use thermobeam_study::study::fixed_point::FixedPoint;
-use thermobeam_study::study::{CaseFailure, Measured, Study};
+use thermobeam_study::study::{CaseFailure, FromFile, Measured, Study};
 use thermobeam_study::study_file::{ConvergenceSpec, Norm};
 use thermobeam_study::verdict::Verdict;
 
@@ -113,7 +113,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
 
 #[test]
 fn an_unseen_control_fails_the_controls_and_so_does_a_study_that_fails_without_one() {
-    let study = Controls::read(&file("negative-controls.toml")).unwrap();
+    let study = Controls::read(file("negative-controls.toml")).unwrap();
     let honest = results(&study);
     assert_eq!(study.conclude(&honest).verdict, Verdict::Pass);
     // What the run with a wrong rho measures is replaced by what the honest run measures: nobody sees rho then.
@@ -159,13 +159,13 @@ fn no_nan_passes(study: &dyn Study, judged: impl Fn(&str) -> bool) {
 
 #[test]
 fn no_nan_passes_for_a_fall_of_the_energy() {
-    let study = EnergyDecay::read(&file("energy-decay.toml")).unwrap();
+    let study = EnergyDecay::read(file("energy-decay.toml")).unwrap();
     no_nan_passes(&study, |name| name.starts_with("largest"));
 }
 
 #[test]
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
-    let study = EnergyDecay::read(&file("energy-decay.toml")).unwrap();
+    let study = EnergyDecay::read(file("energy-decay.toml")).unwrap();
     for name in ["largest increase", "largest residual"] {
         let mut planted = results(&study);
         let value = planted[2].as_mut().unwrap().values.iter_mut().find(|(key, _)| key == name).unwrap();
@@ -176,7 +176,7 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
 
 #[test]
 fn no_nan_and_no_wrong_contraction_passes_for_the_fixed_point() {
-    let study = FixedPoint::read(&file("fixed-point.toml")).unwrap();
+    let study = FixedPoint::read(file("fixed-point.toml")).unwrap();
     let honest = results(&study);
     assert_eq!(study.conclude(&honest).verdict, Verdict::Pass);
     let mut judged = 0;

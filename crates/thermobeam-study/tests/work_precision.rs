@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::work_precision::WorkPrecision;
-use thermobeam_study::study::{CaseFailure, Measured, Study};
+use thermobeam_study::study::{CaseFailure, FromFile, Measured, Study};
 use thermobeam_study::verdict::Verdict;
 
 fn folder() -> PathBuf {
@@ -11,11 +11,11 @@ fn folder() -> PathBuf {
 }
 
 fn read(text: &str) -> Result<WorkPrecision, String> {
-    WorkPrecision::parse(text, "study.toml", &folder()).map_err(|error| error.to_string())
+    WorkPrecision::parse(text, &folder().join("study.toml")).map_err(|error| error.to_string())
 }
 
 fn quick() -> WorkPrecision {
-    WorkPrecision::read(&folder().join("work-precision-manufactured.toml")).unwrap()
+    WorkPrecision::read(folder().join("work-precision-manufactured.toml")).unwrap()
 }
 
 fn results(study: &WorkPrecision) -> Vec<Result<Measured, CaseFailure>> {

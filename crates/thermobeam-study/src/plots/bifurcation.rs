@@ -83,15 +83,8 @@ fn dash(stable: bool) -> Dash {
 }
 
 fn end_states(series: &Series, look: Look) -> Curve {
-    Curve {
-        name: series.label.clone(),
-        is_listed: true,
-        points: series.points.clone(),
-        look: Look { colour: style::INK, ..look },
-        width: 0.0,
-        marks: Marks::Open,
-        is_data: true,
-    }
+    let look = Look { colour: style::INK, ..look };
+    Curve { look, width: 0.0, marks: Marks::Open, ..Curve::line(0, series) }
 }
 
 fn entry_label(label: &str, stable: bool) -> String {

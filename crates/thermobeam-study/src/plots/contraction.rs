@@ -16,15 +16,7 @@ pub struct Contraction {
 
 /// Draws measured over predicted contraction, log-log, with the identity and the region of divergence.
 pub fn contraction(figure: &Contraction) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve {
-        name: series.label.clone(),
-        is_listed: true,
-        points: series.points.clone(),
-        look: look(k),
-        width: 0.0,
-        marks: Marks::Filled,
-        is_data: true,
-    };
+    let curve = |(k, series): (usize, &Series)| Curve { width: 0.0, marks: Marks::Filled, ..Curve::line(k, series) };
     let mut xy = Xy {
         title: figure.title.clone(),
         x: Axis::log("predicted contraction α (dimensionless)"),

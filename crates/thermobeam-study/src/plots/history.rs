@@ -1,7 +1,5 @@
 //! Quantities over time.
 
-use super::marker::Marks;
-use super::style::{self, look};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Phases, Scale, Series};
 
@@ -26,20 +24,11 @@ pub struct History {
 
 /// Draws quantities over time.
 pub fn history(figure: &History) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve {
-        name: series.label.clone(),
-        is_listed: true,
-        points: series.points.clone(),
-        look: look(k),
-        width: style::LINE,
-        marks: Marks::None,
-        is_data: true,
-    };
     Xy {
         title: figure.title.clone(),
         x: time_axis(&figure.x_label),
         y: figure.y.clone(),
-        curves: figure.series.iter().enumerate().map(curve).collect(),
+        curves: figure.series.iter().enumerate().map(|(k, series)| Curve::line(k, series)).collect(),
         guides: figure.guides.clone(),
         phases: figure.phases.clone(),
         ..Xy::default()
@@ -62,15 +51,7 @@ pub struct Iterations {
 
 /// Draws iterations per step as steps, from zero.
 pub fn iterations(figure: &Iterations) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve {
-        name: series.label.clone(),
-        is_listed: true,
-        points: steps(&series.points),
-        look: look(k),
-        width: style::LINE,
-        marks: Marks::None,
-        is_data: true,
-    };
+    let curve = |(k, series): (usize, &Series)| Curve { points: steps(&series.points), ..Curve::line(k, series) };
     Xy {
         title: figure.title.clone(),
         x: time_axis(&figure.x_label),

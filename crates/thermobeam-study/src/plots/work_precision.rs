@@ -1,7 +1,6 @@
 //! What accuracy costs.
 
 use super::marker::Marks;
-use super::style::{self, look};
 use super::xy::{Curve, Xy};
 use super::{Axis, Series};
 
@@ -20,15 +19,7 @@ pub struct WorkPrecision {
 
 /// Draws error over cost, log-log: the lower and the further left, the better.
 pub fn work_precision(figure: &WorkPrecision) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve {
-        name: series.label.clone(),
-        is_listed: true,
-        points: series.points.clone(),
-        look: look(k),
-        width: style::LINE,
-        marks: Marks::Filled,
-        is_data: true,
-    };
+    let curve = |(k, series): (usize, &Series)| Curve { marks: Marks::Filled, ..Curve::line(k, series) };
     Xy {
         title: figure.title.clone(),
         x: Axis::log(figure.x_label.as_deref().unwrap_or("run time (s)")),

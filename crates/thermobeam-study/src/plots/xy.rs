@@ -7,8 +7,8 @@ use super::marker::Marks;
 use super::readable;
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Plan, Sheet, guide_margin};
-use super::style::{self, Look, TICK_SIZE};
-use super::{Axis, Guide, Phases, Scale};
+use super::style::{self, Look, TICK_SIZE, look};
+use super::{Axis, Guide, Phases, Scale, Series};
 
 /// Room left around the data, as a fraction of its range.
 const MARGIN: f64 = 0.05;
@@ -29,6 +29,21 @@ pub(super) struct Curve {
     pub(super) marks: Marks,
     /// Whether the points are data: only those set the range and are counted when left out.
     pub(super) is_data: bool,
+}
+
+impl Curve {
+    /// The k-th series as a line, with an entry of its own.
+    pub(super) fn line(k: usize, series: &Series) -> Self {
+        Self {
+            name: series.label.clone(),
+            is_listed: true,
+            points: series.points.clone(),
+            look: look(k),
+            width: style::LINE,
+            marks: Marks::None,
+            is_data: true,
+        }
+    }
 }
 
 /// A closed outline with texts, such as a slope triangle; positions in data coordinates.

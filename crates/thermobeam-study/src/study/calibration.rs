@@ -12,7 +12,7 @@
 use crate::calibration::{Calibration, calibrate};
 use crate::document::{self, InputError, Section};
 use crate::outcome::{Check, Outcome, Table};
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 
@@ -32,15 +32,13 @@ pub struct RuleCalibration {
     coverage: f64,
 }
 
-impl RuleCalibration {
-    /// Reads a study file of this kind.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        document::read(path, |root, _| Self::from_document(root))
+impl FromFile for RuleCalibration {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, |root, _| Self::from_document(root))
     }
+}
 
+impl RuleCalibration {
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         root.allow(&["study", "calibration"])?;
         let allowed = "a table with samples, seed, false_pass, false_fail and coverage";

@@ -17,7 +17,7 @@ use crate::document::{self, InputError, Section};
 use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
 use crate::study::convergence::step;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
 use crate::verdict::{Level, Verdict, judge};
 use std::path::Path;
@@ -102,15 +102,13 @@ pub(crate) fn perturbed(
     Some((beam, obstacles))
 }
 
-impl Controls {
-    /// Reads a study file of this kind, and the studies that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        document::read(path, Self::from_document)
+impl FromFile for Controls {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
     }
+}
 
+impl Controls {
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "controls"])?;
         let section = root.require("controls", "a table with relative and studies")?.section()?;

@@ -9,7 +9,7 @@ mod grid;
 use crate::design::{Disagreement, Prepared};
 use crate::document::InputError;
 use crate::outcome::{LevelErrors, Outcome, Quantity};
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Norm, StudyHeader};
 use crate::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
 use std::path::Path;
@@ -24,15 +24,13 @@ pub struct Convergence {
     spec: ConvergenceSpec,
 }
 
-impl Convergence {
-    /// Reads a study file of this kind.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        Ok(Self::new(ConvergenceSpec::read(path)?))
+impl FromFile for Convergence {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        Ok(Self::new(ConvergenceSpec::parse(text, &file.display().to_string())?))
     }
+}
 
+impl Convergence {
     /// The study of a specification.
     pub fn new(spec: ConvergenceSpec) -> Self {
         let header = StudyHeader {

@@ -25,7 +25,7 @@ use crate::plots;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::simulate;
-use crate::study::{Case, CaseFailure, Measured, Study, max_or_nan};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study, max_or_nan};
 use crate::study_file::{StudyHeader, header};
 use crate::time_limit::Patience;
 use std::path::Path;
@@ -56,15 +56,13 @@ pub struct EnergyDecay {
     tolerance: f64,
 }
 
-impl EnergyDecay {
-    /// Reads a study file of this kind, and the scenes that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        document::read(path, Self::from_document)
+impl FromFile for EnergyDecay {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
     }
+}
 
+impl EnergyDecay {
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "energy"])?;
         let section = root.require("energy", "a table with scenes, schemes, elements, dt and steps")?.section()?;

@@ -11,7 +11,7 @@ use super::complete::{all_ran, or_nothing};
 use super::steady::{
     at_resolution, code_of, contact_of, exact_states, keep_larger, listed_scenes, name_of, nearest, positive, settle,
 };
-use super::{Case, CaseFailure, Measured, Study};
+use super::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
 use crate::limits;
@@ -20,7 +20,7 @@ use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
 use crate::record::decimals;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
-use crate::study_file::StudyHeader;
+use crate::study_file::{StudyHeader, header};
 use crate::verdict::{Judge, RateVerdict};
 
 /// Order of the elements in u and φ.
@@ -45,31 +45,20 @@ pub struct EndStates {
     error: f64,
 }
 
+impl FromFile for EndStates {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, from_document)
+    }
+}
+
 impl EndStates {
-    /// Reads a study file; the scenes that it names are relative to its folder.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints and the scenes' folder refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let header = StudyHeader::parse(text, file_name)?;
-        document::parse(text, file_name, |root| from_document(root, header, file_name))
-    }
-
     fn scene_and_elements(&self, index: usize) -> (&Scene, usize) {
         (&self.scenes[index / self.elements.len()], self.elements[index % self.elements.len()])
     }
 }
 
-fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<EndStates, InputError> {
+fn from_document(root: &Section<'_>, folder: &Path) -> Result<EndStates, InputError> {
+    let header = header(root)?;
     root.allow(&["study", "run", "expect"])?;
     let run = root.require("run", "a table with scenes, elements, dt, speed and t_max")?.section()?;
     run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
@@ -81,7 +70,7 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
     limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
     Ok(EndStates {
         header,
-        scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, file)?,
+        scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, folder)?,
         elements: mesh_sizes(&run)?,
         dt,
         speed: positive(&run, "speed")?,

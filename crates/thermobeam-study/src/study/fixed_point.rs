@@ -24,7 +24,7 @@ use crate::limits;
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 
@@ -43,15 +43,13 @@ pub struct FixedPoint {
     tolerances: Vec<f64>,
 }
 
-impl FixedPoint {
-    /// Reads a study file of this kind, and the scene that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        document::read(path, Self::from_document)
+impl FromFile for FixedPoint {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
     }
+}
 
+impl FixedPoint {
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", FIXED_POINT])?;
         let allowed = "a table with scene, elements, dt, epsilon, zeta, steps and tolerances";

@@ -4,7 +4,7 @@
 //! modes' error in the energy, h². For high modes `ω_h - ω` is `ω³h²/24` to leading order.
 
 use super::ladder::{self, Family, Ladder};
-use super::{Case, CaseFailure, Measured, Study};
+use super::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::document::{self, InputError, Section};
 use crate::expression::{Expression, Variable};
 use crate::limits;
@@ -35,24 +35,13 @@ pub struct Frequencies {
     tolerance: f64,
 }
 
+impl FromFile for Frequencies {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, |root, _| Self::from_document(root))
+    }
+}
+
 impl Frequencies {
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints refer to `file_name`.
-    ///
-    /// # Errors
-    /// As [`Self::read`].
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, Self::from_document)
-    }
-
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         root.allow(&["study", "frequencies"])?;
         let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;

@@ -100,28 +100,49 @@ pub trait Study: Send + Sync {
     fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome;
 }
 
+/// A study of a known kind, which a file holds.
+pub trait FromFile: Sized {
+    /// Reads a study from `text`; complaints name `file`, and files that it names are looked for beside it.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError>;
+
+    /// Reads a study file, and the studies or scenes that it names.
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`], and where the file cannot be read.
+    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::parse(&document::read_text(file.as_ref())?, file.as_ref())
+    }
+}
+
 /// Reader of the study files of one kind.
 type Reader = fn(&Path) -> Result<Box<dyn Study>, InputError>;
 
+fn boxed<S: Study + FromFile + 'static>(file: &Path) -> Result<Box<dyn Study>, InputError> {
+    Ok(Box::new(S::read(file)?))
+}
+
 /// The kinds of study, by the name that `[study] kind` has for them.
 const KINDS: &[(&str, Reader)] = &[
-    (CONVERGENCE, |path| Ok(Box::new(convergence::Convergence::read(path)?))),
-    (controls::CONTROLS, |path| Ok(Box::new(controls::Controls::read(path)?))),
-    (sensitivity::SENSITIVITY, |path| Ok(Box::new(sensitivity::Sensitivity::read(path)?))),
-    (energy::ENERGY, |path| Ok(Box::new(energy::EnergyDecay::read(path)?))),
-    (fixed_point::FIXED_POINT, |path| Ok(Box::new(fixed_point::FixedPoint::read(path)?))),
-    (vibration::KIND, |path| Ok(Box::new(vibration::Vibration::read(path)?))),
-    (frequencies::KIND, |path| Ok(Box::new(frequencies::Frequencies::read(path)?))),
-    (self_convergence::KIND, |path| Ok(Box::new(self_convergence::SelfConvergence::read(path)?))),
-    ("experiment", |path| Ok(Box::new(experiment::Experiments::read(path)?))),
-    ("equilibrium", |path| Ok(Box::new(equilibrium::EndStates::read(path)?))),
-    ("bifurcation", |path| Ok(Box::new(bifurcation::BifurcationStudy::read(path)?))),
-    ("rigid", |path| Ok(Box::new(rigid::RigidStudy::read(path)?))),
-    (work_precision::WORK_PRECISION, |path| Ok(Box::new(work_precision::WorkPrecision::read(path)?))),
-    (stability::KIND, |path| Ok(Box::new(stability::Stability::read(path)?))),
-    (extremes::KIND, |path| Ok(Box::new(extremes::Extremes::read(path)?))),
-    (random_scenes::KIND, |path| Ok(Box::new(random_scenes::RandomScenes::read(path)?))),
-    (calibration::CALIBRATION, |path| Ok(Box::new(calibration::RuleCalibration::read(path)?))),
+    (CONVERGENCE, boxed::<convergence::Convergence>),
+    (controls::CONTROLS, boxed::<controls::Controls>),
+    (sensitivity::SENSITIVITY, boxed::<sensitivity::Sensitivity>),
+    (energy::ENERGY, boxed::<energy::EnergyDecay>),
+    (fixed_point::FIXED_POINT, boxed::<fixed_point::FixedPoint>),
+    (vibration::KIND, boxed::<vibration::Vibration>),
+    (frequencies::KIND, boxed::<frequencies::Frequencies>),
+    (self_convergence::KIND, boxed::<self_convergence::SelfConvergence>),
+    ("experiment", boxed::<experiment::Experiments>),
+    ("equilibrium", boxed::<equilibrium::EndStates>),
+    ("bifurcation", boxed::<bifurcation::BifurcationStudy>),
+    ("rigid", boxed::<rigid::RigidStudy>),
+    (work_precision::WORK_PRECISION, boxed::<work_precision::WorkPrecision>),
+    (stability::KIND, boxed::<stability::Stability>),
+    (extremes::KIND, boxed::<extremes::Extremes>),
+    (random_scenes::KIND, boxed::<random_scenes::RandomScenes>),
+    (calibration::CALIBRATION, boxed::<calibration::RuleCalibration>),
 ];
 
 /// Reads a study file of any kind.

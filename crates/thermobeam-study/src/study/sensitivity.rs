@@ -14,7 +14,7 @@ use crate::outcome::{Check, Outcome, Quantity, Table};
 use crate::shared_tables as tables;
 use crate::study::controls::perturbed;
 use crate::study::convergence::step;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
 use crate::verdict::{Level, Verdict, judge};
 use std::path::Path;
@@ -33,15 +33,13 @@ pub struct Sensitivity {
     at_most: f64,
 }
 
-impl Sensitivity {
-    /// Reads a study file of this kind, and the studies that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        document::read(path, Self::from_document)
+impl FromFile for Sensitivity {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
     }
+}
 
+impl Sensitivity {
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", SENSITIVITY])?;
         let section = root.require(SENSITIVITY, "a table with studies, range and at_most")?.section()?;

@@ -15,18 +15,17 @@ use crate::simulate;
 use crate::time_limit::Patience;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
-pub(super) fn listed_scenes(field: &Field<'_>, study_file: &str) -> Result<Vec<Scene>, InputError> {
+pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
     let allowed = "a list of at least one scene file";
     let items = field.items(allowed)?;
     if items.is_empty() {
         return Err(field.refuse_as_written(allowed));
     }
-    items.iter().map(|item| listed_scene(item, study_file)).collect()
+    items.iter().map(|item| listed_scene(item, folder)).collect()
 }
 
 /// Reads the scene of a file name; as in [`listed_scenes`].
-pub(super) fn listed_scene(field: &Field<'_>, study_file: &str) -> Result<Scene, InputError> {
-    let folder = Path::new(study_file).parent().unwrap_or(Path::new(""));
+pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
     let scene = Scene::read(folder.join(field.text()?))?;
     if scene.obstacles.is_none() {
         return Err(field.refuse(format!("{}, without obstacles", scene.name), "a scene with obstacles"));

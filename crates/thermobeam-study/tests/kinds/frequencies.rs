@@ -1,6 +1,6 @@
 use crate::{changed, file, passes_but_not_without_each_case, results, text};
-use thermobeam_study::study::Study;
 use thermobeam_study::study::frequencies::Frequencies;
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::verdict::Verdict;
 
 fn study() -> Frequencies {
@@ -11,7 +11,7 @@ fn study() -> Frequencies {
 fn the_file_passes_but_not_without_each_case() {
     passes_but_not_without_each_case(&study());
     let graded = text("frequencies.toml").replace("order = 2.0", "map = \"s + 0.1*sin(2*pi*s)\"\norder = 2.0");
-    passes_but_not_without_each_case(&Frequencies::parse(&graded, "graded.toml").expect("a study"));
+    passes_but_not_without_each_case(&Frequencies::parse(&graded, "graded.toml".as_ref()).expect("a study"));
 }
 
 #[test]
@@ -38,8 +38,9 @@ fn a_file_that_makes_no_sense_is_refused() {
         ("order = 2.0", "order = -2.0", "frequencies.order"),
         ("count = 8", "count = 8\nmap = \"s^2 - 1\"", "frequencies.map"),
     ] {
-        let error =
-            Frequencies::parse(&text("frequencies.toml").replace(from, to), "f.toml").expect_err(to).to_string();
+        let error = Frequencies::parse(&text("frequencies.toml").replace(from, to), "f.toml".as_ref())
+            .expect_err(to)
+            .to_string();
         assert!(error.contains(message), "{error}");
     }
 }

@@ -1,6 +1,6 @@
 use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
-use thermobeam_study::study::Study;
 use thermobeam_study::study::self_convergence::SelfConvergence;
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::verdict::Verdict;
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
@@ -8,7 +8,7 @@ const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
     let name = file(name);
     let text = std::fs::read_to_string(&name).expect("a file");
-    SelfConvergence::parse(&change(text), &name.to_string_lossy()).unwrap_or_else(|error| panic!("{error}"))
+    SelfConvergence::parse(&change(text), &name).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn a_file_that_makes_no_sense_is_refused() {
     ] {
         let name = file("reference-space.toml");
         let changed = text("reference-space.toml").replace(from, to);
-        let error = SelfConvergence::parse(&changed, &name.to_string_lossy()).expect_err(to).to_string();
+        let error = SelfConvergence::parse(&changed, &name).expect_err(to).to_string();
         assert!(error.contains(message), "{error}");
     }
 }

@@ -1,10 +1,10 @@
 //! Stability maps, extremes and random scenes: what must make each fail.
 
 use crate::{Results, changed, file, passes_but_not_without_each_case, results, text};
-use thermobeam_study::study::Study;
 use thermobeam_study::study::extremes::Extremes;
 use thermobeam_study::study::random_scenes::RandomScenes;
 use thermobeam_study::study::stability::Stability;
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::verdict::Verdict;
 
 fn map() -> Stability {
@@ -114,7 +114,7 @@ fn files_that_make_no_sense_are_refused() {
         ("lines = [1e-6, 1e-3]", "lines = [0.0]", "stability.lines[0]"),
     ] {
         let changed = text("stability-coarse.toml").replace(from, to);
-        refuse(message, Stability::parse(&changed, "s.toml").expect_err(to).to_string());
+        refuse(message, Stability::parse(&changed, "s.toml".as_ref()).expect_err(to).to_string());
     }
     for (from, to, message) in [
         ("name = \"hat\"", "name = \"velocity-step\"", "a name of its own"),
@@ -123,8 +123,8 @@ fn files_that_make_no_sense_are_refused() {
         ("zeta = 0.0", "zeta = -1.0", "beam.zeta"),
     ] {
         let changed = text("extremes.toml").replacen(from, to, 1);
-        refuse(message, Extremes::parse(&changed, "e.toml").expect_err(to).to_string());
+        refuse(message, Extremes::parse(&changed, "e.toml".as_ref()).expect_err(to).to_string());
     }
     let changed = text("random-scenes-quick.toml").replace("batches = 2", "batches = 0");
-    refuse("random-scenes.batches", RandomScenes::parse(&changed, "r.toml").expect_err("none").to_string());
+    refuse("random-scenes.batches", RandomScenes::parse(&changed, "r.toml".as_ref()).expect_err("none").to_string());
 }

@@ -1,6 +1,6 @@
 use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
-use thermobeam_study::study::Study;
 use thermobeam_study::study::vibration::Vibration;
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::verdict::Verdict;
 
 const FILES: [&str; 4] =
@@ -13,12 +13,13 @@ fn study(name: &str) -> Vibration {
 /// The study with one coefficient of the solver off.
 fn defective(name: &str, coefficient: &str) -> Vibration {
     let text = format!("{}\n[control]\n{coefficient}\n", text(name));
-    Vibration::parse(&text, name).unwrap_or_else(|error| panic!("{error}"))
+    Vibration::parse(&text, name.as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
 fn refused(change: impl Fn(String) -> String, message: &str) {
-    let error = Vibration::parse(&change(text("vibration-time.toml")), "v.toml").expect_err(message).to_string();
+    let error =
+        Vibration::parse(&change(text("vibration-time.toml")), "v.toml".as_ref()).expect_err(message).to_string();
     assert!(error.contains(message), "{error}");
 }
 

@@ -6,31 +6,19 @@ use super::BifurcationStudy;
 use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::shared_tables as tables;
+use crate::study::FromFile;
 use crate::study::steady::{listed_scenes, positive};
-use crate::study_file::StudyHeader;
+use crate::study_file::header;
 use crate::verdict::Judge;
 
-impl BifurcationStudy {
-    /// Reads a study file; the scenes that it names are relative to its folder.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints and the scenes' folder refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let header = StudyHeader::parse(text, file_name)?;
-        document::parse(text, file_name, |root| from_document(root, header, file_name))
+impl FromFile for BifurcationStudy {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, from_document)
     }
 }
 
-fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<BifurcationStudy, InputError> {
+fn from_document(root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
+    let header = header(root)?;
     root.allow(&["study", "diagram", "buckling", "rest"])?;
     let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
     diagram.allow(&["scenes", "beta", "points"])?;
@@ -41,7 +29,7 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
     limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
     Ok(BifurcationStudy {
         header,
-        scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, file)?,
+        scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
         grid: grid(&diagram)?,
         meshes,
         judge,

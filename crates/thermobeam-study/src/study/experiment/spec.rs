@@ -9,39 +9,27 @@ use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
+use crate::study::FromFile;
 use crate::study::steady::{at_resolution, listed_scene, listed_scenes, positive};
-use crate::study_file::StudyHeader;
+use crate::study_file::header;
 
 /// A positive number, in words.
 const POSITIVE: &str = "a finite number > 0";
 
-impl Experiments {
-    /// Reads a study file; the scenes that it names are relative to its folder.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints and the scenes' folder refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let header = StudyHeader::parse(text, file_name)?;
-        document::parse(text, file_name, |root| from_document(root, header, file_name))
+impl FromFile for Experiments {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, from_document)
     }
 }
 
-fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<Experiments, InputError> {
+fn from_document(root: &Section<'_>, folder: &Path) -> Result<Experiments, InputError> {
+    let header = header(root)?;
     root.allow(&["study", "experiments", "run", "steady"])?;
     let run = root.require("run", "a table with t_max, window and rate")?.section()?;
     run.allow(&["elements", "dt", "t_max", "window", "rate"])?;
     let until =
         Until { t_max: positive(&run, "t_max")?, window: positive(&run, "window")?, rate: positive(&run, "rate")? };
-    let mut experiments = experiments(root, file)?;
+    let mut experiments = experiments(root, folder)?;
     let t_max = run.require("t_max", POSITIVE)?;
     for experiment in &mut experiments {
         refine(&run, &mut experiment.scene)?;
@@ -52,13 +40,13 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
 }
 
 /// The table `[experiments]`: the scenes of the three groups.
-fn experiments(root: &Section<'_>, file: &str) -> Result<Vec<Experiment>, InputError> {
+fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, InputError> {
     let section = root.require("experiments", "a table with first, second, rests and third")?.section()?;
     section.allow(&["first", "second", "rests", "third"])?;
-    let first = ascending(&section, "first", file)?;
-    let second = ascending(&section, "second", file)?;
+    let first = ascending(&section, "first", folder)?;
+    let second = ascending(&section, "second", folder)?;
     let rests = rests(&section, second.len())?;
-    let third = listed_scene(&section.require("third", "a scene file")?, file)?;
+    let third = listed_scene(&section.require("third", "a scene file")?, folder)?;
     let group = |group: Group, scene: Scene| Experiment { group, scene };
     let mut experiments: Vec<Experiment> = first.into_iter().map(|scene| group(Group::First, scene)).collect();
     experiments.extend(second.into_iter().zip(rests).map(|(scene, contact)| group(Group::Second(contact), scene)));
@@ -67,10 +55,10 @@ fn experiments(root: &Section<'_>, file: &str) -> Result<Vec<Experiment>, InputE
 }
 
 /// At least two scenes in ascending order of β, because what is claimed of them is an order.
-fn ascending(section: &Section<'_>, key: &str, file: &str) -> Result<Vec<Scene>, InputError> {
+fn ascending(section: &Section<'_>, key: &str, folder: &Path) -> Result<Vec<Scene>, InputError> {
     let allowed = "a list of at least two scene files, beta ascending";
     let field = section.require(key, allowed)?;
-    let scenes = listed_scenes(&field, file)?;
+    let scenes = listed_scenes(&field, folder)?;
     let ordered = scenes.windows(2).all(|pair| pair[0].beam.beta < pair[1].beam.beta);
     if scenes.len() >= 2 && ordered { Ok(scenes) } else { Err(field.refuse_as_written(allowed)) }
 }

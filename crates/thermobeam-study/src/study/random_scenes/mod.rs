@@ -22,7 +22,7 @@ use crate::limits;
 use crate::outcome::Outcome;
 use crate::study::energy::wild;
 use crate::study::watch::{CLOSED, SOLVED, Watch};
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::{StudyHeader, header};
 use crate::time_limit::Patience;
 use std::path::Path;
@@ -55,24 +55,13 @@ pub struct RandomScenes {
     seed: u64,
 }
 
+impl FromFile for RandomScenes {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, |root, _| Self::from_document(root))
+    }
+}
+
 impl RandomScenes {
-    /// Reads a study file of this kind.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, Self::from_document)
-    }
-
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         root.allow(&["study", KIND])?;
         let section = root.require(KIND, "a table with batches, steps and seed")?.section()?;

@@ -7,31 +7,19 @@ use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
+use crate::study::FromFile;
 use crate::study::steady::{listed_scene, positive};
-use crate::study_file::StudyHeader;
+use crate::study_file::header;
 use crate::verdict::Judge;
 
-impl RigidStudy {
-    /// Reads a study file; the scenes that it names are relative to its folder.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints and the scenes' folder refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let header = StudyHeader::parse(text, file_name)?;
-        document::parse(text, file_name, |root| from_document(root, header, file_name))
+impl FromFile for RigidStudy {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, from_document)
     }
 }
 
-fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<RigidStudy, InputError> {
+fn from_document(root: &Section<'_>, folder: &Path) -> Result<RigidStudy, InputError> {
+    let header = header(root)?;
     root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
     let obstacles = root.require("obstacles", "a table with epsilon, limit and tolerance")?.section()?;
     obstacles.allow(&["epsilon", "limit", "tolerance"])?;
@@ -49,12 +37,12 @@ fn from_document(root: &Section<'_>, header: StudyHeader, file: &str) -> Result<
         epsilons: epsilons(&obstacles)?,
         limit: positive(&obstacles, "limit")?,
         judge,
-        moving: scene(&moving, file, Some(t_end))?,
+        moving: scene(&moving, folder, Some(t_end))?,
         max_iterations: moving.require("max_iterations", "a whole number >= 1")?.count(1..=usize::MAX)?,
-        resting: scene(&rest, file, None)?,
+        resting: scene(&rest, folder, None)?,
         speed: positive(&rest, "speed")?,
         t_max: positive(&rest, "t_max")?,
-        impact: impact_scene(&impact, file)?,
+        impact: impact_scene(&impact, folder)?,
         steps: impact.require("steps", "a whole number >= 1")?.count(1..=1_000_000)?,
     })
 }
@@ -70,8 +58,8 @@ fn epsilons(section: &Section<'_>) -> Result<Vec<f64>, InputError> {
 }
 
 /// The scene of a table, at the table's resolution.
-fn scene(section: &Section<'_>, file: &str, t_end: Option<f64>) -> Result<Scene, InputError> {
-    let scene = listed_scene(&section.require("scene", "a scene file")?, file)?;
+fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Scene, InputError> {
+    let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
     let field = section.require("elements", "a whole number >= 1")?;
     let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
     let dt = section.require("dt", "a number")?;
@@ -85,9 +73,9 @@ fn scene(section: &Section<'_>, file: &str, t_end: Option<f64>) -> Result<Scene,
 }
 
 /// The scene of the impact, whose free end must start on the upper obstacle and move into it.
-fn impact_scene(section: &Section<'_>, file: &str) -> Result<Scene, InputError> {
+fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
     let field = section.require("scene", "a scene file")?;
-    let scene = listed_scene(&field, file)?;
+    let scene = listed_scene(&field, folder)?;
     let at_tip = |function: &Option<crate::expression::Expression>| function.as_ref().map_or(0.0, |f| f.eval(1.0));
     let on_the_obstacle = scene.obstacles.is_some_and(|o| at_tip(&scene.initial.u) == o.g2);
     if on_the_obstacle && at_tip(&scene.initial.u_t) > 0.0 {

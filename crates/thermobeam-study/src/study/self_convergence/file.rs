@@ -5,29 +5,18 @@ use super::{Claim, SelfConvergence};
 use crate::document::{self, Field, InputError, Section};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
+use crate::study::FromFile;
 use crate::study_file::{Axis, header};
 use std::path::Path;
 use thermobeam::scheme::{SCHEMES, Scheme};
 
+impl FromFile for SelfConvergence {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
+    }
+}
+
 impl SelfConvergence {
-    /// Reads a study file; the scene that it names is looked for beside it.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints refer to `file_name`, and the scene is looked for in its folder.
-    ///
-    /// # Errors
-    /// As [`Self::read`].
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        let folder = Path::new(file_name).parent().unwrap_or(Path::new(""));
-        document::parse(text, file_name, |root| Self::from_document(root, folder))
-    }
-
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "scene", "refine", "expect"])?;
         let named = root.require("scene", "a table with the scene's file")?.section()?;

@@ -39,7 +39,7 @@ mod spec;
 
 use crate::document::{self, InputError};
 use crate::outcome::Outcome;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
 use crate::study_file::StudyHeader;
 use std::path::Path;
 use thermobeam::mesh::{Mesh, MeshError};
@@ -104,24 +104,13 @@ fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
     (0..points).map(|k| value(at(k))).collect()
 }
 
+impl FromFile for Stability {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, |root, _| spec::from_document(root))
+    }
+}
+
 impl Stability {
-    /// Reads a study file of this kind.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, spec::from_document)
-    }
-
     /// The time steps of the map.
     fn steps_of_map(&self) -> Vec<f64> {
         spaced(self.dt, self.points, false)

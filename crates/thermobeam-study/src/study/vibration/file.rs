@@ -4,6 +4,7 @@ use super::Vibration;
 use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::shared_tables as tables;
+use crate::study::FromFile;
 use crate::study_file::{Axis, Refine, control, expectations, header, refine};
 use std::path::Path;
 use thermobeam::parameters::Beam;
@@ -26,24 +27,13 @@ pub(super) struct Cooling {
     pub(super) amplitude: f64,
 }
 
+impl FromFile for Vibration {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, |root, _| Self::from_document(root))
+    }
+}
+
 impl Vibration {
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads a study from `text`; complaints refer to `file_name`.
-    ///
-    /// # Errors
-    /// As [`Self::read`].
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, Self::from_document)
-    }
-
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
         let beam = beam(root)?;

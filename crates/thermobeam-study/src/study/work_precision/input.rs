@@ -7,6 +7,7 @@ use crate::free_vibration;
 use crate::limits;
 use crate::march::Family;
 use crate::scene::Scene;
+use crate::study::FromFile;
 use crate::study_file::{ConvergenceSpec, header};
 use crate::yardstick::Quantity;
 use std::path::Path;
@@ -19,24 +20,13 @@ const MISFIT: f64 = 0.15;
 
 const POSITIVE: &str = "a finite number > 0";
 
+impl FromFile for WorkPrecision {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        document::parse_beside(text, file, Self::from_document)
+    }
+}
+
 impl WorkPrecision {
-    /// Reads a study file of this kind, and the study or scene that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        Self::parse(&document::read_text(path)?, &path.display().to_string(), folder)
-    }
-
-    /// Reads a study from `text`; files that it names are looked for in `folder`.
-    ///
-    /// # Errors
-    /// [`InputError`] with the place of the mistake; complaints refer to `file_name`.
-    pub fn parse(text: &str, file_name: &str, folder: &Path) -> Result<Self, InputError> {
-        document::parse(text, file_name, |root| Self::from_document(root, folder))
-    }
-
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", WORK_PRECISION, "advantage"])?;
         let section = root.require(WORK_PRECISION, "a table with elements, steps and a problem")?.section()?;

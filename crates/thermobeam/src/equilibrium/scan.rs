@@ -108,10 +108,10 @@ impl Scan<'_> {
 
     /// Some s above the largest pole where f > 0.
     ///
-    /// With `s > max(pole, 1 + β)`, `f(s + 2ρS(s)) >= s - (1 + β) + ρS(s) > 0`, because S falls there.
+    /// Where `s > max(pole, 1 + β)`, `f(s + ρS(s)) >= s - (1 + β) > 0`, because S falls there.
     fn beyond(&self, pole: f64) -> f64 {
         let s = 2.0 * (pole + (1.0 + self.beta).abs());
-        s + 2.0 * self.rho * self.law.solve(s).stretch()
+        s + self.rho * self.law.solve(s).stretch()
     }
 
     /// The roots of f, concave between `lo` and `hi`, where `above` poles lie above.
@@ -204,6 +204,21 @@ mod tests {
             }
         }
         assert_eq!(deep, 4 * 7 * 2, "no count of unstable directions below N = -1");
+    }
+
+    #[test]
+    fn f_is_positive_at_the_end_above_the_root() {
+        for (law, drive) in laws().into_iter().flat_map(|law| [0.01, 1.0, 60.0].map(|drive| (law, drive))) {
+            let law = Law { drive, ..law };
+            for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 1e6] {
+                for rho in [1e-6, 1.0, 1e6] {
+                    let scan = Scan { law: &law, beta, rho };
+                    let pole = law.buckling(1);
+                    let end = scan.beyond(pole);
+                    assert!(end > pole && scan.f(end) > 0.0, "{law:?}, beta {beta}, rho {rho}: {end}");
+                }
+            }
+        }
     }
 
     #[test]

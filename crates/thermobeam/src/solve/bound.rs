@@ -145,4 +145,26 @@ mod tests {
         assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
         assert_eq!((newton.kept_contraction(0, -5.0), newton.kept_contraction(0, -4.0)), (f64::INFINITY, 0.0));
     }
+
+    #[test]
+    fn at_the_very_ends_of_what_the_bound_covers_nothing_is_trusted() {
+        // λ = 1.25 B + m/4 is zero to the bit.
+        let mut newton = stepper(-5.0 * BUCKLING, 0.0);
+        let control = &mut newton.controls[0];
+        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (control.m, control.factorized) = (-4.0, -4.0);
+        assert_eq!(newton.coercivity(0, -5.0 * BUCKLING), 0.0);
+        let lost = newton.bound(0);
+        assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
+
+        // q = (m - m̄)/(4 λ) is one half to the bit.
+        let mut newton = stepper(1.0, 0.0);
+        let lambda = newton.coercivity(0, 1.0);
+        let control = &mut newton.controls[0];
+        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (control.m, control.factorized) = (2.0 * lambda, 0.0);
+        let half = newton.bound(0);
+        assert!(half.contraction == 0.5 && half.increment.is_finite(), "{half:?}");
+        assert_eq!(half.remaining, f64::INFINITY);
+    }
 }

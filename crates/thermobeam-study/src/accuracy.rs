@@ -23,9 +23,9 @@
 
 mod pilot;
 
+use crate::case::CaseFailure;
 use crate::fit::Quantiles;
 use crate::march::{Family, Spent};
-use crate::study::CaseFailure;
 use crate::yardstick::Quantity;
 use pilot::{Forecast, Pilots};
 use thermobeam::scheme::{SCHEMES, Scheme};

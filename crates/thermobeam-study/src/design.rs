@@ -9,10 +9,10 @@
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
+use crate::case::CaseFailure;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
-use crate::study::CaseFailure;
 use crate::study_file::{Axis, ConvergenceSpec};
 use crate::time_limit::Patience;
 use thermobeam::mesh::Mesh;

@@ -5,12 +5,12 @@
 //! from outside, so that several can go side by side and be compared at the times they share. It counts its cost as it
 //! goes: [`Spent`].
 
+use crate::case::CaseFailure;
 use crate::design;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::scene::Scene;
 use crate::simulate;
-use crate::study::CaseFailure;
 use crate::study_file::Manufactured;
 use crate::time_limit::Patience;
 use std::time::{Duration, Instant};

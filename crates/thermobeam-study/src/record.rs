@@ -6,15 +6,12 @@
 //!
 //! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why.
 
-mod number;
-
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use crate::number::{committed, committed_rate};
 use crate::outcome::{Check, LevelErrors, Outcome, Quantity};
 use crate::runner::Finished;
 use crate::verdict::{RateVerdict, Verdict};
-
-pub use number::{committed, committed_rate, decimals, error_text, plain_text, rate_text};
 
 /// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
 pub const SCHEMA: u32 = 1;

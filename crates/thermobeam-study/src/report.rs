@@ -13,8 +13,9 @@ use std::io;
 
 use crate::baseline::Change;
 use crate::junit::junit;
+use crate::number::committed;
 use crate::outcome::Figure;
-use crate::record::{self, Precision, Record, committed};
+use crate::record::{self, Precision, Record};
 use crate::runner::Finished;
 use crate::shelf::ReportSet;
 use crate::verdict::Verdict;

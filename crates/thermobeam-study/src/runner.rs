@@ -13,9 +13,10 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 use thiserror::Error;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::contract;
 use crate::outcome::{Check, Outcome};
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::Study;
 use crate::study_file::StudyHeader;
 use caught::caught;
 use queue::{Counter, Done, Job};

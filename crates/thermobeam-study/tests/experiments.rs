@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use thermobeam_study::case::{CaseFailure, Measured};
 use thermobeam_study::outcome::Outcome;
-use thermobeam_study::study::{self, CaseFailure, Measured, Study};
+use thermobeam_study::study::{self, Study};
 use thermobeam_study::verdict::Verdict;
 
 type Results = Vec<Result<Measured, CaseFailure>>;

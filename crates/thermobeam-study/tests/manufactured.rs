@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use thermobeam_study::case::{CaseFailure, Measured};
 use thermobeam_study::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::study::controls::Controls;
 use thermobeam_study::study::convergence::Convergence;
 use thermobeam_study::study::energy::EnergyDecay;
 use thermobeam_study::study::fixed_point::FixedPoint;
-use thermobeam_study::study::{CaseFailure, FromFile, Measured, Study};
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::study_file::{ConvergenceSpec, Norm};
 use thermobeam_study::verdict::Verdict;
 

@@ -1,9 +1,10 @@
 //! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
 
 use std::path::{Path, PathBuf};
+use thermobeam_study::case::{CaseFailure, Measured};
 use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::work_precision::WorkPrecision;
-use thermobeam_study::study::{CaseFailure, FromFile, Measured, Study};
+use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::verdict::Verdict;
 
 fn folder() -> PathBuf {

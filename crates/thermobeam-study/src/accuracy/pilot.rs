@@ -7,9 +7,9 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
+use crate::case::CaseFailure;
 use crate::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use crate::march::{Family, Spent};
-use crate::study::CaseFailure;
 use crate::yardstick::{Quantity, distance, prolong};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;

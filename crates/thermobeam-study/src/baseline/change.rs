@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::Guarded;
+use crate::number::plain_text;
 use crate::outcome::Quantity;
-use crate::record::plain_text;
 
 /// A guarded number that is not what it was.
 #[derive(Debug, Clone, PartialEq)]

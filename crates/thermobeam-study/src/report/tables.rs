@@ -1,7 +1,7 @@
 //! The tables of one study, as plain text: the same ones for report and terminal.
 
+use crate::number::{committed_rate, error_text, plain_text, rate_text};
 use crate::outcome::{Check, LevelErrors, Outcome, Table};
-use crate::record::{committed_rate, error_text, plain_text, rate_text};
 use crate::runner::{FailedCase, Finished};
 use crate::verdict::{RateVerdict, Verdict};
 

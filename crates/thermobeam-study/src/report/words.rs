@@ -1,8 +1,8 @@
 //! Verdicts in words, the same ones for report and terminal.
 
 use crate::baseline::Change;
+use crate::number::{committed_rate, plain_text, rate_text};
 use crate::outcome::Outcome;
-use crate::record::{committed_rate, plain_text, rate_text};
 use crate::runner::Finished;
 use crate::verdict::{RateVerdict, Verdict};
 

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::Spent;
-use crate::study::{Case, CaseFailure, Measured};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::time_limit;
 
 /// How far a run has come.

@@ -10,9 +10,10 @@
 //! ```
 
 use crate::calibration::{Calibration, calibrate};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::outcome::{Check, Outcome, Table};
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Cases without a result, and results that are no numbers, in every study alike.
 
-use super::{Case, CaseFailure, Measured};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::outcome::Check;
 
 /// Fails unless every case has a result in which every number is finite.

@@ -12,12 +12,13 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Defect, Disagreement, Prepared};
 use crate::document::{self, InputError, Section};
 use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
 use crate::study::convergence::step;
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
 use crate::verdict::{Level, Verdict, judge};
 use std::path::Path;

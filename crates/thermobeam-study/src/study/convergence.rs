@@ -6,10 +6,11 @@
 mod figures;
 mod grid;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Disagreement, Prepared};
 use crate::document::InputError;
 use crate::outcome::{LevelErrors, Outcome, Quantity};
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Norm, StudyHeader};
 use crate::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
 use std::path::Path;

@@ -17,6 +17,7 @@ mod random;
 
 pub(super) use random::wild;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::expression::Variable;
 use crate::limits;
@@ -25,7 +26,7 @@ use crate::plots;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::simulate;
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study, max_or_nan};
+use crate::study::{FromFile, Study, max_or_nan};
 use crate::study_file::{StudyHeader, header};
 use crate::time_limit::Patience;
 use std::path::Path;

@@ -11,13 +11,14 @@ use super::complete::{all_ran, or_nothing};
 use super::steady::{
     at_resolution, code_of, contact_of, exact_states, keep_larger, listed_scenes, name_of, nearest, positive, settle,
 };
-use super::{Case, CaseFailure, FromFile, Measured, Study};
+use super::{FromFile, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
 use crate::limits;
+use crate::number::decimals;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
-use crate::record::decimals;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study_file::{StudyHeader, header};

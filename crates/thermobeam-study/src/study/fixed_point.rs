@@ -19,12 +19,13 @@
 mod contraction;
 mod scene;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::limits;
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{StudyHeader, header};
 use std::path::Path;
 

@@ -4,7 +4,8 @@
 //! modes' error in the energy, h². For high modes `ω_h - ω` is `ω³h²/24` to leading order.
 
 use super::ladder::{self, Family, Ladder};
-use super::{Case, CaseFailure, FromFile, Measured, Study};
+use super::{FromFile, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::expression::{Expression, Variable};
 use crate::limits;

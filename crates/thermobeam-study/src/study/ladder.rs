@@ -1,6 +1,6 @@
 //! Errors down a ladder of refinements: what every study of rates judges, prints, draws and guards.
 
-use super::{Case, CaseFailure, Measured};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::fit::Level;
 use crate::outcome::{Check, Figure, Quantity, Table};
 use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};

@@ -8,13 +8,14 @@
 //! at_most = 1e-4                          # what some study must see of every coefficient
 //! ```
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Disagreement, Prepared};
 use crate::document::{self, InputError, Section};
 use crate::outcome::{Check, Outcome, Quantity, Table};
 use crate::shared_tables as tables;
 use crate::study::controls::perturbed;
 use crate::study::convergence::step;
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
 use crate::verdict::{Level, Verdict, judge};
 use std::path::Path;

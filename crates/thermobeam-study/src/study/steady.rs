@@ -8,7 +8,7 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::{Simulation, Stepping};
 use thermobeam::solve::Level;
 
-use super::CaseFailure;
+use crate::case::CaseFailure;
 use crate::document::{Field, InputError, Section};
 use crate::scene::Scene;
 use crate::simulate;

@@ -30,9 +30,10 @@ pub mod method;
 mod report;
 mod timed;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::march::Family;
 use crate::outcome::Outcome;
-use crate::study::{Case, CaseFailure, Measured, Study};
+use crate::study::Study;
 use crate::study_file::StudyHeader;
 use crate::yardstick::{Quantity, Reference, Yardstick};
 use law::GridPoint;

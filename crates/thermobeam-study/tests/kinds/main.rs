@@ -6,8 +6,9 @@ mod stress;
 mod vibration;
 
 use std::path::{Path, PathBuf};
+use thermobeam_study::case::{CaseFailure, Measured};
 use thermobeam_study::outcome::Outcome;
-use thermobeam_study::study::{CaseFailure, Measured, Study};
+use thermobeam_study::study::Study;
 use thermobeam_study::verdict::Verdict;
 
 type Results = Vec<Result<Measured, CaseFailure>>;

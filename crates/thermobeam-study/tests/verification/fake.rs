@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
+use thermobeam_study::case::{Case, CaseFailure, Measured};
 use thermobeam_study::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use thermobeam_study::runner::{self, Finished};
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Recording, Simulator};
-use thermobeam_study::study::{Case, CaseFailure, Measured, Study};
+use thermobeam_study::study::Study;
 use thermobeam_study::study_file::{StudyHeader, Tier};
 use thermobeam_study::verdict;
 use thermobeam_study::verification::{Request, Scope};

@@ -2,8 +2,8 @@
 
 use thermobeam::equilibrium::{Contact, Equilibrium};
 
+use crate::case::CaseFailure;
 use crate::scene::Scene;
-use crate::study::CaseFailure;
 use crate::study::steady::exact_states;
 use crate::time_limit::Patience;
 

@@ -13,9 +13,10 @@ use thermobeam::equilibrium::Contact;
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::mesh::Mesh;
 
+use super::Study;
 use super::complete::{all_ran, or_nothing};
 use super::steady::{at_resolution, exact_states, keep_larger, nearest, settle};
-use super::{Case, CaseFailure, Measured, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::fit::Level;
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;

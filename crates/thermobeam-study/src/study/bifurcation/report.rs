@@ -5,11 +5,11 @@ use thermobeam::kirchhoff::BUCKLING;
 
 use super::branches::Event;
 use super::{BifurcationStudy, CLOSE, family_name};
+use crate::case::Measured;
+use crate::number::decimals;
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{Bifurcation, Branch, Guide, Series, bifurcation};
-use crate::record::decimals;
 use crate::scene::Scene;
-use crate::study::Measured;
 use crate::verdict::RateVerdict;
 
 pub(super) fn outcome(

@@ -4,9 +4,9 @@ use thermobeam::equilibrium::Contact;
 
 use super::log::straight_energy;
 use super::{Experiments, Group, Until, of_group};
+use crate::case::Measured;
 use crate::outcome::Check;
 use crate::scene::Scene;
-use crate::study::Measured;
 use crate::study::steady::{code_of, contact_of, name_of};
 
 /// The first contacts count as "at the beginning" within this share of the figures' span.

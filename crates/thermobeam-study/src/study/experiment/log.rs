@@ -6,9 +6,9 @@ use thermobeam::solve::Level;
 
 use super::Until;
 use super::motion::Shapes;
+use crate::case::{CaseFailure, Measured};
 use crate::scene::Scene;
 use crate::study::steady::{code_of, exact_states, keep_larger, nearest, start};
-use crate::study::{CaseFailure, Measured};
 use crate::time_limit::Patience;
 
 /// Points of a curve in a figure, about: more than a figure has columns.

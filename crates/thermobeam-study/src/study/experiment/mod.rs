@@ -34,8 +34,9 @@ mod spec;
 
 use thermobeam::equilibrium::Contact;
 
+use super::Study;
 use super::complete::{all_ran, or_nothing};
-use super::{Case, CaseFailure, Measured, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::study_file::StudyHeader;

@@ -18,12 +18,13 @@
 
 mod report;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::outcome::Outcome;
 use crate::scene::{self, Scene};
 use crate::simulate;
 use crate::study::watch::{SOLVED, Watch};
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{StudyHeader, header};
 use crate::time_limit::Patience;
 use std::path::Path;

@@ -1,11 +1,12 @@
 //! A check for each case, and the table of what was seen.
 
 use super::{End, Extreme, Extremes};
+use crate::case::{CaseFailure, Measured};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis, Series};
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::watch::of_allowed;
-use crate::study::{CaseFailure, Measured, Study, max_or_nan};
+use crate::study::{Study, max_or_nan};
 use crate::verdict::Verdict;
 
 pub(super) fn outcome(study: &Extremes, results: &[Result<Measured, CaseFailure>]) -> Outcome {

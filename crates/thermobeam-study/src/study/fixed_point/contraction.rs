@@ -1,9 +1,9 @@
 //! The contraction factor in contact, measured against α.
 
 use super::Part;
+use crate::case::{CaseFailure, Measured};
 use crate::outcome::{Check, Figure, Quantity, Table};
 use crate::plots;
-use crate::study::{CaseFailure, Measured};
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;

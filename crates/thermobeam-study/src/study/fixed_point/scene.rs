@@ -1,11 +1,11 @@
 //! The fixed point on a scene: against Newton's method, over its own tolerance.
 
 use super::Part;
+use crate::case::{CaseFailure, Measured};
 use crate::outcome::{Check, Figure, Table};
 use crate::plots;
 use crate::scene::Scene;
 use crate::simulate;
-use crate::study::{CaseFailure, Measured};
 use crate::time_limit::Patience;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;

@@ -17,12 +17,13 @@
 
 mod report;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::limits;
 use crate::outcome::Outcome;
 use crate::study::energy::wild;
 use crate::study::watch::{CLOSED, SOLVED, Watch};
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::{StudyHeader, header};
 use crate::time_limit::Patience;
 use std::path::Path;

@@ -2,9 +2,9 @@
 
 use super::theory::{impact_time, peak_penetration};
 use super::{Found, RigidStudy};
+use crate::case::Measured;
 use crate::fit::Level;
 use crate::outcome::Check;
-use crate::study::Measured;
 use crate::study::steady::keep_larger;
 use crate::verdict::RateVerdict;
 

@@ -4,9 +4,9 @@ use thermobeam::error::{StepError, StepFailure};
 use thermobeam::solve::{Settings, Solver};
 
 use super::theory::tip_compliance;
+use crate::case::{CaseFailure, Measured};
 use crate::scene::Scene;
 use crate::study::steady::{keep_larger, settle, start};
-use crate::study::{CaseFailure, Measured};
 use crate::time_limit::Patience;
 
 /// The scene with another compliance.

@@ -27,9 +27,10 @@ mod report;
 mod spec;
 mod theory;
 
+use super::Study;
 use super::complete::{all_ran, or_nothing};
 use super::steady::at_resolution;
-use super::{Case, CaseFailure, Measured, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::outcome::Outcome;
 use crate::scene::Scene;
 use crate::study_file::StudyHeader;

@@ -2,12 +2,12 @@
 
 use super::claims::{LARGEST, numbers};
 use super::{Found, RigidStudy};
+use crate::case::Measured;
+use crate::number::rate_text;
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{
     Axis, Contraction, Convergence, ErrorSeries, Guide, History, Series, contraction, convergence, history,
 };
-use crate::record::rate_text;
-use crate::study::Measured;
 use crate::verdict::RateVerdict;
 
 pub(super) fn outcome(

@@ -16,8 +16,9 @@
 mod file;
 mod quantity;
 
+use super::Study;
 use super::ladder::{self, Family, Ladder, rate_table};
-use super::{Case, CaseFailure, Measured, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis as PlotAxis, Guide, History, Series};
 use crate::rerun::{Rerun, resampled};

@@ -1,6 +1,6 @@
 //! What is compared between two runs of different resolution.
 
-use crate::study::Measured;
+use crate::case::Measured;
 use crate::study::ladder::max_or_nan;
 use crate::study_file::Axis;
 use thermobeam::norms::TheoremSquares;

@@ -1,7 +1,7 @@
 //! The boundary of the fixed point on a line of constant second parameter, by bisection in dt.
 
 use super::measure::{axial_force, factors, fixed_point};
-use crate::study::{CaseFailure, Measured};
+use crate::case::{CaseFailure, Measured};
 use crate::time_limit::Patience;
 use thermobeam::simulation::Problem;
 

@@ -1,7 +1,7 @@
 //! One row of a map: all its time steps, Newton's method in lanes.
 
+use crate::case::{CaseFailure, Measured};
 use crate::study::watch::{SOLVED, Watch};
-use crate::study::{CaseFailure, Measured};
 use crate::time_limit::Patience;
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::ensemble::Ensemble;

@@ -37,9 +37,10 @@ mod measure;
 mod report;
 mod spec;
 
+use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError};
 use crate::outcome::Outcome;
-use crate::study::{Case, CaseFailure, FromFile, Measured, Study};
+use crate::study::{FromFile, Study};
 use crate::study_file::StudyHeader;
 use std::path::Path;
 use thermobeam::mesh::{Mesh, MeshError};

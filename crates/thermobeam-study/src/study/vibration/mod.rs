@@ -10,8 +10,9 @@ mod file;
 mod modes;
 mod motion;
 
+use super::Study;
 use super::ladder::{self, Family, Ladder};
-use super::{Case, CaseFailure, Measured, Study};
+use crate::case::{Case, CaseFailure, Measured};
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Table};
 use crate::plots::{self, Axis as PlotAxis, History, Series};
 use crate::study_file::{Axis, Expectation, Norm, Refine, StudyHeader};

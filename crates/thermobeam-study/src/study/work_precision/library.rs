@@ -10,9 +10,9 @@
 //! elements times evaluations, each with three solves with M.
 
 use super::{Timed, WorkPrecision};
+use crate::case::CaseFailure;
 use crate::exact::factors::Factors;
 use crate::march::{OnMesh, Spent};
-use crate::study::CaseFailure;
 use crate::study::work_precision::method::Measurement;
 use crate::yardstick::Yardstick;
 use ode_solvers::dop_shared::OutputType;

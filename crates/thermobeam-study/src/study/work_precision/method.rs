@@ -1,7 +1,7 @@
 //! The methods compared, and one run of each.
 
+use crate::case::CaseFailure;
 use crate::march::{OnMesh, Spent};
-use crate::study::CaseFailure;
 use crate::yardstick::{Yardstick, combine};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};

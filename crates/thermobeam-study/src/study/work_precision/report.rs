@@ -3,10 +3,11 @@
 use super::law::{GridPoint, Law, front};
 use super::method::{METHODS, Method};
 use super::{Advantage, WorkPrecision};
+use crate::case::{CaseFailure, Measured};
 use crate::fit::Quantiles;
 use crate::outcome::{self, Check, Figure, Outcome, Table};
 use crate::plots;
-use crate::study::{CaseFailure, Measured, Study};
+use crate::study::Study;
 use crate::yardstick::Quantity;
 
 /// Errors whose cost is told.

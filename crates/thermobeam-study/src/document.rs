@@ -14,12 +14,13 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::limits::FILE_BYTES;
-
 pub(crate) use error::visible;
 pub use error::{Complaint, InputError, Place};
 pub(crate) use field::{Field, shorten};
 pub(crate) use section::Section;
+
+/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
+const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
 #[derive(Debug, Clone, Copy)]

@@ -1,12 +1,9 @@
-//! What a file may ask for: all limits in one place, each with its reason.
+//! What a file may ask for: all limits in one place, each with its reason. How large it may be itself knows `document`.
 //!
 //! Every number is far beyond use and far below what brings a machine down. They are checked when a file is read, so that
 //! a slip of the pen is a complaint with its line, and not a process that the operating system ends after an hour.
 
 use crate::document::{Field, InputError};
-
-/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
-pub(crate) const FILE_BYTES: u64 = 10_000_000;
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a slip of the pen.
 pub(crate) const STEPS: usize = 10_000_000_000;

@@ -34,6 +34,7 @@ mod error;
 mod join;
 mod journal;
 mod key;
+mod lines;
 mod reader;
 mod run;
 mod share;

@@ -1,9 +1,11 @@
 //! The beam between its obstacles, moving: SVG that animates itself.
 
 use super::Scale;
-use super::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+use super::canvas::{Anchor, Canvas, Layer, Pen, grid};
 use super::heat::hatch;
+use super::look::look;
 use super::marker::tick;
+use super::rect::{Point, Rect};
 use super::ruler::{Ruler, fixed, on_scale};
 use super::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 use std::fmt::Write;
@@ -151,7 +153,7 @@ impl Stage {
     /// The beam, its tip and the time mark, each with its animation.
     fn moving_parts(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
         let Some(first) = frames.first() else { return String::new() };
-        let blue = style::look(0).colour;
+        let blue = look(0).colour;
         let colour = format!("#{:02x}{:02x}{:02x}", blue.0, blue.1, blue.2);
         let clock = self.clock(figure, frames);
         let shapes: Vec<String> = frames.iter().map(|f| points(&self.beam(&f.1))).collect();

@@ -1,8 +1,9 @@
 //! Equilibria over a parameter.
 
 use super::legend::{Entry, Swatch};
+use super::look::{Look, look};
 use super::marker::{Marker, Marks};
-use super::style::{self, Dash, Look, look};
+use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Series};
 

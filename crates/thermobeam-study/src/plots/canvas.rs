@@ -4,7 +4,7 @@
 //! on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives
 //! it the dash pattern, the clip rectangle or the halo, which SVG lets its children inherit.
 
-use super::clip::keep_inside;
+use super::rect::{Point, Rect, keep_inside};
 use super::style::{self, Dash};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -18,32 +18,6 @@ use std::fmt::Write;
 const RESOLUTION: f64 = 10.0;
 /// Plotters divides font sizes by this before it writes them.
 const PLOTTERS_FONT_FACTOR: f64 = 1.24;
-
-/// A position in px, `y` downwards.
-pub(super) type Point = (f64, f64);
-
-/// A rectangle in px.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rect {
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) right: f64,
-    pub(super) bottom: f64,
-}
-
-impl Rect {
-    pub(super) fn width(&self) -> f64 {
-        self.right - self.left
-    }
-
-    pub(super) fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
-
-    pub(super) fn centre(&self) -> Point {
-        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
-    }
-}
 
 /// From px to the page's grid. Far-away values are cut: plotters computes with `i32`.
 pub(super) fn grid(v: f64) -> i32 {

@@ -1,7 +1,8 @@
 //! Measured against predicted contraction of the fixed point.
 
+use super::look::{Look, look};
 use super::marker::Marks;
-use super::style::{self, Dash, Look, look};
+use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Series};
 

@@ -1,10 +1,11 @@
 //! Errors against the mesh width or the time step.
 
 use super::legend::{Entry, Swatch};
+use super::look::{Look, look};
 use super::marker::Marks;
 use super::ruler::on_scale;
 use super::slopes::{Trend, triangles};
-use super::style::{self, Dash, Look, look};
+use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Scale};
 

@@ -1,6 +1,6 @@
 //! Long series, thinned without losing a spike.
 
-use super::canvas::Point;
+use super::rect::Point;
 
 /// Lines through positions, broken where a position is missing.
 ///

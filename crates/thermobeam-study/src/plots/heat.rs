@@ -1,7 +1,8 @@
 //! Coloured cells, written compactly: one path per colour, one piece per run of equal neighbours.
 
 use super::Scale;
-use super::canvas::{Canvas, Pen, Rect, grid};
+use super::canvas::{Canvas, Pen, grid};
+use super::rect::Rect;
 use super::ruler::on_scale;
 use super::style;
 use plotters::style::RGBColor;

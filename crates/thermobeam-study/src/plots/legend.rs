@@ -1,10 +1,12 @@
 //! The legend: below the plot, in aligned columns, never on the data.
 
-use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
+use super::canvas::{Anchor, Canvas, Layer, Pen};
 use super::heat::hatch;
+use super::look::Look;
 use super::marker::Marks;
 use super::readable;
-use super::style::{self, Look, TICK_SIZE, text_width};
+use super::rect::Rect;
+use super::style::{self, TICK_SIZE, text_width};
 use plotters::style::RGBColor;
 
 const ROW_HEIGHT: f64 = 27.0;

@@ -1,6 +1,7 @@
 //! Marker shapes.
 
-use super::canvas::{Pen, Point};
+use super::canvas::Pen;
+use super::rect::Point;
 use super::style::{INK, WHITE};
 use plotters::style::RGBColor;
 

@@ -1,14 +1,16 @@
 //! A value and a category over two parameters.
 
 use super::Series;
-use super::canvas::{Layer, Point, Rect};
+use super::canvas::Layer;
 use super::colour::ColourScale;
 use super::heat::hatch;
 use super::legend::{Entry, Swatch};
+use super::look::{Look, look};
 use super::marker::Marks;
 use super::readable;
+use super::rect::{Point, Rect};
 use super::sheet::Sheet;
-use super::style::{self, Dash, Look, WHITE, look};
+use super::style::{self, Dash, WHITE};
 use super::surface::{Lattice, Surface};
 
 /// A boundary with fewer points is drawn as points.

@@ -9,7 +9,8 @@
 //! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines tell as much |
 //! | `data-entry` | an entry of the legend | the name of the series |
 
-use super::canvas::{Rect, grid};
+use super::canvas::grid;
+use super::rect::Rect;
 use super::ruler::Ruler;
 use super::{Scale, canvas};
 use std::fmt::Write;

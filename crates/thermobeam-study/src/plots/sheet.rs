@@ -1,10 +1,11 @@
 //! A laid-out page: plot area, axes, grid, legend and notes, each in its own place.
 
 use super::Guide;
-use super::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect};
+use super::canvas::{Anchor, Canvas, Layer, Pen};
 use super::legend::{Entry, Legend, elide};
 use super::marker::tick;
 use super::readable;
+use super::rect::{Point, Rect};
 use super::ruler::{Ruler, Ticks, power_of_ten};
 use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
 

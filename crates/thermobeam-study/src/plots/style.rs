@@ -1,6 +1,5 @@
-//! The house style of all figures: sizes, colours, and how the k-th series is told from the others.
+//! The house style of all figures: sizes, colours, dashes, widths of texts.
 
-use super::marker::Marker;
 use plotters::style::RGBColor;
 
 /// Page width in px. Figures are read at full and at half of it, which the text sizes below allow for.
@@ -28,31 +27,6 @@ pub(super) const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
 pub(super) const THIN: f64 = 1.2;
 pub(super) const LINE: f64 = 2.2;
 
-/// Okabe and Ito's palette, told apart by all common kinds of colour vision; its yellow is too pale on white.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(170, 68, 153),
-    RGBColor(230, 159, 0),
-    RGBColor(34, 34, 34),
-    RGBColor(86, 180, 233),
-];
-
-/// One more than the colours, so that the 8th series differs from the 1st by its marker too.
-const MARKERS: [Marker; 8] = [
-    Marker::Circle,
-    Marker::Square,
-    Marker::Triangle,
-    Marker::Diamond,
-    Marker::Inverted,
-    Marker::Cross,
-    Marker::Plus,
-    Marker::Star,
-];
-
-const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::Mixed, Dash::Short];
-
 /// Dash patterns, distinct in black and white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dash {
@@ -74,19 +48,6 @@ impl Dash {
             Dash::Mixed => Some(&[11.0, 4.0, 2.5, 4.0]),
         }
     }
-}
-
-/// What sets one series apart: each of the three is enough by itself for a handful of series.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
-    pub(super) colour: RGBColor,
-    pub(super) marker: Marker,
-    pub(super) dash: Dash,
-}
-
-/// Look of the k-th series.
-pub(super) fn look(k: usize) -> Look {
-    Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[k % MARKERS.len()], dash: DASHES[k % DASHES.len()] }
 }
 
 /// Width of a text in px, on the generous side: without font files it can only be estimated.

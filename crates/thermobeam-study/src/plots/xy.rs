@@ -1,13 +1,15 @@
 //! The core of all figures with curves: ranges, layers in their order, notes on what was left out.
 
-use super::canvas::{Anchor, Layer, Point, Rect};
+use super::canvas::{Anchor, Layer};
 use super::decimate::{lines, merge_intervals};
 use super::legend::{Entry, Swatch};
+use super::look::{Look, look};
 use super::marker::Marks;
 use super::readable;
+use super::rect::{Point, Rect};
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Plan, Sheet, guide_margin};
-use super::style::{self, Look, TICK_SIZE, look};
+use super::style::{self, TICK_SIZE};
 use super::{Axis, Guide, Phases, Scale, Series};
 
 /// Room left around the data, as a fraction of its range.

@@ -1,89 +1,13 @@
-//! Lines of results from several files, put into one in the order of their cases.
-//!
-//! The lines themselves stay on disk: only their places are held, 40 bytes a case.
+//! Shares of a sweep, put together.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-
-use serde::Deserialize;
 
 use super::SweepError;
 use super::journal::{JOURNAL, Manifest, RESULTS};
-use crate::atomic;
+use super::lines::{self, Place};
 
 /// Numbers of missing cases that are listed.
 const LISTED: usize = 10;
-
-/// Where a line is.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) case: usize,
-    pub(super) passed: bool,
-    file: usize,
-    offset: u64,
-    bytes: u64,
-}
-
-/// The part of a line that is looked at.
-#[derive(Deserialize)]
-struct Head<'a> {
-    case: usize,
-    status: &'a str,
-}
-
-/// The places of all whole lines of a file, and the offset at which they end: what follows is a torn line.
-pub(super) fn places(path: &Path, file: usize, cases: usize) -> Result<(Vec<Place>, u64), SweepError> {
-    let mut reader = BufReader::new(File::open(path).map_err(|error| atomic::naming(path, &error))?);
-    let (mut places, mut offset, mut line) = (vec![], 0, vec![]);
-    loop {
-        line.clear();
-        let bytes = reader.read_until(b'\n', &mut line).map_err(|error| atomic::naming(path, &error))? as u64;
-        if line.last() != Some(&b'\n') {
-            return Ok((places, offset));
-        }
-        let damaged =
-            |reason: String| SweepError::Damaged { file: path.to_owned(), line: Some(places.len() + 1), reason };
-        let head: Head<'_> =
-            serde_json::from_slice(&line).map_err(|error| damaged(format!("not a line of results: {error}")))?;
-        if head.case >= cases {
-            return Err(damaged(format!("case {} of a sweep of {cases}", head.case)));
-        }
-        places.push(Place { case: head.case, passed: head.status == "done", file, offset, bytes });
-        offset += bytes;
-    }
-}
-
-/// Sorts by case; a case that is there twice is an error.
-pub(super) fn sort(places: &mut [Place], files: &[PathBuf]) -> Result<(), SweepError> {
-    places.sort_by_key(|place| place.case);
-    match places.windows(2).find(|pair| pair[0].case == pair[1].case) {
-        None => Ok(()),
-        Some(pair) => {
-            let [first, second] = [pair[0], pair[1]].map(|place| files[place.file].clone());
-            Err(SweepError::Duplicate { case: pair[0].case, first, second })
-        }
-    }
-}
-
-/// Writes the lines at `places` in that order.
-pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Result<()> {
-    let open = |path: &PathBuf| File::open(path).map(BufReader::new).map_err(|error| atomic::naming(path, &error));
-    let mut readers = files.iter().map(open).collect::<io::Result<Vec<_>>>()?;
-    atomic::write_with(out, |output: &mut BufWriter<File>| {
-        for place in places {
-            let reader = &mut readers[place.file];
-            // Relative, so that neighbours come from the buffer.
-            let here = reader.stream_position()?;
-            reader.seek_relative(place.offset.wrapping_sub(here) as i64)?;
-            let copied = io::copy(&mut reader.take(place.bytes), output)?;
-            if copied < place.bytes {
-                return Err(io::Error::new(io::ErrorKind::UnexpectedEof, "a file of results became shorter"));
-            }
-        }
-        output.flush()
-    })
-}
 
 /// What [`merge`] has put together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,12 +36,12 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
         .collect();
     let mut found = vec![];
     for (index, file) in files.iter().enumerate() {
-        found.extend(places(file, index, first.cases)?.0);
+        found.extend(lines::places(file, index, first.cases)?.0);
     }
-    sort(&mut found, &files)?;
+    lines::sort(&mut found, &files)?;
     let shares: Vec<&str> = manifests.iter().map(|manifest| manifest.share.as_str()).collect();
     none_missing(&found, first.cases, &shares.join(", "))?;
-    copy(&found, &files, out)?;
+    lines::copy(&found, &files, out)?;
     Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count() })
 }
 

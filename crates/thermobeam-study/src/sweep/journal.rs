@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::join::{self, Place};
+use super::lines::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
 use crate::atomic;
 use crate::writing;
@@ -178,8 +178,8 @@ impl Journal {
     fn take_up(&mut self) -> Result<(), SweepError> {
         self.is_complete = self.results.exists();
         let source = if self.is_complete { &self.results } else { &self.path };
-        let (mut places, end) = join::places(source, 0, self.done.len())?;
-        join::sort(&mut places, std::slice::from_ref(source))?;
+        let (mut places, end) = lines::places(source, 0, self.done.len())?;
+        lines::sort(&mut places, std::slice::from_ref(source))?;
         // Beside results, which hold all of it, a journal is what a process killed between two calls has left.
         let keep = if self.is_complete { 0 } else { end };
         self.file.set_len(keep).map_err(|error| atomic::naming(&self.path, &error))?;
@@ -226,10 +226,10 @@ impl Journal {
             [&self.results, &self.path].into_iter().filter(|file| file.exists()).cloned().collect();
         let mut places = vec![];
         for (index, file) in files.iter().enumerate() {
-            places.extend(join::places(file, index, self.done.len())?.0);
+            places.extend(lines::places(file, index, self.done.len())?.0);
         }
-        join::sort(&mut places, &files)?;
-        join::copy(&places, &files, &self.results)?;
+        lines::sort(&mut places, &files)?;
+        lines::copy(&places, &files, &self.results)?;
         std::fs::remove_file(&self.path).map_err(|error| atomic::naming(&self.path, &error))?;
         Ok(self.results)
     }

@@ -1,6 +1,30 @@
-//! Parts of lines inside and outside a rectangle.
+//! Points and rectangles; the parts of lines inside and outside of a rectangle.
 
-use super::canvas::{Point, Rect};
+/// A position in px, `y` downwards.
+pub(super) type Point = (f64, f64);
+
+/// A rectangle in px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rect {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl Rect {
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub(super) fn centre(&self) -> Point {
+        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+    }
+}
 
 /// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and Barsky).
 fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {

@@ -17,6 +17,7 @@
 mod report;
 mod runs;
 
+use crate::number::max_or_nan;
 use crate::rerun::RunError;
 use crate::scene::Scene;
 use runs::{Reading, Runs};
@@ -166,7 +167,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::NAN;
     }
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, crate::study::max_or_nan)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
 }
 
 /// Error at h from the differences of h against 2h and of 2h against 4h, and the observed rate.
@@ -174,7 +175,7 @@ fn extrapolate(fine: f64, coarse: f64, order: f64) -> (f64, Option<f64>) {
     let rate = Some((coarse / fine).log2()).filter(|rate| rate.is_finite());
     let p = rate.map_or(order, |rate| rate.clamp(LOWEST_RATE, order));
     let growth = 2f64.powf(p);
-    (crate::study::max_or_nan(fine, coarse / growth) / (growth - 1.0), rate)
+    (max_or_nan(fine, coarse / growth) / (growth - 1.0), rate)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! How numbers are written where the bytes must stay the same.
+//! Numbers as reports have them: a maximum that keeps NaN, and how they are written where the bytes must stay the same.
 
 /// Significant digits of a number in a committed file: more than anyone compares, fewer than two machines agree on.
 const DIGITS: usize = 6;
@@ -8,6 +8,11 @@ const NOISE_PLACE: i32 = 15;
 
 /// Decimal places of a rate: a relative change of an error by 1e-5 does not show.
 const RATE_PLACES: usize = 4;
+
+/// The larger of two numbers; NaN if one of them is, which `f64::max` would hide.
+pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}
 
 /// The number that a committed file has for `value`: six significant digits, none of them beyond 1e-15 but the first.
 ///
@@ -63,6 +68,14 @@ pub fn plain_text(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_maximum_keeps_nan() {
+        assert_eq!([0.0, 2.0, 1.0].into_iter().fold(0.0, max_or_nan), 2.0);
+        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
+        }
+    }
 
     #[test]
     fn what_is_rounded_to_nothing_has_no_sign() {

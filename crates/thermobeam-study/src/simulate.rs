@@ -36,6 +36,7 @@ use thermobeam::solve::{Level, StepReport, Work};
 use thiserror::Error;
 
 use crate::expression::Expression;
+use crate::number::max_or_nan;
 use crate::scene::Scene;
 use crate::time_limit::{Patience, TimeUp};
 
@@ -334,12 +335,13 @@ impl Tally {
     fn add(&mut self, report: &StepReport, balance: &Balance, u_tip: f64, contact_force: f64) {
         self.iterations.total += report.iterations;
         self.iterations.max = self.iterations.max.max(report.iterations);
-        self.extremes.u_tip_max = larger(self.extremes.u_tip_max, u_tip);
-        self.extremes.u_tip_min = -larger(-self.extremes.u_tip_min, -u_tip);
+        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u_tip);
+        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u_tip);
         self.contact_steps += usize::from(contact_force != 0.0);
         // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
-        self.largest_increase = Some(self.largest_increase.map_or(balance.change, |most| larger(most, balance.change)));
-        self.largest_residual = larger(self.largest_residual, balance.residual.abs());
+        self.largest_increase =
+            Some(self.largest_increase.map_or(balance.change, |most| max_or_nan(most, balance.change)));
+        self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
     }
 
     /// The run that it is of, without failure and record.
@@ -367,11 +369,6 @@ impl Tally {
     }
 }
 
-/// The larger of two numbers; NaN if one is, which `f64::max` would hide.
-fn larger(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -385,11 +382,5 @@ mod tests {
         for nodes in [vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0, 0.1, 0.7, 1.0], vec![0.0, 0.9, 1.0]] {
             assert!((value(nodes) - 0.5).abs() < 1e-15);
         }
-    }
-
-    #[test]
-    fn a_number_that_is_none_stays_visible() {
-        assert!(larger(1.0, f64::NAN).is_nan() && larger(f64::NAN, 1.0).is_nan());
-        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0)), (2.0, 2.0));
     }
 }

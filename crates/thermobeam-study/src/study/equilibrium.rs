@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::complete::{all_ran, or_nothing};
 use super::steady::{
-    at_resolution, code_of, contact_of, exact_states, keep_larger, listed_scenes, name_of, nearest, positive, settle,
+    at_resolution, code_of, contact_of, exact_states, listed_scenes, name_of, nearest, positive, settle,
 };
 use super::{FromFile, Study};
 use crate::case::{Case, CaseFailure, Measured};
@@ -17,6 +17,7 @@ use crate::document::{self, Field, InputError, Section};
 use crate::fit::Level;
 use crate::limits;
 use crate::number::decimals;
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
 use crate::scene::Scene;
@@ -176,7 +177,7 @@ impl Ends<'_> {
 
 impl EndStates {
     fn arrived(&self, ends: &Ends<'_>) -> Check {
-        let error = keep_larger(ends.finest("u"), ends.finest("φ"));
+        let error = max_or_nan(ends.finest("u"), ends.finest("φ"));
         let extrapolated = (ends.extrapolated("u_tip", &self.elements) - ends.finest("exact_u_tip")).abs();
         let elements = self.elements.last().copied().unwrap_or(0);
         // The beam may buckle to either side, but to the same one on every mesh, or the errors are no family.
@@ -277,7 +278,7 @@ fn summary(ends: &[Ends<'_>]) -> String {
 
 /// The largest error of all ends at the finest mesh.
 fn worst(ends: &[Ends<'_>]) -> f64 {
-    ends.iter().map(|ends| keep_larger(ends.finest("u"), ends.finest("φ"))).fold(0.0, keep_larger)
+    ends.iter().map(|ends| max_or_nan(ends.finest("u"), ends.finest("φ"))).fold(0.0, max_or_nan)
 }
 
 fn through_the_last(points: &[(f64, f64)], rate: f64) -> PowerLaw {

@@ -9,6 +9,7 @@ use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::expression::{Expression, Variable};
 use crate::limits;
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
 use crate::study_file::{Axis, StudyHeader, header};
@@ -140,7 +141,7 @@ fn determinant(omega: f64) -> f64 {
 
 fn check_equation(count: usize) -> Check {
     let rounding = |omega: f64| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega));
-    let worst = frequencies(count).into_iter().map(rounding).fold(0.0, ladder::max_or_nan);
+    let worst = frequencies(count).into_iter().map(rounding).fold(0.0, max_or_nan);
     Check::that(
         worst <= ROUNDING_ERRORS,
         "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",

@@ -153,11 +153,6 @@ pub(crate) fn value(results: &[Result<Measured, CaseFailure>], index: usize, nam
     }
 }
 
-/// The larger of both; NaN once one of them was NaN.
-pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a >= b { a } else { b }
-}
-
 /// `tip 1.000 (order 1)` for each.
 pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
     let one = |(name, rate): &(String, RateVerdict)| match rate.fitted {
@@ -170,14 +165,6 @@ pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_maximum_keeps_nan() {
-        assert_eq!([0.0, 2.0, 1.0].into_iter().fold(0.0, max_or_nan), 2.0);
-        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
-            assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
-        }
-    }
 
     #[test]
     fn a_missing_or_failed_case_fails_the_completion() {

@@ -27,8 +27,6 @@ pub mod vibration;
 mod watch;
 pub mod work_precision;
 
-pub(crate) use ladder::max_or_nan;
-
 use crate::case::{Case, CaseFailure, Measured};
 use crate::document::{self, InputError, Section};
 use crate::outcome::Outcome;

@@ -10,6 +10,7 @@ use thermobeam::solve::Level;
 
 use crate::case::CaseFailure;
 use crate::document::{Field, InputError, Section};
+use crate::number::max_or_nan;
 use crate::scene::Scene;
 use crate::simulate;
 use crate::time_limit::Patience;
@@ -89,7 +90,7 @@ pub(super) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, Equilibriu
 pub(super) fn distances(mesh: &Mesh, level: &Level, state: &Equilibrium) -> (f64, f64) {
     let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
         let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
-        differences.fold(0.0, keep_larger)
+        differences.fold(0.0, max_or_nan)
     };
     (largest(&level.u, &|x| state.u(x)), largest(&level.phi, &|x| state.phi(x)))
 }
@@ -97,12 +98,7 @@ pub(super) fn distances(mesh: &Mesh, level: &Level, state: &Equilibrium) -> (f64
 /// The steady state next to a level, with its [`distances`].
 pub(super) fn nearest(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<(Equilibrium, (f64, f64))> {
     let measured = states.iter().map(|state| (*state, distances(mesh, level, state)));
-    measured.min_by(|a, b| keep_larger(a.1.0, a.1.1).total_cmp(&keep_larger(b.1.0, b.1.1)))
-}
-
-/// The larger of two numbers; NaN if one is, which `f64::max` would hide.
-pub(super) fn keep_larger(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
+    measured.min_by(|a, b| max_or_nan(a.1.0, a.1.1).total_cmp(&max_or_nan(b.1.0, b.1.1)))
 }
 
 /// The positive number of a key that has no default.

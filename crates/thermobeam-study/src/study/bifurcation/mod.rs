@@ -15,9 +15,10 @@ use thermobeam::mesh::Mesh;
 
 use super::Study;
 use super::complete::{all_ran, or_nothing};
-use super::steady::{at_resolution, exact_states, keep_larger, nearest, settle};
+use super::steady::{at_resolution, exact_states, nearest, settle};
 use crate::case::{Case, CaseFailure, Measured};
 use crate::fit::Level;
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::study_file::StudyHeader;
@@ -107,7 +108,7 @@ impl BifurcationStudy {
         if let Some((state, (in_u, in_phi))) = nearest(&scene.mesh, &end.level, &exact_states(&scene)?) {
             measured.push("stable", f64::from(u8::from(state.stable)));
             measured.push("exact_u_tip", state.u_tip);
-            measured.push("distance", keep_larger(in_u, in_phi));
+            measured.push("distance", max_or_nan(in_u, in_phi));
         }
         Ok(measured)
     }
@@ -200,7 +201,7 @@ impl BifurcationStudy {
     fn ends_are_stable(&self, scene: &Scene, rests: &[Measured]) -> Check {
         let arrived = |m: &Measured| m.value("stable") == 1.0 && m.value("distance") <= self.distance;
         let holds = !rests.is_empty() && rests.iter().all(arrived);
-        let farthest = rests.iter().map(|m| m.value("distance")).fold(0.0, keep_larger);
+        let farthest = rests.iter().map(|m| m.value("distance")).fold(0.0, max_or_nan);
         let off = self.betas.iter().zip(rests).filter(|(_, m)| !arrived(m)).map(|(beta, _)| format!("{beta}"));
         let off: Vec<String> = off.collect();
         let list = if off.is_empty() { "none".to_owned() } else { off.join(", ") };

@@ -7,8 +7,9 @@ use thermobeam::solve::Level;
 use super::Until;
 use super::motion::Shapes;
 use crate::case::{CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::scene::Scene;
-use crate::study::steady::{code_of, exact_states, keep_larger, nearest, start};
+use crate::study::steady::{code_of, exact_states, nearest, start};
 use crate::time_limit::Patience;
 
 /// Points of a curve in a figure, about: more than a figure has columns.
@@ -49,7 +50,7 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
 fn finish(scene: &Scene, simulation: &Simulation, end: &Level, log: Log<'_>) -> Result<Measured, CaseFailure> {
     let mut measured = log.measured();
     let energy = simulation.energy(end);
-    let largest = |values: &[f64]| values.iter().fold(0.0, |most, value: &f64| keep_larger(most, value.abs()));
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most, value: &f64| max_or_nan(most, value.abs()));
     let tip = end.u.len() - 1;
     measured.push("t_steady", simulation.t());
     measured.push("energy", energy.total());
@@ -57,7 +58,7 @@ fn finish(scene: &Scene, simulation: &Simulation, end: &Level, log: Log<'_>) -> 
     measured.push("phi_tip", end.phi[tip]);
     measured.push("contact_force", end.contact_force);
     let fields = [&end.u, &end.phi, &end.theta].map(|values| largest(values));
-    measured.push("largest_field", fields.into_iter().fold(0.0, keep_larger));
+    measured.push("largest_field", fields.into_iter().fold(0.0, max_or_nan));
     add_nearest(scene, &scene.mesh, end, &mut measured)?;
     Ok(measured)
 }
@@ -70,7 +71,7 @@ fn add_nearest(scene: &Scene, mesh: &Mesh, end: &Level, measured: &mut Measured)
         measured.push("exact_u_tip", state.u_tip);
         measured.push("exact_contact", code_of(state.contact));
         measured.push("exact_stable", f64::from(u8::from(state.stable)));
-        measured.push("distance", keep_larger(in_u, in_phi));
+        measured.push("distance", max_or_nan(in_u, in_phi));
     }
     Ok(())
 }
@@ -111,7 +112,7 @@ impl<'a> Log<'a> {
     }
 
     fn add(&mut self, simulation: &Simulation, change: f64, [old, new]: [&Level; 2]) {
-        self.largest_increase = keep_larger(self.largest_increase, change);
+        self.largest_increase = max_or_nan(self.largest_increase, change);
         let (t, step) = (simulation.t(), simulation.step());
         // Half a step of slack: n dt is not t_end to the last bit.
         if t <= self.scene.t_end + 0.5 * self.scene.dt {
@@ -143,7 +144,7 @@ impl<'a> Log<'a> {
             self.crossings = (if count == 0 { passes(0.0) } else { first }, passes(0.0), count + 1);
         }
         let phi = new.phi[tip];
-        self.phi = [-keep_larger(-self.phi[0], -phi), keep_larger(self.phi[1], phi)];
+        self.phi = [-max_or_nan(-self.phi[0], -phi), max_or_nan(self.phi[1], phi)];
     }
 
     fn add_point(&mut self, simulation: &Simulation, level: &Level) {

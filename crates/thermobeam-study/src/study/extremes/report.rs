@@ -2,11 +2,12 @@
 
 use super::{End, Extreme, Extremes};
 use crate::case::{CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis, Series};
+use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::watch::of_allowed;
-use crate::study::{Study, max_or_nan};
 use crate::verdict::Verdict;
 
 pub(super) fn outcome(study: &Extremes, results: &[Result<Measured, CaseFailure>]) -> Outcome {

@@ -2,12 +2,13 @@
 
 use super::{ANSWER, BATCH, CLOSED, ENDS, INDEFINITE, LIMIT, NOT_FINITE, RandomScenes};
 use crate::case::{CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
 use crate::plots::{self, Axis, ParameterMap, Surface};
+use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::energy::wild;
 use crate::study::watch::of_allowed;
-use crate::study::{Study, max_or_nan};
 
 /// Exceptions listed.
 const LISTED: usize = 12;

@@ -4,8 +4,8 @@ use super::theory::{impact_time, peak_penetration};
 use super::{Found, RigidStudy};
 use crate::case::Measured;
 use crate::fit::Level;
+use crate::number::max_or_nan;
 use crate::outcome::Check;
-use crate::study::steady::keep_larger;
 use crate::verdict::RateVerdict;
 
 /// Contraction above which a time step averages over the whole impact, which makes the penetration of order 1.
@@ -84,7 +84,7 @@ fn newton_does_not_notice(study: &RigidStudy, found: &Found<'_>) -> Check {
             mean.last().unwrap_or(&f64::NAN),
             study.epsilons.last().unwrap_or(&f64::NAN),
             study.limit,
-            most.iter().copied().fold(0.0, keep_larger)
+            most.iter().copied().fold(0.0, max_or_nan)
         ),
     )
 }
@@ -118,7 +118,7 @@ fn contraction_as_predicted(study: &RigidStudy, found: &Found<'_>) -> Check {
     let slow_enough = |alpha: f64| (0.01..SLOW).contains(&alpha);
     let runs = study.epsilons.iter().zip(found.fixed_point).filter(|(_, m)| slow_enough(m.value("alpha")));
     let ratios: Vec<f64> = runs.map(|(_, m)| m.value("contraction") / m.value("alpha")).collect();
-    let worst = ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, keep_larger);
+    let worst = ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, max_or_nan);
     Check::that(
         !ratios.is_empty() && worst <= 0.1,
         "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",

@@ -5,8 +5,9 @@ use thermobeam::solve::{Settings, Solver};
 
 use super::theory::tip_compliance;
 use crate::case::{CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::scene::Scene;
-use crate::study::steady::{keep_larger, settle, start};
+use crate::study::steady::{settle, start};
 use crate::time_limit::Patience;
 
 /// The scene with another compliance.
@@ -38,7 +39,7 @@ pub(super) fn moving(scene: &Scene) -> Result<Measured, CaseFailure> {
         simulation.observe(&mut level);
         iterations += report.iterations;
         most_iterations = most_iterations.max(report.iterations);
-        force = keep_larger(force, level.contact_force.abs());
+        force = max_or_nan(force, level.contact_force.abs());
         motion.push((simulation.t(), level.u[tip]));
     }
     let mut measured = Measured::default();

@@ -31,6 +31,7 @@ use super::Study;
 use super::complete::{all_ran, or_nothing};
 use super::steady::at_resolution;
 use crate::case::{Case, CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::outcome::Outcome;
 use crate::scene::Scene;
 use crate::study_file::StudyHeader;
@@ -145,6 +146,6 @@ impl Found<'_> {
         if tip.is_empty() || tip.len() != limit.len() {
             return f64::NAN;
         }
-        tip.iter().zip(limit).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, super::steady::keep_larger)
+        tip.iter().zip(limit).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, max_or_nan)
     }
 }

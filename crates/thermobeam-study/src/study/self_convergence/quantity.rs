@@ -1,7 +1,7 @@
 //! What is compared between two runs of different resolution.
 
 use crate::case::Measured;
-use crate::study::ladder::max_or_nan;
+use crate::number::max_or_nan;
 use crate::study_file::Axis;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;

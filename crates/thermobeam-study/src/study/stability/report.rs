@@ -3,10 +3,11 @@
 use super::measure::{ALPHA, FAILED, GAMMA, ITERATIONS_OF_NEWTON, REFUSED};
 use super::{Parameter, Stability, figures};
 use crate::case::{CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Outcome, Quantity, Table};
+use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::watch::of_allowed;
-use crate::study::{Study, max_or_nan};
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
 

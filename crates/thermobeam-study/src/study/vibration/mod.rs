@@ -13,6 +13,7 @@ mod motion;
 use super::Study;
 use super::ladder::{self, Family, Ladder};
 use crate::case::{Case, CaseFailure, Measured};
+use crate::number::max_or_nan;
 use crate::outcome::{Check, Figure, LevelErrors, Outcome, Table};
 use crate::plots::{self, Axis as PlotAxis, History, Series};
 use crate::study_file::{Axis, Expectation, Norm, Refine, StudyHeader};
@@ -143,7 +144,7 @@ impl Vibration {
             return None;
         }
         let deviations = (0..self.refine.cases().len()).map(|i| ladder::value(results, i, "closed form"));
-        let worst = deviations.fold(0.0, ladder::max_or_nan);
+        let worst = deviations.fold(0.0, max_or_nan);
         Some(Check::that(
             worst <= CLOSED_FORM,
             "each step is the scheme's own step of each mode of the mesh, to round-off",
@@ -265,12 +266,12 @@ fn follow(
         simulation.advance()?;
         simulation.observe(&mut level);
         for (largest, error) in largest.iter_mut().zip(reference.errors(&lengths, n, &level)) {
-            *largest = ladder::max_or_nan(*largest, error);
+            *largest = max_or_nan(*largest, error);
         }
         if let Some(closed) = closed {
             let zero = thermobeam::solve::Level::new(tip + 1);
-            deviation = ladder::max_or_nan(deviation, closed.errors(&lengths, n, &level)[theorem]);
-            size = ladder::max_or_nan(size, closed.errors(&lengths, n, &zero)[theorem]);
+            deviation = max_or_nan(deviation, closed.errors(&lengths, n, &level)[theorem]);
+            size = max_or_nan(size, closed.errors(&lengths, n, &zero)[theorem]);
         }
         let t = n as f64 * levels.dt;
         curves[0].push((t, reference.tip(n)));

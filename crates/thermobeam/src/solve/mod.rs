@@ -51,7 +51,7 @@ impl Default for Settings {
 /// Where Newton's iteration starts; it changes the number of passes, not the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Start {
-    /// Velocities and axial force extrapolated from the last three levels; the level before in the first two steps.
+    /// Velocities and axial force extrapolated from the last three levels; the first level stands for those before it.
     #[default]
     Extrapolated,
     /// The level before, as (4.1) has it.

@@ -93,12 +93,10 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) velocity: [Vec<[T; B]>; 2],
     /// The scheme's inertia: `v = v0 + weight (V - v0)`.
     weight: T,
-    /// X: the present step's first, then those of the steps before.
+    /// X: the present step's first, then those of the steps before; the initial velocities where there was none.
     pub(super) ring: [Vec<[T; B]>; 4],
     pub(super) middle: Vec<[T; B]>,
     load: Vec<[T; B]>,
-    /// How many entries of the ring hold an X of a step before.
-    known: usize,
     pub(super) controls: Vec<Control>,
     /// The last good level of the cases that have failed.
     frozen: Vec<Option<Level>>,
@@ -148,10 +146,9 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             factor: Factor::new(n),
             elements,
             new: zeros.clone(),
-            ring: [zeros.clone(), start, zeros.clone(), zeros.clone()],
+            ring: [zeros.clone(), start.clone(), start.clone(), start],
             middle: zeros.clone(),
             load: vec![],
-            known: 1,
             old,
             velocity,
             weight: T::splat(scheme.inertia),
@@ -227,8 +224,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     }
 
     fn weights(&self) -> [f64; 3] {
-        // Three levels are known from the third step on.
-        if self.settings.start == Start::Previous || self.known < 3 { [1.0, 0.0, 0.0] } else { [3.0, -3.0, 1.0] }
+        match self.settings.start {
+            Start::Previous => [1.0, 0.0, 0.0],
+            Start::Extrapolated => [3.0, -3.0, 1.0],
+        }
     }
 
     fn any(&self, state: Progress) -> bool {
@@ -385,7 +384,6 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
         std::mem::swap(&mut self.old, &mut self.new);
         self.ring.rotate_right(1);
-        self.known = (self.known + 1).min(3);
     }
 
     /// Copies the present level of case k; its last good one if it has failed.

@@ -32,7 +32,7 @@ pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
 
 /// Golden section search for the top of f, which rises to it and falls behind it.
 ///
-/// * Returns the best point seen and f there. Near a smooth top the point is exact to √ε only, the value to ε.
+/// * Returns the point and f there. Near a smooth top the point is exact to √ε only, the value to ε.
 pub(crate) fn climb(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let at = |x: f64| (x, f(x));
@@ -48,7 +48,7 @@ pub(crate) fn climb(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f
             right = at(lo + ratio * (hi - lo));
         }
     }
-    if left.1 > right.1 { left } else { right }
+    left
 }
 
 #[cfg(test)]

@@ -208,10 +208,10 @@ mod tests {
 
     #[test]
     fn f_is_positive_at_the_end_above_the_root() {
-        for (law, drive) in laws().into_iter().flat_map(|law| [0.01, 1.0, 60.0].map(|drive| (law, drive))) {
+        for (law, drive) in laws().into_iter().flat_map(|law| [0.01, 1.0, 60.0, 1e4].map(|drive| (law, drive))) {
             let law = Law { drive, ..law };
-            for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 1e6] {
-                for rho in [1e-6, 1.0, 1e6] {
+            for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 100.0, 1e6] {
+                for rho in [1e-6, 1.0, 400.0, 1e6] {
                     let scan = Scan { law: &law, beta, rho };
                     let pole = law.buckling(1);
                     let end = scan.beyond(pole);

@@ -117,9 +117,9 @@ mod tests {
     #[test]
     fn a_singular_block_is_shifted_by_round_off_to_the_positive_side() {
         let square = f64::EPSILON * f64::EPSILON;
-        let (negative, inverse) = invert(Symmetric { a: 1.0, b: 2.0, d: 4.0 });
-        assert_eq!((negative, inverse.a * square), (0, 4.0 / 21.0));
-        assert_eq!((inverse.b * square, inverse.d * square), (-2.0 / 21.0, 1.0 / 21.0));
+        let (negative, inverse) = invert(Symmetric { a: 1.0, b: 3.0, d: 9.0 });
+        assert_eq!((negative, inverse.a * square), (0, 9.0 / 91.0));
+        assert_eq!((inverse.b * square, inverse.d * square), (-3.0 / 91.0, 1.0 / 91.0));
         let (negative, inverse) = invert(Symmetric { a: -4.0, b: 0.0, d: 0.0 });
         assert_eq!((negative, inverse.a, inverse.d * square), (2, 0.0, -0.25));
         let (negative, inverse) = invert(Symmetric { a: 0.0, b: 0.0, d: 0.0 });

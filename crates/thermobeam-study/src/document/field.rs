@@ -1,10 +1,12 @@
 //! A value that knows where it stands.
 
+use std::fs;
 use std::ops::{Range, RangeInclusive};
+use std::path::{Path, PathBuf};
 
 use toml::de::{DeInteger, DeValue};
 
-use super::error::{Complaint, InputError};
+use super::error::{Complaint, InputError, visible};
 use super::{Section, Source};
 use crate::exact::nearest::nearest;
 use crate::expression::{Expression, NotFinite, Variable};
@@ -72,6 +74,18 @@ impl<'a> Field<'a> {
     /// A text.
     pub(crate) fn text(&self) -> Result<&'a str, InputError> {
         self.value.as_str().ok_or_else(|| self.refuse_as_written("a text in quotes"))
+    }
+
+    /// The file of that name in `folder`; one that is not there is refused here, where it is named.
+    pub(crate) fn file(&self, folder: &Path) -> Result<PathBuf, InputError> {
+        let path = folder.join(self.text()?);
+        match fs::metadata(&path) {
+            Ok(_) => Ok(path),
+            Err(error) => {
+                let found = format!("{}, but {}: {error}", self.as_written(), visible(&path.display().to_string()));
+                Err(self.refuse(found, "the name of a file, relative to this file's folder"))
+            }
+        }
     }
 
     /// One of `choices`, each with its name.

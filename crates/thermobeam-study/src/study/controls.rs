@@ -78,7 +78,7 @@ pub(crate) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<
     let levels = levels.unwrap_or_default().iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
     let mut studies = vec![];
     for file in files {
-        let mut spec = ConvergenceSpec::read(folder.join(file.text()?))?;
+        let mut spec = ConvergenceSpec::read(file.file(folder)?)?;
         if !levels.is_empty() {
             spec.refine.elements.clone_from(&levels);
         }

@@ -85,7 +85,7 @@ impl EnergyDecay {
         }
         Ok(Self {
             header: header(root)?,
-            scenes: scenes.iter().map(|file| Scene::read(folder.join(file.text()?))).collect::<Result<_, _>>()?,
+            scenes: scenes.iter().map(|file| Scene::read(file.file(folder)?)).collect::<Result<_, _>>()?,
             schemes: schemes.iter().map(|scheme| scheme.choice(&names)).collect::<Result<_, _>>()?,
             mesh: tables::checked_mesh(mesh, &elements)?,
             dt: section.require("dt", positive)?.number_where(positive, |dt| dt > 0.0)?,

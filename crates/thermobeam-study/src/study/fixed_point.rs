@@ -68,7 +68,7 @@ impl FixedPoint {
         limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
         Ok(Self {
             header: header(root)?,
-            scene: Scene::read(folder.join(section.require("scene", "a scene file beside this one")?.text()?))?,
+            scene: Scene::read(section.require("scene", "a scene file beside this one")?.file(folder)?)?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
             dt,
             epsilon,

@@ -27,7 +27,7 @@ pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scen
 
 /// Reads the scene of a file name; as in [`listed_scenes`].
 pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
-    let scene = Scene::read(folder.join(field.text()?))?;
+    let scene = Scene::read(field.file(folder)?)?;
     if scene.obstacles.is_none() {
         return Err(field.refuse(format!("{}, without obstacles", scene.name), "a scene with obstacles"));
     }

@@ -45,7 +45,7 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     root.allow(&["sweep", "set", "grid", "latin"])?;
     let section = root.require("sweep", "a table that names the scene")?.section()?;
     section.allow(&["scene"])?;
-    let scene = folder.join(section.require("scene", "a scene file beside this one")?.text()?);
+    let scene = section.require("scene", "a scene file beside this one")?.file(folder)?;
     let base = Base { file: scene.display().to_string(), text: document::read_text(&scene)? };
     let plain = Scene::parse(&base.text, &base.file)?;
     let set = set(root)?;

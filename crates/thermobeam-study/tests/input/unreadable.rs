@@ -2,6 +2,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use thermobeam_study::scene::Scene;
+use thermobeam_study::study;
 use thermobeam_study::study_file::{ConvergenceSpec, StudyHeader};
 
 use proptest::prelude::*;
@@ -24,6 +25,28 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
     says(&ConvergenceSpec::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
     says(&StudyHeader::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
+}
+
+#[test]
+fn a_file_that_another_names_is_missed_where_it_is_named() {
+    let studies = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    let mut missed = 0;
+    for entry in fs::read_dir(studies).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        // Alone in a folder, a study lacks the scenes and studies that it names.
+        let folder = tempfile::tempdir().expect("a folder");
+        let alone = folder.path().join("alone.toml");
+        fs::copy(&path, &alone).expect("a copy");
+        let Err(error) = study::read(&alone) else { continue };
+        missed += 1;
+        assert!(error.place.is_some() && error.field.is_some(), "{error}");
+        let begin = format!("{}:", alone.display());
+        says(&error.to_string(), &[&begin, "found the text \"", "allowed is the name of a file, relative to this"]);
+    }
+    assert!(missed > 10, "{missed} studies name files");
 }
 
 #[test]

@@ -83,7 +83,7 @@ fn a_file_that_makes_no_sense_is_refused() {
         ("[10, 20,", "[10, 25,", "a multiple of 10, the level before"),
         ("reference = 1280", "reference = 200", "a multiple of 160"),
         ("samples = 10", "samples = 7", "a multiple of samples = 7"),
-        ("paper-1-beta-0", "paper-1-beta-00", "cannot be read"),
+        ("paper-1-beta-0", "paper-1-beta-00", "scene.file: found the text"),
         ("quantity = \"tip\"", "quantity = \"tips\"", "did you mean \"tip\"?"),
         ("axis = \"space\"", "axis = \"both\"", "refine.axis"),
     ] {

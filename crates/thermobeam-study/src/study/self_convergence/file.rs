@@ -21,8 +21,8 @@ impl SelfConvergence {
         root.allow(&["study", "scene", "refine", "expect"])?;
         let named = root.require("scene", "a table with the scene's file")?.section()?;
         named.allow(&["file"])?;
-        let file = named.require("file", "the path of a scene, from this file's folder")?.text()?;
-        let scene = Scene::read(folder.join(file))?;
+        let file = named.require("file", "the path of a scene, from this file's folder")?;
+        let scene = Scene::read(file.file(folder)?)?;
         let section = root.require("refine", "a table with axis, elements, steps and reference")?.section()?;
         section.allow(&KEYS)?;
         let axis =

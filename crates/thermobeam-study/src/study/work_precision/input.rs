@@ -86,11 +86,11 @@ fn problem(
             if let Some(field) = section.get("t_end") {
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
-            let spec = ConvergenceSpec::read(folder.join(file.text()?))?;
+            let spec = ConvergenceSpec::read(file.file(folder)?)?;
             Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
         }
         (None, Some(file), None) => {
-            let mut scene = Scene::read(folder.join(file.text()?))?;
+            let mut scene = Scene::read(file.file(folder)?)?;
             scene.t_end = t_end(section)?;
             Ok((Family::of_scene(&scene), Some(reference(section, elements, steps)?)))
         }

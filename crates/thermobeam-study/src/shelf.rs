@@ -3,8 +3,8 @@
 //! All files that differ from those on the shelf are first written into a staging folder. Its renaming to `pending` is the
 //! one moment at which the new set counts: from then on files are only moved to their places, which can be done again
 //! after any interruption. What the former set had and the new one does not is removed; a manifest, moved last, lists the
-//! set. Files that no manifest lists are never touched. A lock, which the operating system frees even after a crash,
-//! keeps two runs apart.
+//! set. Files that no manifest lists are never touched: that is why the folder is not exchanged as a whole, which would lose
+//! what others write to it meanwhile. A lock, which the operating system frees even after a crash, keeps two runs apart.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -87,11 +87,15 @@ impl Shelf {
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = writing::begin();
         self.tidy()?;
-        let staging = self.staging();
-        for (path, bytes) in set.files().filter(|(path, bytes)| !self.holds(path, bytes)) {
+        let (staging, manifest) = (self.staging(), set.manifest());
+        let changed: Vec<_> = set.files().filter(|(path, bytes)| !self.holds(path, bytes)).collect();
+        if changed.is_empty() && self.holds(MANIFEST, manifest.as_bytes()) {
+            return Ok(());
+        }
+        for (path, bytes) in changed {
             write_new(&staging.join(path), bytes)?;
         }
-        write_new(&staging.join(MANIFEST), set.manifest().as_bytes())?;
+        write_new(&staging.join(MANIFEST), manifest.as_bytes())?;
         fs::rename(&staging, self.pending())?;
         self.complete_interrupted()
     }

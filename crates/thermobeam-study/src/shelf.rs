@@ -120,6 +120,7 @@ impl Shelf {
         // Without its manifest all that was pending has been moved: only the empty folder was left.
         if let Some(manifest) = read_if_there(&pending.join(MANIFEST))? {
             let former = read_if_there(&self.place.join(MANIFEST))?.unwrap_or_default();
+            self.keep(manifest.lines());
             for path in manifest.lines() {
                 move_if_there(&pending.join(path), &self.place.join(path))?;
             }
@@ -127,7 +128,24 @@ impl Shelf {
             stale.map(|path| self.place.join(path)).try_for_each(|path| self.remove_stale(&path))?;
             move_if_there(&pending.join(MANIFEST), &self.place.join(MANIFEST))?;
         }
-        remove_if_there(&pending)
+        remove_if_there(&pending)?;
+        remove_if_there(&self.kept())
+    }
+
+    /// Holds on to what is replaced until all is moved: to free a file takes longer than to move one, and the time in which
+    /// old files and new ones lie side by side is to be short.
+    fn keep<'p>(&self, paths: impl Iterator<Item = &'p str>) {
+        let kept = self.kept();
+        // Without it the moves take longer, and that is all.
+        if fs::create_dir_all(&kept).is_ok() {
+            for (k, path) in paths.enumerate() {
+                let _ = fs::hard_link(self.place.join(path), kept.join(k.to_string()));
+            }
+        }
+    }
+
+    fn kept(&self) -> PathBuf {
+        self.workshop.join("kept")
     }
 
     /// Removes a file of a former set, and the folder that becomes empty with it.

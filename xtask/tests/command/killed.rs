@@ -42,7 +42,7 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
     let root = workspace(&folder, "killed", &both[0]);
     let reports = root.join("reports");
     let mut before = None;
-    let (mut old, mut new, mut completed) = (0, 0, 0);
+    let (mut old, mut new, mut completed, mut mixed) = (0, 0, 0, 0);
     for kill in 0..kills {
         let turn = (kill % 2) as usize;
         with_studies(&root, &both[turn]);
@@ -54,6 +54,8 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         child.wait().expect("it ends");
         if is_pending(&root) {
             completed += 1;
+            let found = set(&reports);
+            mixed += u32::from(before.as_ref().is_none_or(|before| found != *before) && found != sets[turn]);
             // Any run completes it, even one of another scope.
             ended(&mut verify(&root, &[both[turn][0].0]));
             assert!(!is_pending(&root));
@@ -66,7 +68,10 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         (old, new) = (old + u32::from(!is_new), new + u32::from(is_new));
         before = Some(found).filter(|found| !found.is_empty()).or(before);
     }
-    println!("{kills} kills: {old} left the old set, {new} the new one, {completed} of them completed by the next run");
+    println!(
+        "{kills} kills: {old} left the old set, {new} the new one, {completed} of them completed by the next run, \
+         {mixed} of those from a mixture"
+    );
     with_studies(&root, &both[0]);
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
     assert_eq!(set(&reports), sets[0]);

@@ -1,4 +1,5 @@
-//! What a file may ask for: all limits in one place, each with its reason. How large it may be itself knows `document`.
+//! What a file may ask for: all limits in one place, each with its reason. How large it may be
+//! itself is for `document` to say.
 //!
 //! Every number is far beyond use and far below what brings a machine down. They are checked when a file is read, so that
 //! a slip of the pen is a complaint with its line, and not a process that the operating system ends after an hour.

@@ -120,7 +120,7 @@ impl Shelf {
         // Without its manifest all that was pending has been moved: only the empty folder was left.
         if let Some(manifest) = read_if_there(&pending.join(MANIFEST))? {
             let former = read_if_there(&self.place.join(MANIFEST))?.unwrap_or_default();
-            self.keep(manifest.lines());
+            self.keep(manifest.lines().filter(|path| pending.join(path).exists()));
             for path in manifest.lines() {
                 move_if_there(&pending.join(path), &self.place.join(path))?;
             }

@@ -88,8 +88,7 @@ impl Sweep {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = document::read_text(path)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
-        document::parse(&text, &path.display().to_string(), |root| reader::read(root, &text, path, folder))
+        document::parse_beside(&text, path, |root, folder| reader::read(root, &text, path, folder))
     }
 
     /// How many cases there are.

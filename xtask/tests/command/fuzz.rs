@@ -1,10 +1,9 @@
 //! `fuzz`, with a cargo whose test says what it is told to.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use crate::{Ended, Folder, ended, xtask};
+use crate::{Ended, Folder, ended, program, xtask};
 
 /// Notes what it was asked for, prints what the test is to print, and ends as the test is to end.
 const CARGO: &str = r#"#!/bin/sh
@@ -17,8 +16,7 @@ fn workspace(folder: &Folder) -> PathBuf {
     let root = folder.path("w");
     fs::create_dir_all(root.join("studies")).expect("a folder");
     fs::write(root.join("Cargo.toml"), "").expect("a file");
-    fs::write(root.join("cargo"), CARGO).expect("a file");
-    fs::set_permissions(root.join("cargo"), fs::Permissions::from_mode(0o755)).expect("permissions");
+    program(&root.join("cargo"), CARGO);
     root
 }
 

@@ -41,7 +41,7 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
     assert_ne!(sets[0].keys().collect::<Vec<_>>(), sets[1].keys().collect::<Vec<_>>());
     let root = workspace(&folder, "killed", &both[0]);
     let reports = root.join("reports");
-    let mut before = None;
+    let mut before: Option<Set> = None;
     let (mut old, mut new, mut completed, mut mixed) = (0, 0, 0, 0);
     for kill in 0..kills {
         let turn = (kill % 2) as usize;
@@ -52,19 +52,19 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
         child.kill().expect("it can be killed");
         child.wait().expect("it ends");
+        let is_old = |found: &Set| before.as_ref().map_or(found.is_empty(), |before| found == before);
         if is_pending(&root) {
             completed += 1;
             let found = set(&reports);
-            mixed += u32::from(before.as_ref().is_none_or(|before| found != *before) && found != sets[turn]);
+            mixed += u32::from(!is_old(&found) && found != sets[turn]);
             // Any run completes it, even one of another scope.
             ended(&mut verify(&root, &[both[turn][0].0]));
             assert!(!is_pending(&root));
             assert_eq!(set(&reports), sets[turn], "kill {kill}");
         }
         let found = set(&reports);
-        let is_old = before.as_ref().map_or(found.is_empty(), |before: &Set| found == *before);
         let is_new = found == sets[turn];
-        assert!(is_old || is_new, "kill {kill}: {:?}", found.keys().collect::<Vec<_>>());
+        assert!(is_old(&found) || is_new, "kill {kill}: {:?}", found.keys().collect::<Vec<_>>());
         (old, new) = (old + u32::from(!is_new), new + u32::from(is_new));
         before = Some(found).filter(|found| !found.is_empty()).or(before);
     }

@@ -50,6 +50,14 @@ impl Drop for Folder {
     }
 }
 
+/// Writes a program of the test's own.
+#[cfg(unix)]
+fn program(path: &Path, text: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::write(path, text).expect("a file");
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o755)).expect("permissions");
+}
+
 /// The program, to be given arguments.
 fn xtask() -> Command {
     Command::new(env!("CARGO_BIN_EXE_xtask"))

@@ -1,10 +1,9 @@
 //! `mutants`, with a cargo-mutants that does as it is told.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use crate::{Ended, Folder, ended, xtask};
+use crate::{Ended, Folder, ended, program, xtask};
 
 /// Lists three mutants, all of the solver; the tests catch the first, and whatever `caught` names besides.
 /// It counts its calls.
@@ -44,9 +43,7 @@ fn workspace(folder: &Folder) -> PathBuf {
     for (name, text) in [("Cargo.toml", ""), ("caught", ""), ("src/a.rs", "fn one() {}\n  a + b;\nc * d;\n")] {
         fs::write(root.join(name), text).expect("a file");
     }
-    let cargo = root.join("bin/cargo");
-    fs::write(&cargo, CARGO).expect("a file");
-    fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("permissions");
+    program(&root.join("bin/cargo"), CARGO);
     root
 }
 

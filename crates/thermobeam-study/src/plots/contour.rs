@@ -1,8 +1,7 @@
 //! Iso lines of values on a grid.
 
 use super::canvas::{Anchor, Layer};
-use super::rect::keep_outside;
-use super::rect::{Point, Rect};
+use super::rect::{Point, Rect, keep_outside};
 use super::ruler::Ticks;
 use super::sheet::Sheet;
 use super::style::{self, TICK_SIZE, WHITE, text_width};

@@ -93,6 +93,13 @@ mod tests {
         Newton::new(vec![case], EULER_CRANK_NICOLSON, Settings::default(), &initial, &velocity)
     }
 
+    /// After a pass with m and a factor for m̄, ‖u_x‖ is 1/2, and 1 at the old level.
+    fn passed(newton: &mut Newton<f64, 2>, m: f64, factorized: f64) {
+        let control = &mut newton.controls[0];
+        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (control.m, control.factorized) = (m, factorized);
+    }
+
     /// The module's head, with numbers put in: compressed and stretched, where the bound is finite and where it is not.
     #[test]
     fn the_bound_is_that_of_the_modules_head() {
@@ -100,12 +107,8 @@ mod tests {
             [(-2.0, 0.125, true), (-2.0, 2.0, false), (3.0, 0.125, true), (3.0, 8.0, false), (3.0, 0.5, true)]
         {
             let mut newton = stepper(beta, rho);
-            let control = &mut newton.controls[0];
-            // ‖u_x‖ = 1/2, and 1 at the old level.
-            (control.new_slope_squared, control.slope_squared) = (0.25, 1.0);
-            control.forces[0] = beta + 1.0;
-            (control.m, control.factorized) = (beta + 0.75, beta + 0.625);
-            control.increment_slope = 0.375;
+            newton.controls[0].forces[0] = beta + 1.0;
+            passed(&mut newton, beta + 0.75, beta + 0.625);
             let bound = newton.bound(0);
 
             let m = beta + (0.25 * rho + 1.0) / 2.0;
@@ -129,17 +132,13 @@ mod tests {
     #[test]
     fn nothing_is_left_without_a_residual_and_everything_without_coercivity() {
         let mut newton = stepper(1.0, 0.0);
-        let control = &mut newton.controls[0];
-        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
-        (control.m, control.factorized) = (1.0, 1.0);
+        passed(&mut newton, 1.0, 1.0);
         let exact = newton.bound(0);
         assert_eq!([exact.m, exact.increment, exact.remaining, exact.contraction], [1.0, 0.0, 0.0, 0.0]);
         assert_eq!(newton.kept_contraction(0, 1.0), 0.0);
 
         let mut newton = stepper(-5.0, 0.0);
-        let control = &mut newton.controls[0];
-        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
-        (control.m, control.factorized) = (-4.0, -4.0);
+        passed(&mut newton, -4.0, -4.0);
         let lost = newton.bound(0);
         assert!(newton.coercivity(0, -5.0) < 0.0);
         assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
@@ -150,9 +149,7 @@ mod tests {
     fn at_the_very_ends_of_what_the_bound_covers_nothing_is_trusted() {
         // λ = 1.25 B + m/4 is zero to the bit.
         let mut newton = stepper(-5.0 * BUCKLING, 0.0);
-        let control = &mut newton.controls[0];
-        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
-        (control.m, control.factorized) = (-4.0, -4.0);
+        passed(&mut newton, -4.0, -4.0);
         assert_eq!(newton.coercivity(0, -5.0 * BUCKLING), 0.0);
         let lost = newton.bound(0);
         assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
@@ -160,9 +157,7 @@ mod tests {
         // q = (m - m̄)/(4 λ) is one half to the bit.
         let mut newton = stepper(1.0, 0.0);
         let lambda = newton.coercivity(0, 1.0);
-        let control = &mut newton.controls[0];
-        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
-        (control.m, control.factorized) = (2.0 * lambda, 0.0);
+        passed(&mut newton, 2.0 * lambda, 0.0);
         let half = newton.bound(0);
         assert!(half.contraction == 0.5 && half.increment.is_finite(), "{half:?}");
         assert_eq!(half.remaining, f64::INFINITY);

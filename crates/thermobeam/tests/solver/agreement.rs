@@ -1,9 +1,10 @@
 //! Different ways to the solution of a step lead to the same one.
 
-use crate::scenes::{EXPERIMENTS, paper, relative_difference, schemes_and_meshes, simulate, stepping};
-use thermobeam::norms::TheoremSquares;
-use thermobeam::simulation::{Initial, Problem, Stepping};
-use thermobeam::solve::{Level, Settings, Solver, Start};
+use crate::scenes::{
+    EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes, simulate, stepping,
+};
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Settings, Solver, Start};
 
 /// Runs all experiments twice, side by side, and compares every nodal value at every step.
 #[track_caller]
@@ -44,12 +45,8 @@ fn the_fixed_point_knows_nothing_but_the_level_before() {
         let problem = paper(mesh, EXPERIMENTS[0]);
         let stepping = Stepping { scheme, settings, ..stepping(1e-3) };
         let mut simulation = simulate(&problem, stepping);
-        for _ in 0..5 {
-            simulation.advance().unwrap();
-        }
-        let Level { u, v, phi, w, theta, .. } = simulation.level();
-        let afresh = Problem { initial: Initial { u, u_t: v, phi, phi_t: w, theta }, ..problem };
-        let mut afresh = simulate(&afresh, stepping);
+        advance(&mut simulation, 5);
+        let mut afresh = simulate(&from_level(&problem, &simulation.level()), stepping);
         for _ in 0..5 {
             assert_eq!(simulation.advance(), afresh.advance());
             assert_eq!(simulation.level(), afresh.level(), "{}", scheme.name);
@@ -91,10 +88,7 @@ fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
             let old = simulation.level();
             let report = simulation.advance().unwrap();
             let new = simulation.level();
-            let change = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<_>>();
-            let [v, u] = [change(&new.v, &old.v), change(&new.u, &old.u)];
-            let [w, phi, theta] = [change(&new.w, &old.w), change(&new.phi, &old.phi), change(&new.theta, &old.theta)];
-            let expected = TheoremSquares::of(simulation.lengths(), &v, &u, &w, &phi, &theta).norm();
+            let expected = distance(&problem.mesh, &new, &old);
             assert_eq!((report.iterations, report.contraction), (1, None));
             assert!((report.increment / expected - 1.0).abs() < 1e-12, "{}: {report:?}, {expected}", scheme.name);
         }

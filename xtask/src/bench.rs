@@ -1,21 +1,24 @@
 //! `bench`: how long things take on this machine. Written to `reports/bench.md`, which no verdict depends on.
 
-use std::error::Error;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Instant;
 
-use thermobeam_study::outcome::Table;
-use thermobeam_study::provenance::Provenance;
+use crate::project::PROJECT;
+use convergence_study::store::atomic;
+use convergence_study::store::provenance::Provenance;
+use convergence_study::study::Tier;
+use convergence_study::study::outcome::Table;
+use convergence_study::{report, run as runner};
+use thermobeam_study::pace;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::study::work_precision::{WORK_PRECISION, WorkPrecision};
 use thermobeam_study::study::{FromFile, Study};
-use thermobeam_study::study_file::Tier;
 use thermobeam_study::yardstick::Quantity;
-use thermobeam_study::{atomic, pace, report, runner, study};
 
-use crate::{output, screen, selection, workspace};
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::{output, screen, selection, workspace};
+use convergence_study::study::StudyFile;
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -35,24 +38,24 @@ pub(crate) struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn bench(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
     let scene = Scene::read(&path)?;
-    let listed = workspace::studies(&root)?;
+    let studies = workspace::studies(&PROJECT, &root)?;
     let mut page = Page { text: heading(&root, &path), folder: root.join("reports") };
     page.add(&pace::ways(&scene, 100)?)?;
     page.add(&pace::ways(&scene, 1000)?)?;
     page.add(&pace::scenes(&scene, 100)?)?;
     page.add(&pace::scaling(&scene, &ELEMENTS)?)?;
-    for listed in listed.iter().filter(|listed| listed.header.kind == WORK_PRECISION) {
-        accuracy(&WorkPrecision::read(&listed.path)?, &mut page)?;
+    for file in studies.iter().filter(|file| file.study.header().kind == WORK_PRECISION) {
+        accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }
-    threads(&listed, arguments.tier, &mut page)?;
+    threads(studies, arguments.tier, &mut page)?;
     let file = page.folder.join("bench.md");
     atomic::write(&file, &page.text)?;
     output::print(&format!("written to {}\n", file.display()))?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Ended::Well)
 }
 
 /// What has been measured so far, as Markdown.
@@ -89,10 +92,10 @@ fn heading(root: &Path, scene: &Path) -> String {
 }
 
 /// Run time against error, in every quantity.
-fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Box<dyn Error>> {
-    let runs = study.timed().map_err(|failure| failure.reason)?;
+fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
+    let runs = study.timed().map_err(|failure| Unusable::because(&failure.reason))?;
     #[cfg(feature = "ode-library")]
-    let runs = [runs, study.timed_library().map_err(|failure| failure.reason)?].concat();
+    let runs = [runs, study.timed_library().map_err(|failure| Unusable::because(&failure.reason))?].concat();
     let id = &study.header().id;
     for quantity in Quantity::ALL {
         let table = study.seconds(quantity, &runs);
@@ -107,9 +110,9 @@ fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Box<dyn Error>
 }
 
 /// A tier on one thread and on all, and what its studies cost on one.
-fn threads(listed: &[workspace::Listed], tier: Tier, page: &mut Page) -> Result<(), Box<dyn Error>> {
-    let chosen = listed.iter().filter(|listed| listed.header.tier <= tier);
-    let studies = chosen.map(|listed| study::read(&listed.path)).collect::<Result<Vec<_>, _>>()?;
+fn threads(files: Vec<StudyFile>, tier: Tier, page: &mut Page) -> Result<(), Unusable> {
+    let studies: Vec<_> =
+        files.into_iter().map(|file| file.study).filter(|study| study.header().tier <= tier).collect();
     let (mut rows, mut one, mut costs) = (vec![], f64::NAN, vec![]);
     for jobs in [NonZeroUsize::MIN, screen::jobs(None)] {
         let start = Instant::now();

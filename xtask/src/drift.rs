@@ -6,16 +6,19 @@
 
 use std::collections::BTreeMap;
 use std::env;
-use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::report;
+use convergence_study::store::{atomic, provenance};
+use convergence_study::study::Tier;
+use convergence_study::study::outcome::Table;
 use serde::Deserialize;
-use thermobeam_study::outcome::Table;
-use thermobeam_study::study_file::Tier;
-use thermobeam_study::{atomic, provenance, report};
 
-use crate::{output, screen, selection, workspace};
+use crate::project::PROJECT;
+
+use convergence_study::cli::{output, screen, selection, workspace};
 
 /// Compare the guarded numbers of other builds and thread counts with this one's; writes reports/drift.md
 #[derive(Debug, clap::Args)]
@@ -153,13 +156,13 @@ impl Distance {
 }
 
 /// Runs the command.
-pub(crate) fn drift(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
-    let listed = workspace::studies(&root)?;
+    let files = workspace::studies(&PROJECT, &root)?;
     let files: Vec<PathBuf> =
-        listed.into_iter().filter(|listed| listed.header.tier <= arguments.tier).map(|listed| listed.path).collect();
+        files.into_iter().filter(|file| file.study.header().tier <= arguments.tier).map(|file| file.path).collect();
     let own = env::current_exe()?;
-    let ours = run(&own, SHIPPED.jobs, &files)?;
+    let ours = numbers_of(&own, SHIPPED.jobs, &files)?;
     let mut rows = vec![];
     let mut kept = ours.not_passing.is_empty();
     for variant in VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")) {
@@ -167,7 +170,7 @@ pub(crate) fn drift(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
             None => own.clone(),
             Some(how) => build(&root, how, &root.join("target").join(variant.folder))?,
         };
-        let theirs = run(&program, variant.jobs, &files)?;
+        let theirs = numbers_of(&program, variant.jobs, &files)?;
         let distance = Distance::between(&ours, &theirs);
         let good = distance.is_kept(variant.same_bits) && theirs.not_passing == ours.not_passing;
         kept &= good;
@@ -180,7 +183,7 @@ pub(crate) fn drift(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let file = root.join("reports/drift.md");
     atomic::write(&file, page(&root, &table))?;
     output::print(&format!("written to {}\n", file.display()))?;
-    Ok(if kept { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(if kept { Ended::Well } else { Ended::Badly })
 }
 
 fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: bool) -> Vec<String> {
@@ -203,9 +206,9 @@ fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: boo
 }
 
 fn page(root: &Path, table: &Table) -> String {
-    let machine = provenance::Provenance::collect(root, "cargo xtask drift".to_owned(), 1, &[]);
+    let machine = provenance::Provenance::collect(root, "cargo xtask dev drift".to_owned(), 1, &[]);
     format!(
-        "# Drift\n\nWritten by `cargo xtask drift` on {}, {}. Differences are relative; `median` is that of the numbers that \
+        "# Drift\n\nWritten by `cargo xtask dev drift` on {}, {}. Differences are relative; `median` is that of the numbers that \
          differ.\n\n## {}\n\n{}",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
@@ -215,21 +218,21 @@ fn page(root: &Path, table: &Table) -> String {
 }
 
 /// The guarded numbers by a program.
-fn run(program: &Path, jobs: usize, files: &[PathBuf]) -> Result<Numbers, Box<dyn Error>> {
+fn numbers_of(program: &Path, jobs: usize, files: &[PathBuf]) -> Result<Numbers, Unusable> {
     let output = Command::new(program)
         .args(["study", "--format", "json", "--jobs", &jobs.to_string()])
         .args(files)
         .output()
-        .map_err(|error| format!("{}: {error}", program.display()))?;
+        .map_err(|error| Unusable::file(program, &error))?;
     let text = String::from_utf8_lossy(&output.stdout);
     Numbers::parse(&text).map_err(|error| {
         let complaint = String::from_utf8_lossy(&output.stderr);
-        format!("{} printed no record: {error}\n{complaint}", program.display()).into()
+        Unusable::because(&format!("{} printed no record: {error}\n{complaint}", program.display()))
     })
 }
 
 /// Builds this program differently.
-fn build(root: &Path, [profile, below, flags]: [&str; 3], folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+fn build(root: &Path, [profile, below, flags]: [&str; 3], folder: &Path) -> Result<PathBuf, Unusable> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         .current_dir(root)
@@ -238,7 +241,7 @@ fn build(root: &Path, [profile, below, flags]: [&str; 3], folder: &Path) -> Resu
         .env("RUSTFLAGS", flags)
         .status()?;
     if !status.success() {
-        return Err(format!("cargo could not build {}", folder.display()).into());
+        return Err(Unusable::because(&format!("cargo could not build {}", folder.display())));
     }
     Ok(folder.join(below).join(format!("xtask{}", env::consts::EXE_SUFFIX)))
 }

@@ -8,8 +8,8 @@ use serde::Serialize;
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria, lists_all};
 use thermobeam_study::scene::Scene;
 
-use crate::exit::{Outcome, Unusable, Verdict};
-use crate::output::{self, Format};
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::output::{self, Format};
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]
@@ -29,14 +29,14 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Err(error @ EquilibriumError::Parameter(_)) => return Err(Unusable::file(&arguments.scene, &error)),
         Err(error) => {
             output::complain(&format!("{}: {error}", arguments.scene.display()));
-            return Ok(Verdict::Fail);
+            return Ok(Ended::Badly);
         }
     };
     match arguments.format {
         Format::Text => output::print(&text(&scene, &states))?,
         Format::Json => output::print_json(&Object::new(&scene, &states))?,
     }
-    Ok(Verdict::Pass)
+    Ok(Ended::Well)
 }
 
 #[derive(Debug, Serialize)]

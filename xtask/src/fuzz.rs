@@ -8,12 +8,12 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use thermobeam_study::atomic;
-use thermobeam_study::outcome::Table;
-use thermobeam_study::report::markdown;
+use convergence_study::report::markdown;
+use convergence_study::store::atomic;
+use convergence_study::study::outcome::Table;
 
-use crate::exit::{Outcome, Unusable, Verdict};
-use crate::{output, screen, workspace};
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::{output, screen, workspace};
 
 /// The test that damages files.
 const TEST: &str = "damaged_files_are_read_or_refused_with_their_place";
@@ -76,7 +76,7 @@ impl Tally {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let root = workspace::root().map_err(|error| Unusable::because(&error.to_string()))?;
+    let root = workspace::root()?;
     let (tallies, passed) = damage(&root, arguments)?;
     let all = Tally::sum(&tallies);
     if all.inputs != arguments.inputs {
@@ -93,7 +93,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if !passed && all.failed == 0 {
         output::complain(&format!("no input failed, but the test {TEST} failed: see above"));
     }
-    Ok(if passed && all.failed == 0 { Verdict::Pass } else { Verdict::Fail })
+    Ok(if passed && all.failed == 0 { Ended::Well } else { Ended::Badly })
 }
 
 /// The counts by kind of file, and whether the test passed. What else it prints is passed on.

@@ -1,42 +1,29 @@
 //! `cargo xtask <command>`: the commands of the project.
 //!
-//! This file only dispatches. A command is a file of its own, with its `Arguments` and a function from them to the exit
-//! status.
+//! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study registered in [`project`]. This
+//! file adds the beam's own commands and the tools for developing the project, and only dispatches.
 
 mod bench;
-mod completions;
 mod drift;
 mod equilibria;
-mod exit;
-mod explain;
 mod fuzz;
-mod github;
-mod history;
-mod interrupt;
-mod list;
 mod merge;
-mod moved;
 mod mutants;
 mod new;
-mod output;
-mod progress;
-mod rates;
+mod project;
 mod run;
-mod running;
-mod screen;
-mod selection;
-mod study;
 mod sweep;
-mod verify;
-mod workspace;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use convergence_study::cli::{self, exit, grouped, interrupt};
 
-/// Simulate the beam between its obstacles, and verify the scheme that does.
+use project::PROJECT;
+
+/// Simulate the beam between its obstacles, and verify the scheme that does
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask", bin_name = "cargo xtask", version, after_help = exit::HELP)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version)]
 struct Xtask {
     #[command(subcommand)]
     command: Command,
@@ -44,41 +31,54 @@ struct Xtask {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Verify(verify::Arguments),
-    Study(study::Arguments),
-    List(list::Arguments),
-    Explain(explain::Arguments),
-    New(new::Arguments),
-    Rates(rates::Arguments),
+    #[command(flatten)]
+    Harness(cli::Command),
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
+    New(new::Arguments),
     Bench(bench::Arguments),
+    /// Tools for developing this project
+    #[command(subcommand)]
+    Dev(Dev),
+}
+
+#[derive(Debug, Subcommand)]
+enum Dev {
     Drift(drift::Arguments),
     Mutants(mutants::Arguments),
     Fuzz(fuzz::Arguments),
-    Completions(completions::Arguments),
+}
+
+/// The commands by what a user wants to do.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Simulate a scene", &["run", "equilibria"]),
+    ("Verify", &["verify", "study", "list", "explain", "new"]),
+    ("Errors of other codes", &["rates"]),
+    ("Many scenes", &["sweep", "merge"]),
+    ("Everything else", &["bench", "completions", "dev"]),
+];
+
+/// The command line, its help in groups.
+fn program() -> clap::Command {
+    grouped(Xtask::command(), &GROUPS)
 }
 
 fn main() -> ExitCode {
-    let command = Xtask::parse().command;
+    let parsed = Xtask::from_arg_matches(&program().get_matches());
+    let command = parsed.unwrap_or_else(|error| error.exit()).command;
     interrupt::listen();
-    match command {
-        Command::Verify(arguments) => exit::status(verify::verify(&arguments)),
-        Command::Study(arguments) => exit::status(study::study(&arguments)),
-        Command::List(arguments) => exit::status(list::list(&arguments)),
-        Command::Explain(arguments) => exit::code(explain::run(&arguments)),
-        Command::New(arguments) => exit::code(new::run(&arguments)),
-        Command::Rates(arguments) => exit::code(rates::run(&arguments)),
-        Command::Run(arguments) => exit::code(run::run(&arguments)),
-        Command::Equilibria(arguments) => exit::code(equilibria::run(&arguments)),
-        Command::Sweep(arguments) => exit::code(sweep::run(&arguments)),
-        Command::Merge(arguments) => exit::code(merge::run(&arguments)),
-        Command::Bench(arguments) => exit::status(bench::bench(&arguments)),
-        Command::Drift(arguments) => exit::status(drift::drift(&arguments)),
-        Command::Mutants(arguments) => exit::code(mutants::run(&arguments)),
-        Command::Fuzz(arguments) => exit::code(fuzz::run(&arguments)),
-        Command::Completions(arguments) => exit::code(completions::run(&arguments)),
-    }
+    exit::code(match command {
+        Command::Harness(command) => command.run(&PROJECT, program()),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Equilibria(arguments) => equilibria::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Dev(Dev::Drift(arguments)) => drift::run(&arguments),
+        Command::Dev(Dev::Mutants(arguments)) => mutants::run(&arguments),
+        Command::Dev(Dev::Fuzz(arguments)) => fuzz::run(&arguments),
+    })
 }

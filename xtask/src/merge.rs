@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use thermobeam_study::sweep;
 
-use crate::exit::{Outcome, Verdict};
-use crate::output;
+use convergence_study::cli::exit::{Ended, Outcome};
+use convergence_study::cli::output;
 
 /// Join the shares of a sweep into the file that one run would have written
 ///
@@ -31,5 +31,5 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let out = arguments.out.display();
         output::print(&format!("{} cases, {} failed\nwrote {out}\n", merged.cases, merged.failed))?;
     }
-    Ok(if merged.failed == 0 { Verdict::Pass } else { Verdict::Fail })
+    Ok(if merged.failed == 0 { Ended::Well } else { Ended::Badly })
 }

@@ -13,11 +13,11 @@ mod report;
 
 use std::num::NonZeroUsize;
 
-use thermobeam_study::atomic;
+use convergence_study::store::atomic;
 
-use crate::exit::{Outcome, Unusable, Verdict};
-use crate::{interrupt, output, workspace};
 use accepted::Accepted;
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::{interrupt, output, workspace};
 use judge::{JUDGES, Judged};
 use ledger::Ledger;
 use list::Mutant;
@@ -53,7 +53,7 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let root = workspace::root().map_err(|error| Unusable::because(&error.to_string()))?;
+    let root = workspace::root()?;
     let accepted = Accepted::read(&root)?;
     judge::is_installed()?;
     let all = list::mutants(&root)?;
@@ -101,5 +101,5 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     output::print(&format!("{}\nreport: reports/mutants.md\n", report::sentence(&findings, &accepted)))?;
     stale.iter().for_each(|entry| output::complain(&format!("{}: no such mutant: {entry}", accepted::FILE)));
     let is_open = findings.iter().any(|(_, judged)| judged.is_none());
-    Ok(if bare == 0 && stale.is_empty() && !is_open { Verdict::Pass } else { Verdict::Fail })
+    Ok(if bare == 0 && stale.is_empty() && !is_open { Ended::Well } else { Ended::Badly })
 }

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use thermobeam_study::template::{Template, is_name};
 
-use crate::exit::{Outcome, Unusable, Verdict};
-use crate::output;
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::output;
 
 /// Write a commented study or scene that runs as it is
 #[derive(Debug, Args)]
@@ -62,5 +62,5 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
         output::print(&text)?;
     }
-    Ok(Verdict::Pass)
+    Ok(Ended::Well)
 }

@@ -8,18 +8,18 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use convergence_study::run::time_limit;
+use convergence_study::store::atomic;
 use thermobeam_study::accuracy::Unreachable;
-use thermobeam_study::atomic;
 use thermobeam_study::estimate::estimate;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
-use thermobeam_study::time_limit;
 
-use crate::exit::{Outcome, Unusable, Verdict};
-use crate::interrupt;
-use crate::output::{self, Format};
-use crate::progress;
-use crate::running::seconds;
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::interrupt;
+use convergence_study::cli::output::{self, Format};
+use convergence_study::cli::progress;
+use convergence_study::cli::running::seconds;
 
 /// Simulate one scene
 #[derive(Debug, Args)]
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
             Err(error) => {
                 output::complain(&format!("{}: {error}", arguments.scene.display()));
-                return Ok(Verdict::Fail);
+                return Ok(Ended::Badly);
             }
         },
     };
@@ -103,13 +103,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     if let Err(reason) = budget {
         output::complain(&format!("{}: {reason}", arguments.scene.display()));
-        return Ok(Verdict::Fail);
+        return Ok(Ended::Badly);
     }
     Ok(match &run.failure {
-        None => Verdict::Pass,
+        None => Ended::Well,
         Some(failure) => {
             output::complain(&format!("{}: {failure}", arguments.scene.display()));
-            Verdict::Fail
+            Ended::Badly
         }
     })
 }

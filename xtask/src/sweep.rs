@@ -9,11 +9,11 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Manifest, Share, Sweep};
 
-use crate::exit::{Outcome, Verdict};
-use crate::interrupt;
-use crate::output;
-use crate::progress;
-use crate::running::seconds;
+use convergence_study::cli::exit::{Ended, Outcome};
+use convergence_study::cli::interrupt;
+use convergence_study::cli::output;
+use convergence_study::cli::progress;
+use convergence_study::cli::running::seconds;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
         None => to_stdout(arguments, &sweep, mine)?,
     };
-    Ok(if failed == 0 { Verdict::Pass } else { Verdict::Fail })
+    Ok(if failed == 0 { Ended::Well } else { Ended::Badly })
 }
 
 /// Lines to standard output, in the order of the cases; returns how many failed.

@@ -35,7 +35,7 @@ impl Norm {
     ];
 
     /// The name in study files and records.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Norm::Velocity => "velocity",
             Norm::Shear => "shear",

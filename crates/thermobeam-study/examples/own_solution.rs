@@ -4,11 +4,11 @@
 
 use std::error::Error;
 
+use convergence_study::study::outcome::Outcome;
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
-use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::{Study, convergence::Convergence};
 use thermobeam_study::study_file::{Axis, ConvergenceSpec, Expectation, Manufactured, Norm, Product, Refine, Tier};
 

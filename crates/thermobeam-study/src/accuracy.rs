@@ -24,10 +24,10 @@
 mod outlook;
 mod pilot;
 
-use crate::case::CaseFailure;
-use crate::fit::Quantiles;
 use crate::march::{Family, Spent};
 use crate::yardstick::Quantity;
+use convergence_study::judge::fit::Quantiles;
+use convergence_study::study::CaseFailure;
 use outlook::{CANCELLATION, Outlook, PILOT_SHARE, cheapest, leader};
 use pilot::{Forecast, Pilots};
 use thermobeam::scheme::{SCHEMES, Scheme};

@@ -9,12 +9,13 @@
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
-use crate::case::CaseFailure;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::patience::StepPatience;
 use crate::study_file::{Axis, ConvergenceSpec};
-use crate::time_limit::Patience;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;

@@ -17,9 +17,9 @@
 mod report;
 mod runs;
 
-use crate::number::max_or_nan;
 use crate::rerun::RunError;
 use crate::scene::Scene;
+use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
 use thiserror::Error;
 

@@ -53,43 +53,23 @@
 //! What the solver must obey is derived in [`thermobeam::theory`].
 
 pub mod accuracy;
-pub mod atomic;
-pub mod baseline;
-pub mod calibration;
-pub mod case;
-pub mod columns;
-pub mod contract;
 pub mod design;
-pub mod document;
 pub mod estimate;
-pub mod fit;
+pub mod figures;
 pub mod free_vibration;
-pub mod junit;
+mod functions;
 mod limits;
 pub mod march;
-pub mod number;
-pub mod outcome;
 pub mod pace;
-pub mod plots;
-pub mod provenance;
-mod random;
-pub mod rates;
-pub mod record;
-pub mod report;
+mod patience;
 pub mod rerun;
-pub mod runner;
 pub mod scene;
 mod shared_tables;
-pub mod shelf;
 pub mod simulate;
 pub mod study;
 pub mod study_file;
 pub mod sweep;
 pub mod template;
-pub mod time_limit;
-pub mod verdict;
-pub mod verification;
-pub mod writing;
 pub mod yardstick;
 
 pub use thermobeam_exact as exact;

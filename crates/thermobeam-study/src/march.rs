@@ -5,14 +5,15 @@
 //! from outside, so that several can go side by side and be compared at the times they share. It counts its cost as it
 //! goes: [`Spent`].
 
-use crate::case::CaseFailure;
 use crate::design;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::patience::StepPatience;
 use crate::scene::Scene;
 use crate::simulate;
 use crate::study_file::Manufactured;
-use crate::time_limit::Patience;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
 use std::time::{Duration, Instant};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};

@@ -3,8 +3,9 @@
 //! Times vary, so nothing of this enters a committed record; the counts of work beside them are exact. Every time is the
 //! best of several runs: a machine that does something else can only make a run slower.
 
+use crate::scene::Scene;
 use crate::simulate;
-use crate::{outcome::Table, scene::Scene};
+use convergence_study::study::Table;
 use std::hint::black_box;
 use std::time::Instant;
 use thermobeam::ensemble::Ensemble;

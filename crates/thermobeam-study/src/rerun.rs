@@ -1,8 +1,9 @@
 //! A scene run again: on another mesh, with other time steps, by another scheme or solver.
 
 use crate::expression::Expression;
+use crate::patience::StepPatience;
 use crate::scene::Scene;
-use crate::time_limit::{Patience, TimeUp};
+use convergence_study::run::time_limit::{Patience, TimeUp};
 use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;

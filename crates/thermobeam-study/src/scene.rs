@@ -19,6 +19,7 @@
 //! t_end = 10.0
 //! ```
 
+use crate::functions::FunctionField;
 use std::path::Path;
 
 use thermobeam::mesh::{Mesh, MeshError};
@@ -26,10 +27,10 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
 
-use crate::document::{self, Field, InputError, Section};
 use crate::expression::{Expression, NotFinite, Variable};
 use crate::limits;
 use crate::shared_tables as tables;
+use convergence_study::input::{self, Field, InputError, Section};
 
 /// Elements of a scene that does not say: the paper's number.
 const DEFAULT_ELEMENTS: usize = 100;
@@ -81,17 +82,17 @@ impl Scene {
     /// Reads a scene file.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
+        Self::parse(&input::read_text(path)?, &path.display().to_string())
     }
 
     /// Reads a scene from `text`; complaints and the scene's name refer to `file_name`.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
+        input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
     /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
     pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
+        input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {

@@ -5,8 +5,8 @@ use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thermobeam::scheme::{self, Scheme};
 use thermobeam::solve::{Settings, Solver};
 
-use crate::document::{Field, InputError, Section};
 pub(crate) use crate::limits::elements;
+use convergence_study::input::{Field, InputError, Section};
 
 /// The keys of `[beam]`.
 pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];

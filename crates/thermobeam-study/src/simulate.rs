@@ -4,7 +4,7 @@
 //! that a report happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone;
 //! reading the clock twice a step costs some 50 ns of it.
 //!
-//! A step that cannot be done ends the run, and so does a [limit on its time](crate::time_limit). What was computed up to
+//! A step that cannot be done ends the run, and so does a [limit on its time](convergence_study::run::time_limit). What was computed up to
 //! there is kept: [`Run::failure`] says why it ended.
 //!
 //! ```
@@ -25,6 +25,7 @@ mod object;
 mod record;
 mod together;
 
+use crate::patience::StepPatience;
 use std::time::{Duration, Instant};
 
 use thermobeam::energy::Balance;
@@ -36,9 +37,9 @@ use thermobeam::solve::{Level, StepReport, Work};
 use thiserror::Error;
 
 use crate::expression::Expression;
-use crate::number::max_or_nan;
 use crate::scene::Scene;
-use crate::time_limit::{Patience, TimeUp};
+use convergence_study::run::time_limit::{Patience, TimeUp};
+use convergence_study::text::number::max_or_nan;
 
 pub use figures::{energy_at_rest, figures};
 pub use object::Object;

@@ -28,7 +28,6 @@
 
 mod control;
 mod expectation;
-mod header;
 mod manufactured;
 mod refine;
 
@@ -36,19 +35,20 @@ use std::path::Path;
 
 use thermobeam::parameters::{Beam, Obstacles};
 
-use crate::document::{self, InputError, Section};
 use crate::shared_tables as tables;
+use convergence_study::input::{self, InputError, Section};
 
 pub use crate::exact::norm::Norm;
 pub use crate::exact::solution::{Manufactured, Product};
 pub use control::Control;
 pub(crate) use control::control;
+pub use convergence_study::study::{Axis, Header, Tier};
 pub use expectation::Expectation;
 pub(crate) use expectation::expectations;
-pub(crate) use header::header;
-pub use header::{CONVERGENCE, StudyHeader, Tier};
+/// The kind of a convergence study.
+pub const CONVERGENCE: &str = "convergence";
 pub(crate) use refine::refine;
-pub use refine::{Axis, Perturbation, Refine};
+pub use refine::{Perturbation, Refine};
 
 /// A convergence study, validated.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,12 +77,12 @@ impl ConvergenceSpec {
     /// Reads a study file.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
-        Self::parse(&document::read_text(path)?, &path.display().to_string())
+        Self::parse(&input::read_text(path)?, &path.display().to_string())
     }
 
     /// Reads a study from `text`; complaints refer to `file_name`.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        document::parse(text, file_name, Self::from_document)
+        input::parse(text, file_name, Self::from_document)
     }
 
     /// The coefficients that the solver works with: those of the control, or else those of the sources.
@@ -91,7 +91,7 @@ impl ConvergenceSpec {
     }
 
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let StudyHeader { id, claim, tier, kind } = header(root)?;
+        let Header { id, claim, tier, kind } = Header::from_document(root)?;
         if kind != CONVERGENCE {
             let study = root.require("study", "a table")?.section()?;
             return Err(study.refuse("kind", format!("\"{kind}\""), format!("\"{CONVERGENCE}\" for this reader")));

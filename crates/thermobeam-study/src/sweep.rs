@@ -42,9 +42,9 @@ mod values;
 
 use std::path::Path;
 
-use crate::document::{self, InputError};
 use crate::limits;
 use crate::scene::Scene;
+use convergence_study::input::{self, InputError};
 
 pub use case::Case;
 pub use error::SweepError;
@@ -87,8 +87,8 @@ impl Sweep {
     /// depend on the other numbers of the case; what does is found when the case is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
-        let text = document::read_text(path)?;
-        document::parse_beside(&text, path, |root, folder| reader::read(root, &text, path, folder))
+        let text = input::read_text(path)?;
+        input::parse_beside(&text, path, |root, folder| reader::read(root, &text, path, folder))
     }
 
     /// How many cases there are.

@@ -3,11 +3,11 @@
 //! Against an exact solution, or against a run so fine that its own error does not matter. The reference's mesh must
 //! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
 
-use crate::case::CaseFailure;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::march::{Family, OnMesh};
 use crate::study_file::{Manufactured, Norm, Product};
+use convergence_study::study::CaseFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::scheme::MIDPOINT;

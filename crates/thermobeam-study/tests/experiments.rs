@@ -1,11 +1,12 @@
 //! The studies of the paper's experiments, of steady states and of rigid obstacles: they pass, and they can fail.
 
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use thermobeam_study::case::{CaseFailure, Measured};
-use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::{self, Study};
-use thermobeam_study::verdict::Verdict;
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use thermobeam_study::case::{CaseFailure, Measured};
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::CaseFailure;
 use thermobeam_study::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::study::controls::Controls;
 use thermobeam_study::study::convergence::Convergence;
@@ -10,7 +12,6 @@ use thermobeam_study::study::energy::EnergyDecay;
 use thermobeam_study::study::fixed_point::FixedPoint;
 use thermobeam_study::study::{FromFile, Study};
 use thermobeam_study::study_file::{ConvergenceSpec, Norm};
-use thermobeam_study::verdict::Verdict;
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)

@@ -2,8 +2,8 @@
 
 mod figures;
 
+use convergence_study::plots::*;
 use roxmltree::{Document, Node};
-use thermobeam_study::plots::*;
 
 /// Units of a page per px.
 const UNITS: f64 = 10.0;

@@ -1,11 +1,12 @@
 //! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
 
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
-use thermobeam_study::case::{CaseFailure, Measured};
-use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::work_precision::WorkPrecision;
 use thermobeam_study::study::{FromFile, Study};
-use thermobeam_study::verdict::Verdict;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies")

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::list::Mutant;
-use crate::exit::Unusable;
+use convergence_study::cli::exit::Unusable;
 
 /// The list.
 pub(super) const FILE: &str = ".cargo/mutants-accepted.toml";

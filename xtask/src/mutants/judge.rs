@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::list::{Mutant, Target};
-use crate::exit::Unusable;
+use convergence_study::cli::exit::Unusable;
 
 /// What the tests make of a mutant.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use thermobeam_study::sweep::content_hash;
 
-use crate::exit::Unusable;
+use convergence_study::cli::exit::Unusable;
 
 /// What is mutated, and by which tests it is judged first.
 #[derive(Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use thermobeam_study::outcome::Table;
-use thermobeam_study::report::markdown;
+use convergence_study::report::markdown;
+use convergence_study::study::outcome::Table;
 
 use super::accepted::Accepted;
 use super::judge::Judged;

@@ -7,10 +7,10 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
-use crate::case::CaseFailure;
-use crate::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use crate::march::{Family, Spent};
 use crate::yardstick::{Quantity, distance, prolong};
+use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
+use convergence_study::study::CaseFailure;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
 

@@ -1,7 +1,7 @@
 //! The budget as a table, and what to refine next.
 
 use super::{Budget, Estimate, Source};
-use crate::number::max_or_nan;
+use convergence_study::text::number::max_or_nan;
 use std::fmt;
 
 impl Budget {

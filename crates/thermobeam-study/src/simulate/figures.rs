@@ -1,8 +1,9 @@
 //! Pictures of a run.
 
 use super::{Record, Row, Run};
-use crate::plots::{self, Animation, Axis, Guide, History, Phases, Series, SpaceTime};
+use crate::figures::{self, Animation};
 use crate::scene::Scene;
+use convergence_study::plots::{self, Axis, Guide, History, Phases, Series, SpaceTime};
 
 /// Names of files and their SVG documents; none where no history was recorded.
 ///
@@ -68,7 +69,7 @@ fn space_time(scene: &Scene, record: &Record) -> String {
 
 fn motion(scene: &Scene, record: &Record) -> String {
     let frames = &record.frames;
-    plots::animation(&Animation {
+    figures::animation(&Animation {
         title: Some(format!("{}: the beam between its obstacles", scene.name)),
         times: frames.times.clone(),
         nodes: frames.nodes.clone(),

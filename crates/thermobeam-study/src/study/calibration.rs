@@ -9,12 +9,13 @@
 //! coverage = 0.93        # least share of intervals that hold the true order
 //! ```
 
-use crate::calibration::{Calibration, calibrate};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
-use crate::outcome::{Check, Outcome, Table};
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{StudyHeader, header};
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::judge::calibration::{Calibration, calibrate};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome, Table};
 use std::path::Path;
 
 /// Name of the kind.
@@ -25,7 +26,7 @@ const SAMPLE_COST: f64 = 160.0;
 
 /// A study of this kind.
 pub struct RuleCalibration {
-    header: StudyHeader,
+    header: Header,
     samples: usize,
     seed: u64,
     false_pass: f64,
@@ -35,7 +36,7 @@ pub struct RuleCalibration {
 
 impl FromFile for RuleCalibration {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| Self::from_document(root))
+        input::parse_beside(text, file, |root, _| Self::from_document(root))
     }
 }
 
@@ -50,7 +51,7 @@ impl RuleCalibration {
             section.require(key, allowed)?.number_where(allowed, |share| share > 0.0 && share < 1.0)
         };
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             samples: section.require("samples", "a number of samples")?.count(1000..=10_000_000)?,
             seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
             false_pass: share("false_pass")?,
@@ -65,7 +66,7 @@ impl RuleCalibration {
 }
 
 impl Study for RuleCalibration {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

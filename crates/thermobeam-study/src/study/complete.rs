@@ -1,7 +1,8 @@
 //! Cases without a result, and results that are no numbers, in every study alike.
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::outcome::Check;
+use crate::study::untyped::{Case, Measured};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Check;
 
 /// Fails unless every case has a result in which every number is finite.
 ///

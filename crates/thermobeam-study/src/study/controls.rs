@@ -12,15 +12,16 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
-use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Defect, Disagreement, Prepared};
-use crate::document::{self, InputError, Section};
-use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
 use crate::study::convergence::step;
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
-use crate::verdict::{Level, Verdict, judge};
+use crate::study_file::{ConvergenceSpec, Header, Norm};
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::judge::verdict::{Level, Verdict, judge};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome, Table};
 use std::path::Path;
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -29,7 +30,7 @@ pub const CONTROLS: &str = "controls";
 
 /// A study of this kind.
 pub struct Controls {
-    header: StudyHeader,
+    header: Header,
     relative: f64,
     studies: Vec<ConvergenceSpec>,
 }
@@ -105,7 +106,7 @@ pub(crate) fn perturbed(
 
 impl FromFile for Controls {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -117,7 +118,7 @@ impl Controls {
         let allowed = "a number between 0 and 1";
         let relative = section.require("relative", allowed)?.number_where(allowed, |r| r > 0.0 && r < 1.0)?;
         let studies = named_studies(&section, folder)?;
-        Ok(Self { header: header(root)?, relative, studies })
+        Ok(Self { header: Header::from_document(root)?, relative, studies })
     }
 
     /// Study and level of each case.
@@ -159,7 +160,7 @@ fn key(fault: Fault, norm: Norm) -> String {
 }
 
 impl Study for Controls {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

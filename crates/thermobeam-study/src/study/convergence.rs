@@ -6,13 +6,14 @@
 mod figures;
 mod grid;
 
-use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Disagreement, Prepared};
-use crate::document::InputError;
-use crate::outcome::{LevelErrors, Outcome, Quantity};
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Norm, StudyHeader};
-use crate::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
+use crate::study_file::{Axis, CONVERGENCE, ConvergenceSpec, Expectation, Header, Norm};
+use convergence_study::input::InputError;
+use convergence_study::judge::verdict::{Judge, Level, RateVerdict, Reason, Verdict};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{LevelErrors, Outcome, Quantity};
 use std::path::Path;
 
 /// Relative change of an error that the baseline tolerates: the solver's tolerance and the instructions of another
@@ -21,7 +22,7 @@ const ERROR_TOLERANCE: f64 = 1e-4;
 
 /// A convergence study, ready to run.
 pub struct Convergence {
-    header: StudyHeader,
+    header: Header,
     spec: ConvergenceSpec,
 }
 
@@ -34,12 +35,8 @@ impl FromFile for Convergence {
 impl Convergence {
     /// The study of a specification.
     pub fn new(spec: ConvergenceSpec) -> Self {
-        let header = StudyHeader {
-            id: spec.id.clone(),
-            claim: spec.claim.clone(),
-            tier: spec.tier,
-            kind: CONVERGENCE.to_owned(),
-        };
+        let header =
+            Header { id: spec.id.clone(), claim: spec.claim.clone(), tier: spec.tier, kind: CONVERGENCE.to_owned() };
         Self { header, spec }
     }
 
@@ -52,7 +49,7 @@ impl Convergence {
             .map(|(&(elements, steps), result)| {
                 let error = |norm: Norm| result.as_ref().map_or(f64::NAN, |measured| measured.value(norm.name()));
                 let errors = Norm::ALL.map(|norm| (norm.name().to_owned(), error(norm))).to_vec();
-                LevelErrors { elements, steps, errors }
+                LevelErrors { parameters: resolution(elements, steps), errors }
             })
             .collect()
     }
@@ -62,7 +59,10 @@ impl Convergence {
         let Expectation { norm, order, tolerance } = *expectation;
         let points: Vec<Level> = levels
             .iter()
-            .map(|level| Level { step: step(&self.spec, level.elements, level.steps), error: level.error(norm.name()) })
+            .map(|level| Level {
+                step: step(&self.spec, elements_of(level), steps_of(level)),
+                error: level.error(norm.name()),
+            })
             .collect();
         match Judge::new(tolerance) {
             Ok(judge) => judge.judge(&points, order),
@@ -83,6 +83,19 @@ impl Convergence {
     }
 }
 
+/// Elements and steps as the parameters of a level.
+pub(crate) fn resolution(elements: usize, steps: usize) -> Vec<(String, f64)> {
+    [("elements", elements), ("steps", steps)].map(|(name, count)| (name.to_owned(), count as f64)).into()
+}
+
+fn elements_of(level: &LevelErrors) -> usize {
+    level.parameter("elements").unwrap_or(f64::NAN) as usize
+}
+
+fn steps_of(level: &LevelErrors) -> usize {
+    level.parameter("steps").unwrap_or(f64::NAN) as usize
+}
+
 /// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.
 pub(crate) fn step(spec: &ConvergenceSpec, elements: usize, steps: usize) -> f64 {
     match spec.refine.axis {
@@ -91,15 +104,8 @@ pub(crate) fn step(spec: &ConvergenceSpec, elements: usize, steps: usize) -> f64
     }
 }
 
-impl LevelErrors {
-    /// The error in the norm of that name; NaN where there is none.
-    pub fn error(&self, norm: &str) -> f64 {
-        self.errors.iter().find(|(name, _)| name == norm).map_or(f64::NAN, |(_, error)| *error)
-    }
-}
-
 impl Study for Convergence {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 
@@ -160,7 +166,7 @@ impl Convergence {
             }
         }
         outcome.figures.push(figures::rates(&self.spec, levels, &outcome.rates, |level| {
-            step(&self.spec, level.elements, level.steps)
+            step(&self.spec, elements_of(level), steps_of(level))
         }));
         outcome
     }
@@ -189,7 +195,7 @@ fn guarded_errors(levels: &[LevelErrors]) -> Vec<Quantity> {
         .iter()
         .flat_map(|level| {
             level.errors.iter().map(|(norm, value)| Quantity {
-                name: format!("error {norm}, n = {}, {} steps", level.elements, level.steps),
+                name: format!("error {norm}, n = {}, {} steps", elements_of(level), steps_of(level)),
                 value: *value,
                 tolerance: ERROR_TOLERANCE,
             })

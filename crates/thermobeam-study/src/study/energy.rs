@@ -17,19 +17,22 @@ mod random;
 
 pub(super) use random::wild;
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
 use crate::expression::Variable;
+use crate::functions::FunctionField;
 use crate::limits;
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Figure, Outcome, Table};
-use crate::plots;
+use crate::patience::StepPatience;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::simulate;
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{StudyHeader, header};
-use crate::time_limit::Patience;
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::plots;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Outcome, Table};
+use convergence_study::text::number::max_or_nan;
 use std::path::Path;
 use thermobeam::energy::Energy;
 use thermobeam::mesh::Mesh;
@@ -47,7 +50,7 @@ const POINTS: usize = 400;
 
 /// A study of this kind.
 pub struct EnergyDecay {
-    header: StudyHeader,
+    header: Header,
     scenes: Vec<Scene>,
     schemes: Vec<Scheme>,
     mesh: Mesh,
@@ -60,7 +63,7 @@ pub struct EnergyDecay {
 
 impl FromFile for EnergyDecay {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -84,7 +87,7 @@ impl EnergyDecay {
             limits::cases(&field, &[random, schemes.len()])?;
         }
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             scenes: scenes.iter().map(|file| Scene::read(file.file(folder)?)).collect::<Result<_, _>>()?,
             schemes: schemes.iter().map(|scheme| scheme.choice(&names)).collect::<Result<_, _>>()?,
             mesh: tables::checked_mesh(mesh, &elements)?,
@@ -115,7 +118,7 @@ impl EnergyDecay {
 }
 
 impl Study for EnergyDecay {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -12,17 +12,18 @@ use super::steady::{
     at_resolution, code_of, contact_of, exact_states, listed_scenes, name_of, nearest, positive, settle,
 };
 use super::{FromFile, Study};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, Field, InputError, Section};
-use crate::fit::Level;
 use crate::limits;
-use crate::number::{decimals, max_or_nan};
-use crate::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
-use crate::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
-use crate::study_file::{StudyHeader, header};
-use crate::verdict::{Judge, RateVerdict};
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::Header;
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::verdict::{Judge, RateVerdict};
+use convergence_study::plots::{Convergence, ErrorSeries, PowerLaw, convergence};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
+use convergence_study::text::number::{decimals, max_or_nan};
 
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;
@@ -36,7 +37,7 @@ const FIELDS: [&str; 2] = ["u", "φ"];
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndStates {
-    header: StudyHeader,
+    header: Header,
     scenes: Vec<Scene>,
     elements: Vec<usize>,
     dt: f64,
@@ -48,7 +49,7 @@ pub struct EndStates {
 
 impl FromFile for EndStates {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, from_document)
+        input::parse_beside(text, file, from_document)
     }
 }
 
@@ -59,7 +60,7 @@ impl EndStates {
 }
 
 fn from_document(root: &Section<'_>, folder: &Path) -> Result<EndStates, InputError> {
-    let header = header(root)?;
+    let header = Header::from_document(root)?;
     root.allow(&["study", "run", "expect"])?;
     let run = root.require("run", "a table with scenes, elements, dt, speed and t_max")?.section()?;
     run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
@@ -90,7 +91,7 @@ fn mesh_sizes(run: &Section<'_>) -> Result<Vec<usize>, InputError> {
 }
 
 impl Study for EndStates {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 
@@ -218,7 +219,7 @@ impl EndStates {
             let errors = ends.iter().flat_map(|ends| {
                 FIELDS.map(|field| (format!("{}: {field}", ends.scene.name), ends.levels[k].value(field)))
             });
-            LevelErrors { elements: self.elements[k], steps: 0, errors: errors.collect() }
+            LevelErrors { parameters: vec![("elements".to_owned(), self.elements[k] as f64)], errors: errors.collect() }
         };
         (0..self.elements.len()).map(level).collect()
     }

@@ -19,14 +19,15 @@
 mod contraction;
 mod scene;
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
 use crate::limits;
-use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{StudyHeader, header};
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome};
 use std::path::Path;
 
 /// Name of the kind.
@@ -34,7 +35,7 @@ pub const FIXED_POINT: &str = "fixed-point";
 
 /// A study of this kind.
 pub struct FixedPoint {
-    header: StudyHeader,
+    header: Header,
     scene: Scene,
     elements: usize,
     dt: Vec<f64>,
@@ -46,7 +47,7 @@ pub struct FixedPoint {
 
 impl FromFile for FixedPoint {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -67,7 +68,7 @@ impl FixedPoint {
         let [dt, epsilon, zeta] = [list("dt")?, list("epsilon")?, list("zeta")?];
         limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             scene: Scene::read(section.require("scene", "a scene file beside this one")?.file(folder)?)?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
             dt,
@@ -92,7 +93,7 @@ impl FixedPoint {
 }
 
 impl Study for FixedPoint {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 
@@ -144,6 +145,6 @@ impl Study for FixedPoint {
 struct Part {
     summary: String,
     checks: Vec<Check>,
-    table: crate::outcome::Table,
-    quantities: Vec<crate::outcome::Quantity>,
+    table: convergence_study::study::outcome::Table,
+    quantities: Vec<convergence_study::study::outcome::Quantity>,
 }

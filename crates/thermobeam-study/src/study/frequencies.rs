@@ -5,15 +5,17 @@
 
 use super::ladder::{self, Family, Ladder};
 use super::{FromFile, Study};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
 use crate::expression::{Expression, Variable};
+use crate::functions::FunctionField;
 use crate::limits;
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Outcome, Table};
 use crate::shared_tables as tables;
-use crate::study_file::{Axis, StudyHeader, header};
-use crate::verdict::RateVerdict;
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::{Axis, Header};
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome, Table};
+use convergence_study::text::number::max_or_nan;
 use std::path::Path;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::vibration::{discrete_frequencies, frequencies};
@@ -29,7 +31,7 @@ const ROUNDING_ERRORS: f64 = 16.0;
 /// A study of frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frequencies {
-    header: StudyHeader,
+    header: Header,
     count: usize,
     elements: Vec<usize>,
     map: Option<Expression>,
@@ -39,7 +41,7 @@ pub struct Frequencies {
 
 impl FromFile for Frequencies {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| Self::from_document(root))
+        input::parse_beside(text, file, |root, _| Self::from_document(root))
     }
 }
 
@@ -54,7 +56,7 @@ impl Frequencies {
         // A mesh has two frequencies per element, the upper ones of no use.
         let count = section.require("count", "a whole number >= 1")?.count(1..=elements[0].min(limits::MODES))?;
         let study = Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             count,
             map: map(&section, &elements)?,
             elements,
@@ -162,7 +164,7 @@ fn check_above(ladder: &Ladder) -> Check {
 }
 
 impl Study for Frequencies {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

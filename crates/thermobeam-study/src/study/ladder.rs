@@ -1,11 +1,9 @@
 //! Errors down a ladder of refinements: what every study of rates judges, prints, draws and guards.
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::fit::Level;
-use crate::outcome::{Check, Figure, Quantity, Table};
-use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};
-use crate::study_file::Axis;
-use crate::verdict::{RateVerdict, judge};
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::verdict::{RateVerdict, judge};
+use convergence_study::plots::{self, Convergence, ErrorSeries, PowerLaw};
+use convergence_study::study::{Axis, Figure, Quantity, Table};
 
 /// Relative change of an error that the baseline lets pass: other machines round sines and logarithms differently.
 const ERROR_DRIFT: f64 = 1e-6;
@@ -129,30 +127,6 @@ pub(crate) fn rate_table(title: &str, rates: &[(String, RateVerdict)]) -> Table 
     }
 }
 
-/// Fails unless there is a result for every case.
-pub(crate) fn completion(cases: &[Case], results: &[Result<Measured, CaseFailure>]) -> Check {
-    let failures: Vec<String> = cases
-        .iter()
-        .enumerate()
-        .filter_map(|(index, case)| match results.get(index) {
-            Some(Ok(_)) => None,
-            Some(Err(failure)) => Some(format!("{}: {}", case.label, failure.reason)),
-            None => Some(format!("{}: no result", case.label)),
-        })
-        .collect();
-    let done = format!("{} of {} runs came to their end", cases.len() - failures.len(), cases.len());
-    let evidence = if failures.is_empty() { done } else { format!("{done}; {}", failures.join("; ")) };
-    Check::that(failures.is_empty() && !cases.is_empty(), "every run comes to its end", evidence)
-}
-
-/// The number of that name of a case; NaN where there is none.
-pub(crate) fn value(results: &[Result<Measured, CaseFailure>], index: usize, name: &str) -> f64 {
-    match results.get(index) {
-        Some(Ok(measured)) => measured.value(name),
-        _ => f64::NAN,
-    }
-}
-
 /// `tip 1.000 (order 1)` for each.
 pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
     let one = |(name, rate): &(String, RateVerdict)| match rate.fitted {
@@ -162,17 +136,4 @@ pub(crate) fn summary(rates: &[(String, RateVerdict)]) -> String {
     rates.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_missing_or_failed_case_fails_the_completion() {
-        let cases = [Case { label: "n = 8".into(), cost: 1.0 }];
-        let pass = |results: &[Result<Measured, CaseFailure>]| completion(&cases, results).verdict.name();
-        assert_eq!(pass(&[Ok(Measured::default())]), "pass");
-        assert_eq!(pass(&[Err(CaseFailure { reason: "diverged".into() })]), "fail");
-        assert_eq!(pass(&[]), "fail");
-        assert_eq!(completion(&[], &[]).verdict.name(), "fail");
-    }
-}
+pub(crate) use super::untyped::{completion, value};

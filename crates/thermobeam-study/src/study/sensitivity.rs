@@ -8,16 +8,17 @@
 //! at_most = 1e-4                          # what some study must see of every coefficient
 //! ```
 
-use crate::case::{Case, CaseFailure, Measured};
 use crate::design::{Disagreement, Prepared};
-use crate::document::{self, InputError, Section};
-use crate::outcome::{Check, Outcome, Quantity, Table};
 use crate::shared_tables as tables;
 use crate::study::controls::perturbed;
 use crate::study::convergence::step;
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::{ConvergenceSpec, Norm, StudyHeader, header};
-use crate::verdict::{Level, Verdict, judge};
+use crate::study_file::{ConvergenceSpec, Header, Norm};
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::judge::verdict::{Level, Verdict, judge};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome, Quantity, Table};
 use std::path::Path;
 
 /// Name of the kind.
@@ -28,7 +29,7 @@ const BISECTIONS: usize = 9;
 
 /// A study of this kind.
 pub struct Sensitivity {
-    header: StudyHeader,
+    header: Header,
     studies: Vec<ConvergenceSpec>,
     range: [f64; 2],
     at_most: f64,
@@ -36,7 +37,7 @@ pub struct Sensitivity {
 
 impl FromFile for Sensitivity {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -46,7 +47,7 @@ impl Sensitivity {
         let section = root.require(SENSITIVITY, "a table with studies, range and at_most")?.section()?;
         section.allow(&["studies", "elements", "range", "at_most"])?;
         let below_one = "a number between 0 and 1";
-        let number = |field: &document::Field<'_>| field.number_where(below_one, |r| r > 0.0 && r < 1.0);
+        let number = |field: &input::Field<'_>| field.number_where(below_one, |r| r > 0.0 && r < 1.0);
         let field = section.require("range", "a list of two rising numbers between 0 and 1")?;
         let ends = field.items("a list of two numbers")?.iter().map(number).collect::<Result<Vec<_>, _>>()?;
         let &[low, high] = ends.as_slice() else { return Err(field.refuse_as_written("a list of two numbers")) };
@@ -55,7 +56,7 @@ impl Sensitivity {
         }
         let studies = super::controls::named_studies(&section, folder)?;
         let at_most = number(&section.require("at_most", below_one)?)?;
-        Ok(Self { header: header(root)?, studies, range: [low, high], at_most })
+        Ok(Self { header: Header::from_document(root)?, studies, range: [low, high], at_most })
     }
 
     /// Study and coefficient of each case; coefficients that a study lacks, or has zero, are left out.
@@ -104,7 +105,7 @@ impl<'a> Detector<'a> {
 }
 
 impl Study for Sensitivity {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -1,5 +1,6 @@
 //! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
 
+use crate::patience::StepPatience;
 use std::path::Path;
 
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
@@ -8,12 +9,12 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::{Simulation, Stepping};
 use thermobeam::solve::Level;
 
-use crate::case::CaseFailure;
-use crate::document::{Field, InputError, Section};
-use crate::number::max_or_nan;
 use crate::scene::Scene;
 use crate::simulate;
-use crate::time_limit::Patience;
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {

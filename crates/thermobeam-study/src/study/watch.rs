@@ -1,7 +1,7 @@
 //! The laws of the energy, watched over the steps of a run.
 
-use crate::case::Measured;
-use crate::number::max_or_nan;
+use crate::study::untyped::Measured;
+use convergence_study::text::number::max_or_nan;
 use thermobeam::energy::{Balance, Rounding};
 
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.

@@ -30,12 +30,13 @@ pub mod method;
 mod report;
 mod timed;
 
-use crate::case::{Case, CaseFailure, Measured};
 use crate::march::Family;
-use crate::outcome::Outcome;
 use crate::study::Study;
-use crate::study_file::StudyHeader;
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::Header;
 use crate::yardstick::{Quantity, Reference, Yardstick};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use law::GridPoint;
 use method::{METHODS, Measurement, Method};
 use std::sync::OnceLock;
@@ -61,7 +62,7 @@ pub struct Advantage {
 
 /// A study of this kind.
 pub struct WorkPrecision {
-    header: StudyHeader,
+    header: Header,
     family: Family,
     /// Elements and steps of the reference, where there is no exact solution.
     reference: Option<[usize; 2]>,
@@ -124,7 +125,7 @@ impl WorkPrecision {
 }
 
 impl Study for WorkPrecision {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -2,8 +2,8 @@
 
 use thermobeam::parameters::{Beam, Obstacles};
 
-use crate::document::{InputError, Section};
 use crate::shared_tables as tables;
+use convergence_study::input::{InputError, Section};
 
 /// The solver's coefficients in a negative control.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! The tables `[[expect]]`: in which norm which order.
 
-use crate::document::{InputError, Section};
 use crate::exact::norm::Norm;
+use convergence_study::input::{InputError, Section};
 
 /// The order that theory gives for a norm.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,39 +1,16 @@
 //! The table `[refine]`: which meshes and time steps a study runs through.
 
+use crate::functions::FunctionField;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
 
-use crate::document::{Field, InputError, Section};
 use crate::expression::{Expression, Variable};
 use crate::limits;
-use crate::random::SplitMix;
 use crate::shared_tables as tables;
-
-/// What is refined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Axis {
-    /// The mesh.
-    Space,
-    /// The time step.
-    Time,
-    /// Both.
-    Both,
-}
-
-impl Axis {
-    /// All axes.
-    pub const ALL: [Axis; 3] = [Axis::Space, Axis::Time, Axis::Both];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Axis::Space => "space",
-            Axis::Time => "time",
-            Axis::Both => "both",
-        }
-    }
-}
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::judge::random::SplitMix;
+use convergence_study::study::Axis;
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]

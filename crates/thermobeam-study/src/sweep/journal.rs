@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 
 use super::lines::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
-use crate::atomic;
-use crate::writing;
+use convergence_study::store::atomic;
+use convergence_study::store::writing;
 
 /// What the folder is of.
 const MANIFEST: &str = "sweep.json";

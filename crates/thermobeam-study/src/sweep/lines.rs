@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::SweepError;
-use crate::atomic;
+use convergence_study::store::atomic;
 
 /// Where a line is.
 #[derive(Debug, Clone, Copy)]

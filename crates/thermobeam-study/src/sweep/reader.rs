@@ -6,9 +6,9 @@ use super::design::Design;
 use super::key::{KEYS, TABLES};
 use super::values::{self, Axis};
 use super::{Base, Case, Key, MOST_CASES, Sweep, content_hash};
-use crate::document::{self, Complaint, Field, InputError, Section};
 use crate::limits;
 use crate::scene::{Scene, stem};
+use convergence_study::input::{self, Complaint, Field, InputError, Section};
 
 /// What every case has in common: TOML in which `{key}` stands for the case's value.
 #[derive(Debug, Clone, Default)]
@@ -46,7 +46,7 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     let section = root.require("sweep", "a table that names the scene")?.section()?;
     section.allow(&["scene"])?;
     let scene = section.require("scene", "a scene file beside this one")?.file(folder)?;
-    let base = Base { file: scene.display().to_string(), text: document::read_text(&scene)? };
+    let base = Base { file: scene.display().to_string(), text: input::read_text(&scene)? };
     let plain = Scene::parse(&base.text, &base.file)?;
     let set = set(root)?;
     let axes = axes(root)?;

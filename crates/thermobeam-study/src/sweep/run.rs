@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::{Case, Sweep};
 use crate::scene::Scene;
 use crate::simulate::{Object, Recording, Run, Simulator, Together, run_together};
-use crate::time_limit;
+use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.
 const LANES: usize = 4;

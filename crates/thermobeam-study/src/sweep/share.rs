@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use crate::random::SplitMix;
+use convergence_study::judge::random::SplitMix;
 
 /// Share k of n, from 1 to n; 1/1 is everything.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

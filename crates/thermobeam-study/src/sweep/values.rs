@@ -2,8 +2,8 @@
 
 use super::Key;
 use super::design::stratified;
-use crate::document::{Field, InputError};
 use crate::limits::SWEEP_VALUES;
+use convergence_study::input::{Field, InputError};
 
 /// How values are spread between two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

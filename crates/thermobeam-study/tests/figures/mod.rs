@@ -1,6 +1,6 @@
 //! Made-up data that look like the real thing, one set per figure.
 
-use thermobeam_study::plots::*;
+use convergence_study::plots::*;
 
 /// Every figure, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {

@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use convergence_study::input::error_table::RateTable;
+use convergence_study::judge::verdict::Judge;
+use convergence_study::store::baseline::Baseline;
 use tempfile::TempDir;
-use thermobeam_study::baseline::Baseline;
-use thermobeam_study::rates::RateTable;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::simulate::Simulator;
 use thermobeam_study::study;
 use thermobeam_study::sweep::{Journal, Manifest, Share, Sweep};
-use thermobeam_study::verdict::Judge;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq)]

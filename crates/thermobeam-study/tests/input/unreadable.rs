@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use thermobeam_study::scene::Scene;
 use thermobeam_study::study;
-use thermobeam_study::study_file::{ConvergenceSpec, StudyHeader};
+use thermobeam_study::study_file::{ConvergenceSpec, Header};
 
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     let folder = env!("CARGO_TARGET_TMPDIR");
     says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
     says(&ConvergenceSpec::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
-    says(&StudyHeader::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
+    says(&Header::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
 }
 
 #[test]

@@ -5,11 +5,12 @@ mod self_convergence;
 mod stress;
 mod vibration;
 
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
-use thermobeam_study::case::{CaseFailure, Measured};
-use thermobeam_study::outcome::Outcome;
 use thermobeam_study::study::Study;
-use thermobeam_study::verdict::Verdict;
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 

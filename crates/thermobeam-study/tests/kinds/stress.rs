@@ -1,11 +1,11 @@
 //! Stability maps, extremes and random scenes: what must make each fail.
 
 use crate::{Results, changed, file, passes_but_not_without_each_case, results, text};
+use convergence_study::judge::verdict::Verdict;
 use thermobeam_study::study::extremes::Extremes;
 use thermobeam_study::study::random_scenes::RandomScenes;
 use thermobeam_study::study::stability::Stability;
 use thermobeam_study::study::{FromFile, Study};
-use thermobeam_study::verdict::Verdict;
 
 fn map() -> Stability {
     Stability::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))

@@ -2,10 +2,10 @@
 
 use thermobeam::equilibrium::{Contact, Equilibrium};
 
-use crate::case::CaseFailure;
 use crate::scene::Scene;
 use crate::study::steady::exact_states;
-use crate::time_limit::Patience;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
 
 /// Steady states that belong together, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]

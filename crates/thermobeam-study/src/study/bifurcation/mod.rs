@@ -16,14 +16,15 @@ use thermobeam::mesh::Mesh;
 use super::Study;
 use super::complete::{all_ran, or_nothing};
 use super::steady::{at_resolution, exact_states, nearest, settle};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::fit::Level;
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
-use crate::study_file::StudyHeader;
-use crate::verdict::{Judge, RateVerdict};
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::Header;
 use branches::Event;
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::verdict::{Judge, RateVerdict};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome};
+use convergence_study::text::number::max_or_nan;
 
 /// Width to which an event is bracketed.
 const BRACKET: f64 = 1e-9;
@@ -38,7 +39,7 @@ const FORK_POINTS: usize = 80;
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BifurcationStudy {
-    header: StudyHeader,
+    header: Header,
     /// One diagram each; their β is overridden.
     scenes: Vec<Scene>,
     /// β of the diagrams.
@@ -125,7 +126,7 @@ fn family_name(contact: Contact, stable: bool) -> String {
 }
 
 impl Study for BifurcationStudy {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -5,12 +5,13 @@ use thermobeam::kirchhoff::BUCKLING;
 
 use super::branches::Event;
 use super::{BifurcationStudy, CLOSE, family_name};
-use crate::case::Measured;
-use crate::number::decimals;
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{Bifurcation, Branch, Guide, Series, bifurcation};
+use crate::figures::{Bifurcation, Branch, bifurcation};
 use crate::scene::Scene;
-use crate::verdict::RateVerdict;
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::plots::{Guide, Series};
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::text::number::decimals;
 
 pub(super) fn outcome(
     study: &BifurcationStudy,

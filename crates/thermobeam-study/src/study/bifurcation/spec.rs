@@ -3,22 +3,22 @@
 use std::path::Path;
 
 use super::BifurcationStudy;
-use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::shared_tables as tables;
 use crate::study::FromFile;
 use crate::study::steady::{listed_scenes, positive};
-use crate::study_file::header;
-use crate::verdict::Judge;
+use crate::study_file::Header;
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::judge::verdict::Judge;
 
 impl FromFile for BifurcationStudy {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, from_document)
+        input::parse_beside(text, file, from_document)
     }
 }
 
 fn from_document(root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
-    let header = header(root)?;
+    let header = Header::from_document(root)?;
     root.allow(&["study", "diagram", "buckling", "rest"])?;
     let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
     diagram.allow(&["scenes", "beta", "points"])?;

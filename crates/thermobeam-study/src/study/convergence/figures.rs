@@ -1,9 +1,9 @@
 //! Figures of a convergence study.
 
-use crate::outcome::{Figure, LevelErrors};
-use crate::plots;
 use crate::study_file::{Axis, ConvergenceSpec};
-use crate::verdict::RateVerdict;
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::plots;
+use convergence_study::study::outcome::{Figure, LevelErrors};
 
 /// Errors over the step in the norms judged, with fitted lines and slope triangles.
 pub(super) fn rates(

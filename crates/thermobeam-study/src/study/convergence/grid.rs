@@ -1,10 +1,10 @@
 //! The verdict over a grid of (h, dt): squares of space and time error add, and both orders are fitted at once.
 
 use super::figures;
-use crate::fit::{Quantiles, SurfaceFit, SurfacePoint, fit_surface};
-use crate::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
 use crate::study_file::{ConvergenceSpec, Expectation};
-use crate::verdict::Verdict;
+use convergence_study::judge::fit::{Quantiles, SurfaceFit, SurfacePoint, fit_surface};
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
 
 /// Confidence of intervals and of the joint region.
 const CONFIDENCE: f64 = 0.95;
@@ -20,8 +20,8 @@ pub(super) fn conclude(spec: &ConvergenceSpec, levels: &[LevelErrors]) -> Outcom
         let points: Vec<SurfacePoint> = levels
             .iter()
             .map(|level| SurfacePoint {
-                h: 1.0 / level.elements as f64,
-                dt: spec.refine.dt(level.steps),
+                h: 1.0 / super::elements_of(level) as f64,
+                dt: spec.refine.dt(super::steps_of(level)),
                 error: level.error(norm),
             })
             .collect();

@@ -1,6 +1,6 @@
 //! Beams with random coefficients and random initial data: moderate and smooth, or anything that is allowed.
 
-use crate::random::SplitMix;
+use convergence_study::judge::random::SplitMix;
 use std::f64::consts::PI;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};

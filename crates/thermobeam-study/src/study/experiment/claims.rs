@@ -4,10 +4,10 @@ use thermobeam::equilibrium::Contact;
 
 use super::log::straight_energy;
 use super::{Experiments, Group, Until, of_group};
-use crate::case::Measured;
-use crate::outcome::Check;
 use crate::scene::Scene;
 use crate::study::steady::{code_of, contact_of, name_of};
+use crate::study::untyped::Measured;
+use convergence_study::study::outcome::Check;
 
 /// The first contacts count as "at the beginning" within this share of the figures' span.
 const BEGINNING: f64 = 0.1;

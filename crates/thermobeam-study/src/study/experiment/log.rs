@@ -1,16 +1,18 @@
 //! One experiment, run until it is steady, and what is read off on the way.
 
+use crate::patience::StepPatience;
 use thermobeam::mesh::Mesh;
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
 use super::Until;
 use super::motion::Shapes;
-use crate::case::{CaseFailure, Measured};
-use crate::number::max_or_nan;
 use crate::scene::Scene;
 use crate::study::steady::{code_of, exact_states, nearest, start};
-use crate::time_limit::Patience;
+use crate::study::untyped::Measured;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 
 /// Points of a curve in a figure, about: more than a figure has columns.
 const POINTS: usize = 4000;

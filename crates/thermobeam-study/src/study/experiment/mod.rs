@@ -36,10 +36,11 @@ use thermobeam::equilibrium::Contact;
 
 use super::Study;
 use super::complete::{all_ran, or_nothing};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::outcome::{Check, Outcome};
 use crate::scene::Scene;
-use crate::study_file::StudyHeader;
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::Header;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome};
 
 /// Which of the section's experiments, and so what is claimed of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,7 +90,7 @@ pub struct ToRest {
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiments {
-    header: StudyHeader,
+    header: Header,
     experiments: Vec<Experiment>,
     until: Until,
     betas: Vec<f64>,
@@ -109,7 +110,7 @@ impl Experiments {
 }
 
 impl Study for Experiments {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 
@@ -157,6 +158,7 @@ fn of_group<'a>(
 
 /// How many of the checks passed, in a sentence.
 fn summary(checks: &[Check]) -> String {
-    let passed = checks.iter().filter(|check| check.verdict == crate::verdict::Verdict::Pass).count();
+    let passed =
+        checks.iter().filter(|check| check.verdict == convergence_study::judge::verdict::Verdict::Pass).count();
     format!("{passed} of {} statements about the experiments hold", checks.len())
 }

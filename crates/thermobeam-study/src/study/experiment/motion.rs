@@ -3,8 +3,8 @@
 use thermobeam::solve::Level;
 
 use super::Experiment;
-use crate::case::Measured;
-use crate::plots::{Animation, animation};
+use crate::figures::{Animation, animation};
+use crate::study::untyped::Measured;
 
 /// The time that is shown: both obstacles are hit several times.
 pub(super) const SPAN: f64 = 6.0;

@@ -2,9 +2,9 @@
 
 use super::log::straight_energy;
 use super::{Experiment, Experiments, Group, motion, of_group, resting, summary};
-use crate::case::Measured;
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{Axis, Guide, History, Series, history};
+use crate::study::untyped::Measured;
+use convergence_study::plots::{Axis, Guide, History, Series, history};
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
 
 /// Relative change of a number that depends smoothly on the data: far above round-off, far below a change of the method.
 const SMOOTH: f64 = 1e-6;

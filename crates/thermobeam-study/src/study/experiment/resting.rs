@@ -3,10 +3,11 @@
 use thermobeam::kirchhoff::BUCKLING;
 
 use super::ToRest;
-use crate::case::{CaseFailure, Measured};
-use crate::outcome::{Check, Table};
 use crate::scene::Scene;
 use crate::study::steady::{at_resolution, exact_states, nearest, settle};
+use crate::study::untyped::Measured;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Table};
 
 /// Where the paper's text puts the beginning of several steady states.
 const AS_PRINTED: f64 = -0.5;

@@ -5,25 +5,25 @@ use std::path::Path;
 use thermobeam::equilibrium::Contact;
 
 use super::{Experiment, Experiments, Group, Until};
-use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study::FromFile;
 use crate::study::steady::{at_resolution, listed_scene, listed_scenes, positive};
-use crate::study_file::header;
+use crate::study_file::Header;
+use convergence_study::input::{self, Field, InputError, Section};
 
 /// A positive number, in words.
 const POSITIVE: &str = "a finite number > 0";
 
 impl FromFile for Experiments {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, from_document)
+        input::parse_beside(text, file, from_document)
     }
 }
 
 fn from_document(root: &Section<'_>, folder: &Path) -> Result<Experiments, InputError> {
-    let header = header(root)?;
+    let header = Header::from_document(root)?;
     root.allow(&["study", "experiments", "run", "steady"])?;
     let run = root.require("run", "a table with t_max, window and rate")?.section()?;
     run.allow(&["elements", "dt", "t_max", "window", "rate"])?;

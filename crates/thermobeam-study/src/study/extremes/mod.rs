@@ -18,15 +18,17 @@
 
 mod report;
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
-use crate::outcome::Outcome;
+use crate::patience::StepPatience;
 use crate::scene::{self, Scene};
 use crate::simulate;
+use crate::study::untyped::{Case, Measured};
 use crate::study::watch::{SOLVED, Watch};
 use crate::study::{FromFile, Study};
-use crate::study_file::{StudyHeader, header};
-use crate::time_limit::Patience;
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::path::Path;
 use thermobeam::error::StepFailure;
 use thermobeam::simulation::{Simulation, Stepping};
@@ -44,7 +46,7 @@ const SCALED: usize = 8;
 /// A study of this kind.
 #[derive(Debug, Clone)]
 pub struct Extremes {
-    header: StudyHeader,
+    header: Header,
     extremes: Vec<Extreme>,
 }
 
@@ -94,7 +96,7 @@ impl End {
 
 impl FromFile for Extremes {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| Self::from_document(root))
+        input::parse_beside(text, file, |root, _| Self::from_document(root))
     }
 }
 
@@ -115,7 +117,7 @@ impl Extremes {
         if extremes.is_empty() {
             Err(list.refuse_as_written(allowed))
         } else {
-            Ok(Self { header: header(root)?, extremes })
+            Ok(Self { header: Header::from_document(root)?, extremes })
         }
     }
 }
@@ -133,7 +135,7 @@ fn extreme(section: &Section<'_>) -> Result<Extreme, InputError> {
 }
 
 impl Study for Extremes {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

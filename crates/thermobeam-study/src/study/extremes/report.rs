@@ -1,14 +1,15 @@
 //! A check for each case, and the table of what was seen.
 
 use super::{End, Extreme, Extremes};
-use crate::case::{CaseFailure, Measured};
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{self, Axis, Series};
 use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
+use crate::study::untyped::Measured;
 use crate::study::watch::of_allowed;
-use crate::verdict::Verdict;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::plots::{self, Axis, Series};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::text::number::max_or_nan;
 
 pub(super) fn outcome(study: &Extremes, results: &[Result<Measured, CaseFailure>]) -> Outcome {
     let cases = study.cases();

@@ -1,9 +1,11 @@
 //! The contraction factor in contact, measured against α.
 
 use super::Part;
-use crate::case::{CaseFailure, Measured};
-use crate::outcome::{Check, Figure, Quantity, Table};
-use crate::plots;
+use crate::figures;
+use crate::study::untyped::Measured;
+use convergence_study::plots;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Quantity, Table};
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;
@@ -104,7 +106,7 @@ pub(super) fn figure(id: &str, grid: &[[f64; 3]], results: &[Result<Measured, Ca
         let points = of_zeta.filter_map(|(_, result)| result.as_ref().ok().map(point)).collect();
         plots::Series { label: format!("ζ = {zeta}"), points }
     });
-    let svg = plots::contraction(&plots::Contraction { title: None, series: series.collect() });
+    let svg = figures::contraction(&figures::Contraction { title: None, series: series.collect() });
     let caption = "Contraction factor of the fixed point in contact, measured over predicted; past 1 it diverges.";
     Figure { file: format!("{id}-contraction.svg"), caption: caption.to_owned(), svg }
 }

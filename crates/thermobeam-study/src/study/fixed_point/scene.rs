@@ -1,12 +1,14 @@
 //! The fixed point on a scene: against Newton's method, over its own tolerance.
 
 use super::Part;
-use crate::case::{CaseFailure, Measured};
-use crate::outcome::{Check, Figure, Table};
-use crate::plots;
+use crate::patience::StepPatience;
 use crate::scene::Scene;
 use crate::simulate;
-use crate::time_limit::Patience;
+use crate::study::untyped::Measured;
+use convergence_study::plots;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Table};
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::simulation::{Simulation, Stepping};

@@ -17,15 +17,16 @@
 
 mod report;
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError, Section};
 use crate::limits;
-use crate::outcome::Outcome;
 use crate::study::energy::wild;
+use crate::study::untyped::{Case, Measured};
 use crate::study::watch::{CLOSED, SOLVED, Watch};
 use crate::study::{FromFile, Study};
-use crate::study_file::{StudyHeader, header};
-use crate::time_limit::Patience;
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::path::Path;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::StepFailure;
@@ -50,7 +51,7 @@ const KEPT: usize = 4;
 /// A study of this kind.
 #[derive(Debug, Clone)]
 pub struct RandomScenes {
-    header: StudyHeader,
+    header: Header,
     batches: usize,
     steps: usize,
     seed: u64,
@@ -58,7 +59,7 @@ pub struct RandomScenes {
 
 impl FromFile for RandomScenes {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| Self::from_document(root))
+        input::parse_beside(text, file, |root, _| Self::from_document(root))
     }
 }
 
@@ -69,7 +70,7 @@ impl RandomScenes {
         section.allow(&["batches", "steps", "seed"])?;
         let number = "a whole number";
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             batches: section.require("batches", number)?.count(1..=100_000)?,
             steps: section.require("steps", number)?.count(1..=limits::STEPS)?,
             seed: section.require("seed", number)?.count(0..=u32::MAX as usize)? as u64,
@@ -125,7 +126,7 @@ struct Tally {
 }
 
 impl Study for RandomScenes {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -1,14 +1,15 @@
 //! The claims about all scenes together, the exceptions with their reasons, and a map of where the residuals are.
 
 use super::{ANSWER, BATCH, CLOSED, ENDS, INDEFINITE, LIMIT, NOT_FINITE, RandomScenes};
-use crate::case::{CaseFailure, Measured};
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{self, Axis, ParameterMap, Surface};
 use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
 use crate::study::energy::wild;
+use crate::study::untyped::Measured;
 use crate::study::watch::of_allowed;
+use convergence_study::plots::{self, Axis, ParameterMap, Surface};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::text::number::max_or_nan;
 
 /// Exceptions listed.
 const LISTED: usize = 12;

@@ -2,11 +2,11 @@
 
 use super::theory::{impact_time, peak_penetration};
 use super::{Found, RigidStudy};
-use crate::case::Measured;
-use crate::fit::Level;
-use crate::number::max_or_nan;
-use crate::outcome::Check;
-use crate::verdict::RateVerdict;
+use crate::study::untyped::Measured;
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::study::outcome::Check;
+use convergence_study::text::number::max_or_nan;
 
 /// Contraction above which a time step averages over the whole impact, which makes the penetration of order 1.
 const AVERAGED: f64 = 5.0;

@@ -1,14 +1,16 @@
 //! The four computations of a compliance.
 
+use crate::patience::StepPatience;
 use thermobeam::error::{StepError, StepFailure};
 use thermobeam::solve::{Settings, Solver};
 
 use super::theory::tip_compliance;
-use crate::case::{CaseFailure, Measured};
-use crate::number::max_or_nan;
 use crate::scene::Scene;
 use crate::study::steady::{settle, start};
-use crate::time_limit::Patience;
+use crate::study::untyped::Measured;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 
 /// The scene with another compliance.
 pub(super) fn with_compliance(scene: &Scene, epsilon: f64) -> Scene {

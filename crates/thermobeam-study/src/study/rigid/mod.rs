@@ -30,17 +30,18 @@ mod theory;
 use super::Study;
 use super::complete::{all_ran, or_nothing};
 use super::steady::at_resolution;
-use crate::case::{Case, CaseFailure, Measured};
-use crate::number::max_or_nan;
-use crate::outcome::Outcome;
 use crate::scene::Scene;
-use crate::study_file::StudyHeader;
-use crate::verdict::Judge;
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::Header;
+use convergence_study::judge::verdict::Judge;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
+use convergence_study::text::number::max_or_nan;
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidStudy {
-    header: StudyHeader,
+    header: Header,
     /// Compliances, descending.
     epsilons: Vec<f64>,
     /// The compliance that stands for a rigid obstacle.
@@ -87,7 +88,7 @@ impl RigidStudy {
 }
 
 impl Study for RigidStudy {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

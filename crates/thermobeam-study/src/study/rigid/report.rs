@@ -2,13 +2,12 @@
 
 use super::claims::{LARGEST, numbers};
 use super::{Found, RigidStudy};
-use crate::case::Measured;
-use crate::number::rate_text;
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{
-    Axis, Contraction, Convergence, ErrorSeries, Guide, History, Series, contraction, convergence, history,
-};
-use crate::verdict::RateVerdict;
+use crate::figures::{Contraction, contraction};
+use crate::study::untyped::Measured;
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::plots::{Axis, Convergence, ErrorSeries, Guide, History, Series, convergence, history};
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::text::number::rate_text;
 
 pub(super) fn outcome(
     study: &RigidStudy,

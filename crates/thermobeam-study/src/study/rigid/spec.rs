@@ -3,23 +3,23 @@
 use std::path::Path;
 
 use super::{RigidStudy, at_resolution};
-use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study::FromFile;
 use crate::study::steady::{listed_scene, positive};
-use crate::study_file::header;
-use crate::verdict::Judge;
+use crate::study_file::Header;
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::judge::verdict::Judge;
 
 impl FromFile for RigidStudy {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, from_document)
+        input::parse_beside(text, file, from_document)
     }
 }
 
 fn from_document(root: &Section<'_>, folder: &Path) -> Result<RigidStudy, InputError> {
-    let header = header(root)?;
+    let header = Header::from_document(root)?;
     root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
     let obstacles = root.require("obstacles", "a table with epsilon, limit and tolerance")?.section()?;
     obstacles.allow(&["epsilon", "limit", "tolerance"])?;

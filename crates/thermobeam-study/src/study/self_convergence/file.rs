@@ -2,17 +2,18 @@
 
 use super::quantity::Observable;
 use super::{Claim, SelfConvergence};
-use crate::document::{self, Field, InputError, Section};
 use crate::scene::Scene;
 use crate::shared_tables as tables;
 use crate::study::FromFile;
-use crate::study_file::{Axis, header};
+use crate::study_file::Axis;
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::study::Header;
 use std::path::Path;
 use thermobeam::scheme::{SCHEMES, Scheme};
 
 impl FromFile for SelfConvergence {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -33,7 +34,7 @@ impl SelfConvergence {
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
         let scheme = scheme(&section, "scheme", scene.scheme)?;
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             axis,
             elements,
             steps,

@@ -18,12 +18,13 @@ mod quantity;
 
 use super::Study;
 use super::ladder::{self, Family, Ladder, rate_table};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::outcome::{Check, Figure, Outcome, Quantity, Table};
-use crate::plots::{self, Axis as PlotAxis, Guide, History, Series};
 use crate::rerun::{Rerun, resampled};
 use crate::scene::Scene;
-use crate::study_file::{Axis, StudyHeader};
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::{Axis, Header};
+use convergence_study::plots::{self, Axis as PlotAxis, Guide, History, Series};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
 pub use quantity::Observable;
 use thermobeam::scheme::Scheme;
 
@@ -50,7 +51,7 @@ struct Claim {
 /// A study of rates without exact solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SelfConvergence {
-    header: StudyHeader,
+    header: Header,
     scene: Scene,
     axis: Axis,
     /// Elements of each run, the reference last.
@@ -201,7 +202,7 @@ impl SelfConvergence {
 }
 
 impl Study for SelfConvergence {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

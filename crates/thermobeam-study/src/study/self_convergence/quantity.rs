@@ -1,8 +1,8 @@
 //! What is compared between two runs of different resolution.
 
-use crate::case::Measured;
-use crate::number::max_or_nan;
+use crate::study::untyped::Measured;
 use crate::study_file::Axis;
+use convergence_study::text::number::max_or_nan;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 

@@ -1,8 +1,9 @@
 //! The boundary of the fixed point on a line of constant second parameter, by bisection in dt.
 
 use super::measure::{axial_force, factors, fixed_point};
-use crate::case::{CaseFailure, Measured};
-use crate::time_limit::Patience;
+use crate::study::untyped::Measured;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
 use thermobeam::simulation::Problem;
 
 /// Halvings of the logarithm of dt: to a ten-thousandth of a range of seven decades.

@@ -2,9 +2,9 @@
 
 use super::measure::{ALPHA, CONTRACTION, FAILED, ITERATIONS_OF_FIXED_POINT, ITERATIONS_OF_NEWTON, REFUSED, RESIDUAL};
 use super::{Parameter, Stability};
-use crate::case::Measured;
-use crate::outcome::Figure;
-use crate::plots::{self, Axis, ParameterMap, Series, Surface};
+use crate::study::untyped::Measured;
+use convergence_study::plots::{self, Axis, ParameterMap, Series, Surface};
+use convergence_study::study::outcome::Figure;
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
 

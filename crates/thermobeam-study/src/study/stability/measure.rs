@@ -1,8 +1,9 @@
 //! One row of a map: all its time steps, Newton's method in lanes.
 
-use crate::case::{CaseFailure, Measured};
+use crate::study::untyped::Measured;
 use crate::study::watch::{SOLVED, Watch};
-use crate::time_limit::Patience;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::{StepError, StepFailure};

@@ -37,11 +37,12 @@ mod measure;
 mod report;
 mod spec;
 
-use crate::case::{Case, CaseFailure, Measured};
-use crate::document::{self, InputError};
-use crate::outcome::Outcome;
+use crate::study::untyped::{Case, Measured};
 use crate::study::{FromFile, Study};
-use crate::study_file::StudyHeader;
+use crate::study_file::Header;
+use convergence_study::input::{self, InputError};
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::Outcome;
 use std::path::Path;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -60,7 +61,7 @@ const SPEED: f64 = 0.1;
 /// A study of this kind.
 #[derive(Debug, Clone)]
 pub struct Stability {
-    header: StudyHeader,
+    header: Header,
     over: Parameter,
     dt: [f64; 2],
     range: [f64; 2],
@@ -107,7 +108,7 @@ fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
 
 impl FromFile for Stability {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| spec::from_document(root))
+        input::parse_beside(text, file, |root, _| spec::from_document(root))
     }
 }
 
@@ -142,7 +143,7 @@ impl Stability {
 }
 
 impl Study for Stability {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

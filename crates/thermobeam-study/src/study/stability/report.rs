@@ -2,12 +2,13 @@
 
 use super::measure::{ALPHA, FAILED, GAMMA, ITERATIONS_OF_NEWTON, REFUSED};
 use super::{Parameter, Stability, figures};
-use crate::case::{CaseFailure, Measured};
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Outcome, Quantity, Table};
 use crate::study::Study;
 use crate::study::complete::{all_ran, or_nothing};
+use crate::study::untyped::Measured;
 use crate::study::watch::of_allowed;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Outcome, Quantity, Table};
+use convergence_study::text::number::max_or_nan;
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
 

@@ -1,10 +1,10 @@
 //! The table `[stability]`.
 
 use super::{KIND, Parameter, Stability};
-use crate::document::{Field, InputError, Section};
 use crate::limits;
 use crate::shared_tables as tables;
-use crate::study_file::header;
+use crate::study_file::Header;
+use convergence_study::input::{Field, InputError, Section};
 
 const KEYS: [&str; 8] = ["over", "dt", "range", "points", "lines", "elements", "steps", "agreement"];
 
@@ -28,7 +28,7 @@ pub(super) fn from_document(root: &Section<'_>) -> Result<Stability, InputError>
         items.iter().try_for_each(|item| finest(item, item.number()?))?;
     }
     Ok(Stability {
-        header: header(root)?,
+        header: Header::from_document(root)?,
         over,
         dt: interval(&section.require("dt", "a range")?, false)?,
         range: interval(&range, over.is_linear())?,

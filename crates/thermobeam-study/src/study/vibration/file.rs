@@ -1,11 +1,12 @@
 //! The file of a vibration study: modes, what is refined, orders.
 
 use super::Vibration;
-use crate::document::{self, Field, InputError, Section};
 use crate::limits;
 use crate::shared_tables as tables;
 use crate::study::FromFile;
-use crate::study_file::{Axis, Refine, control, expectations, header, refine};
+use crate::study_file::{Axis, Refine, control, expectations, refine};
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::study::Header;
 use std::path::Path;
 use thermobeam::parameters::Beam;
 
@@ -29,7 +30,7 @@ pub(super) struct Cooling {
 
 impl FromFile for Vibration {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, |root, _| Self::from_document(root))
+        input::parse_beside(text, file, |root, _| Self::from_document(root))
     }
 }
 
@@ -42,7 +43,15 @@ impl Vibration {
         let modes = modes(root, &refine)?;
         let heat = heat(root, &refine)?;
         let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
-        Ok(Self { header: header(root)?, beam, solver, modes, heat, refine, expect: expectations(root)? })
+        Ok(Self {
+            header: Header::from_document(root)?,
+            beam,
+            solver,
+            modes,
+            heat,
+            refine,
+            expect: expectations(root)?,
+        })
     }
 }
 

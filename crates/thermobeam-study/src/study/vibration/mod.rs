@@ -11,14 +11,17 @@ mod modes;
 mod motion;
 
 use super::Study;
+use super::convergence::resolution;
 use super::ladder::{self, Family, Ladder};
-use crate::case::{Case, CaseFailure, Measured};
-use crate::number::max_or_nan;
-use crate::outcome::{Check, Figure, LevelErrors, Outcome, Table};
-use crate::plots::{self, Axis as PlotAxis, History, Series};
-use crate::study_file::{Axis, Expectation, Norm, Refine, StudyHeader};
-use crate::time_limit::Patience;
+use crate::patience::StepPatience;
+use crate::study::untyped::{Case, Measured};
+use crate::study_file::{Axis, Expectation, Header, Norm, Refine};
 use clock::{Clock, Levels};
+use convergence_study::plots::{self, Axis as PlotAxis, History, Series};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{Check, Figure, LevelErrors, Outcome, Table};
+use convergence_study::text::number::max_or_nan;
 use file::{Cooling, Vibrating};
 use motion::{Motion, Shape};
 use thermobeam::mesh::Mesh;
@@ -36,7 +39,7 @@ const CLOSED_FORM: f64 = 1e-12;
 /// A study of exact vibrations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration {
-    header: StudyHeader,
+    header: Header,
     /// The beam whose modes are exact.
     beam: Beam,
     /// The beam that the solver is given: another one in a negative control.
@@ -133,7 +136,7 @@ impl Vibration {
     fn levels(&self, results: &[Result<Measured, CaseFailure>]) -> Vec<LevelErrors> {
         let level = |(i, (elements, steps)): (usize, (usize, usize))| {
             let errors = Norm::ALL.map(|norm| (norm.name().to_owned(), ladder::value(results, i, norm.name())));
-            LevelErrors { elements, steps, errors: errors.into() }
+            LevelErrors { parameters: resolution(elements, steps), errors: errors.into() }
         };
         self.refine.cases().into_iter().enumerate().map(level).collect()
     }
@@ -199,7 +202,7 @@ impl Vibration {
 }
 
 impl Study for Vibration {
-    fn header(&self) -> &StudyHeader {
+    fn header(&self) -> &Header {
         &self.header
     }
 

@@ -2,14 +2,15 @@
 
 use super::method::{METHODS, Method};
 use super::{Advantage, WORK_PRECISION, WorkPrecision};
-use crate::document::{self, InputError, Section};
 use crate::free_vibration;
 use crate::limits;
 use crate::march::Family;
 use crate::scene::Scene;
 use crate::study::FromFile;
-use crate::study_file::{ConvergenceSpec, header};
+use crate::study_file::ConvergenceSpec;
 use crate::yardstick::Quantity;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::study::Header;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -22,7 +23,7 @@ const POSITIVE: &str = "a finite number > 0";
 
 impl FromFile for WorkPrecision {
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        document::parse_beside(text, file, Self::from_document)
+        input::parse_beside(text, file, Self::from_document)
     }
 }
 
@@ -42,7 +43,7 @@ impl WorkPrecision {
         };
         let (family, reference) = problem(&section, folder, &elements, &steps)?;
         Ok(Self {
-            header: header(root)?,
+            header: Header::from_document(root)?,
             family,
             reference,
             computed: OnceLock::new(),

@@ -8,7 +8,7 @@
 //!
 //! and costs `T/(h dt) = K E^-(1/p + 1/q)`.
 
-use crate::fit::{self, Quantiles, SurfacePoint, fit_line, fit_surface};
+use convergence_study::judge::fit::{self, Quantiles, SurfacePoint, fit_line, fit_surface};
 
 /// The errors of one method in one quantity: rates, constants and the cost that follows.
 #[derive(Debug, Clone, PartialEq)]

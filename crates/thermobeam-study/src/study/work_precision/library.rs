@@ -10,11 +10,11 @@
 //! elements times evaluations, each with three solves with M.
 
 use super::{Timed, WorkPrecision};
-use crate::case::CaseFailure;
 use crate::exact::factors::Factors;
 use crate::march::{OnMesh, Spent};
 use crate::study::work_precision::method::Measurement;
 use crate::yardstick::Yardstick;
+use convergence_study::study::CaseFailure;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use std::time::Instant;

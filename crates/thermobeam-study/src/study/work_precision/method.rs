@@ -1,8 +1,8 @@
 //! The methods compared, and one run of each.
 
-use crate::case::CaseFailure;
 use crate::march::{OnMesh, Spent};
 use crate::yardstick::{Yardstick, combine};
+use convergence_study::study::CaseFailure;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};
 

@@ -3,12 +3,13 @@
 use super::law::{GridPoint, Law, front};
 use super::method::{METHODS, Method};
 use super::{Advantage, WorkPrecision};
-use crate::case::{CaseFailure, Measured};
-use crate::fit::Quantiles;
-use crate::outcome::{self, Check, Figure, Outcome, Table};
-use crate::plots;
 use crate::study::Study;
+use crate::study::untyped::Measured;
 use crate::yardstick::Quantity;
+use convergence_study::judge::fit::Quantiles;
+use convergence_study::plots;
+use convergence_study::study::CaseFailure;
+use convergence_study::study::outcome::{self, Check, Figure, Outcome, Table};
 
 /// Errors whose cost is told.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];

@@ -3,10 +3,10 @@
 use super::law::front;
 use super::method::Measurement;
 use super::{CaseFailure, WorkPrecision};
-use crate::outcome::Table;
-use crate::plots;
 use crate::study::Study;
 use crate::yardstick::Quantity;
+use convergence_study::plots;
+use convergence_study::study::outcome::Table;
 
 /// Errors whose cost is told, where there is a run as good.
 const TARGETS: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];

@@ -1,0 +1,70 @@
+//! How a command ends: the exit status is part of the interface.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::ExitCode;
+
+use crate::cli::output;
+
+/// For the end of `--help`.
+pub const HELP: &str =
+    "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
+
+/// How a command with usable input ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// Exit status 0.
+    Well,
+    /// Exit status 1; what failed has been said.
+    Badly,
+}
+
+/// Input that cannot be read or makes no sense, or a place that cannot be written to: exit status 2.
+#[derive(Debug)]
+pub struct Unusable(String);
+
+impl Unusable {
+    /// An error that does not name the file it is about.
+    pub fn file(path: &Path, error: &dyn Error) -> Self {
+        Self(format!("{}: {error}", path.display()))
+    }
+
+    /// Something that is wrong with the arguments.
+    pub fn because(reason: &str) -> Self {
+        Self(reason.to_owned())
+    }
+}
+
+impl Unusable {
+    /// What is unusable, in words.
+    pub fn message(&self) -> &str {
+        &self.0
+    }
+}
+
+impl From<crate::judge::verdict::Verdict> for Ended {
+    fn from(verdict: crate::judge::verdict::Verdict) -> Self {
+        if verdict == crate::judge::verdict::Verdict::Pass { Self::Well } else { Self::Badly }
+    }
+}
+
+impl<E: Error> From<E> for Unusable {
+    fn from(error: E) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// What a command returns.
+pub type Outcome = Result<Ended, Unusable>;
+
+/// Says what is unusable, and turns the outcome into the exit status.
+pub fn code(outcome: Outcome) -> ExitCode {
+    match outcome {
+        Ok(Ended::Well) => ExitCode::SUCCESS,
+        Ok(Ended::Badly) => ExitCode::from(1),
+        Err(Unusable(message)) => {
+            output::complain(&message);
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! `explain NAME`: what a study, a term, a reason for a verdict or a kind of study means.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::exit::{Ended, Outcome, Unusable};
+use super::{output, workspace};
+use crate::explain;
+use crate::project::Project;
+use crate::study::StudyFile;
+
+/// Tell in words what a study claims, why it should hold, how it is judged, and what a failure would mean
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A study's id or file; or a norm (superclose), a reason for a verdict (too-low), a kind of study (energy). Without it:
+    /// all that can be explained
+    #[arg(value_name = "ID")]
+    name: Option<String>,
+    /// The folder with the studies [default: studies/ of the workspace]
+    #[arg(long, value_name = "DIR")]
+    dir: Option<PathBuf>,
+}
+
+/// Prints the explanation.
+///
+/// # Errors
+/// A name that nothing has, and a study file that cannot be used.
+pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let Some(name) = arguments.name.as_deref() else {
+        output::print(&contents(project))?;
+        return Ok(Ended::Well);
+    };
+    // Terms, reasons and files can be explained outside a workspace.
+    let studies = || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
+    let folder = arguments.dir.clone().unwrap_or_else(studies);
+    let text = match explain::term(project, name) {
+        Some(text) => text,
+        None if name.ends_with(".toml") => of_study(project, &StudyFile::read(project.kinds, Path::new(name))?),
+        None => {
+            let files = workspace::readable_studies(project, &folder);
+            let named = files.iter().find(|file| file.study.header().id == name);
+            named.map(|file| of_study(project, file)).ok_or_else(|| {
+                let ids = files.iter().map(|file| file.study.header().id.as_str());
+                let meant = explain::meant(project, ids, name);
+                Unusable::because(&unknown(project, name, &folder, meant))
+            })?
+        }
+    };
+    output::print(&text)?;
+    Ok(Ended::Well)
+}
+
+/// A file that was read has a kind that the project knows.
+fn of_study(project: &Project, file: &StudyFile) -> String {
+    explain::study(project, file.study.as_ref()).unwrap_or_default()
+}
+
+fn contents(project: &Project) -> String {
+    format!("{}\nstudies, by id or file\n  see `{} list`\n", explain::contents(project), project.command)
+}
+
+fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) -> String {
+    let hint = meant.map_or_else(
+        || format!("`{} explain` lists all that can be explained", project.command),
+        |meant| format!("did you mean {meant}?"),
+    );
+    format!("found no study, term, reason or kind `{name}` in {}; {hint}", folder.display())
+}

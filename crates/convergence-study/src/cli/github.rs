@@ -1,0 +1,56 @@
+//! What GitHub Actions shows of a run: a page and annotations. Elsewhere nothing happens.
+
+use std::env;
+use std::fs::File;
+use std::io::Write;
+
+use crate::judge::verdict::Verdict;
+use crate::report::Findings;
+
+use crate::cli::output;
+
+/// Appends the table to the page of the job and marks what did not pass.
+///
+/// A page that cannot be written is reported on standard error; it does not change the verdict.
+pub fn announce(findings: &Findings<'_>) {
+    if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
+        let file = File::options().append(true).create(true).open(&page);
+        if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {
+            output::complain(&format!("GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}", page.display()));
+        }
+    }
+    if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
+        // A reader that has left needs no annotations.
+        let _ = output::print(&annotations(findings));
+    }
+}
+
+fn annotations(findings: &Findings<'_>) -> String {
+    let bad = findings.finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
+    let studies = bad.map(|finished| {
+        let outcome = &finished.outcome;
+        annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &outcome.summary)
+    });
+    studies.chain(findings.changes.iter().map(|change| annotation("baseline", &change.to_string()))).collect()
+}
+
+fn annotation(title: &str, message: &str) -> String {
+    let title = escaped(title).replace(':', "%3A").replace(',', "%2C");
+    format!("::error title={title}::{}\n", escaped(message))
+}
+
+/// One line, in the runner's own encoding.
+fn escaped(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::annotation;
+
+    #[test]
+    fn an_annotation_stays_on_its_line() {
+        let line = annotation("a: fail, so", "50 %\n::warning::x");
+        assert_eq!(line, "::error title=a%3A fail%2C so::50 %25%0A::warning::x\n");
+    }
+}

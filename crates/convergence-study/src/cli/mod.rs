@@ -1,0 +1,90 @@
+//! The command line: `verify`, `study`, `list`, `rates`, `explain`, `completions`, for any project.
+//!
+//! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
+//! `#[command(flatten)]`. Results go to standard output, everything else to standard error. Exit status: [`exit::HELP`].
+
+pub mod completions;
+pub mod exit;
+pub mod explain;
+pub mod github;
+mod help;
+pub mod history;
+pub mod interrupt;
+pub mod list;
+pub mod moved;
+pub mod output;
+pub mod progress;
+pub mod rates;
+pub mod running;
+pub mod screen;
+pub mod selection;
+pub mod study;
+pub mod verify;
+pub mod workspace;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::project::Project;
+pub use help::grouped;
+
+/// The commands of the harness.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// `verify`
+    Verify(verify::Arguments),
+    /// `study`
+    Study(study::Arguments),
+    /// `list`
+    List(list::Arguments),
+    /// `explain`
+    Explain(explain::Arguments),
+    /// `rates`
+    Rates(rates::Arguments),
+    /// `completions`
+    Completions(completions::Arguments),
+}
+
+/// The names of [`Command`] in the order of `--help`.
+pub const COMMANDS: [&str; 6] = ["verify", "study", "list", "explain", "rates", "completions"];
+
+impl Command {
+    /// Runs the command for a project; `program` is the whole command line, for completions.
+    ///
+    /// # Errors
+    /// [`exit::Unusable`]: exit status 2.
+    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+        match self {
+            Self::Verify(arguments) => verify::run(project, arguments),
+            Self::Study(arguments) => study::run(project, arguments),
+            Self::List(arguments) => list::run(project, arguments),
+            Self::Explain(arguments) => explain::run(project, arguments),
+            Self::Rates(arguments) => rates::run(arguments),
+            Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
+        }
+    }
+}
+
+/// The program that a shell completes: `cargo` cannot complete its aliases, so `xtask` of `cargo xtask`.
+fn program_name(project: &Project) -> String {
+    project.command.rsplit(' ').next().unwrap_or(project.command).to_owned()
+}
+
+#[derive(Debug, Parser)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The whole `main` of a project that adds no commands of its own.
+pub fn main(project: &Project) -> ExitCode {
+    let program = || {
+        let command = Program::command().name(project.command).bin_name(project.command).about(project.about);
+        grouped(command.version(env!("CARGO_PKG_VERSION")), &[("Commands", &COMMANDS)])
+    };
+    let parsed = Program::from_arg_matches(&program().get_matches());
+    let Program { command } = parsed.unwrap_or_else(|error| error.exit());
+    interrupt::listen();
+    exit::code(command.run(project, program()))
+}

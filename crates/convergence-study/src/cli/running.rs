@@ -1,0 +1,72 @@
+//! Studies on their way: the bar, what an interruption says, the limits on threads and time.
+
+use std::num::NonZeroUsize;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use crate::run::{Effort, Progress};
+use crate::study::Study;
+
+use crate::cli::interrupt;
+use crate::cli::progress::Bar;
+use crate::cli::screen;
+
+/// Threads and time, as the commands that run studies take them.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct Limits {
+    /// Number of threads [default: all of the machine]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    case_limit: Option<Duration>,
+}
+
+/// A limit on time, as it is given on the command line.
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
+    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("allowed is a number > 0".to_owned())
+}
+
+impl Limits {
+    /// With what the machine has where nothing is said.
+    pub fn effort(self) -> Effort {
+        Effort { jobs: screen::jobs(self.jobs), case_limit: self.case_limit }
+    }
+}
+
+/// Shows how far a run is, and has it said when the run is interrupted.
+pub struct Watched {
+    bar: Bar,
+    ids: Vec<String>,
+    done: Arc<Mutex<Vec<String>>>,
+}
+
+impl Watched {
+    /// For these studies; `bar`: whether a progress bar is wanted.
+    pub fn new(studies: &[Box<dyn Study>], bar: bool) -> Self {
+        let ids: Vec<String> = studies.iter().map(|study| study.header().id.clone()).collect();
+        let done = Arc::new(Mutex::new(vec![]));
+        let (told, count) = (Arc::clone(&done), ids.len());
+        interrupt::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
+        Self { bar: Bar::new(bar), ids, done }
+    }
+
+    /// Takes in that a case has ended.
+    pub fn show(&self, progress: Progress) {
+        if let Some(id) = progress.ended.and_then(|study| self.ids.get(study)) {
+            self.done.lock().unwrap_or_else(PoisonError::into_inner).push(id.clone());
+        }
+        self.bar.show(progress);
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        self.bar.clear();
+    }
+}
+
+fn sentence(done: &[String], count: usize) -> String {
+    let names = if done.is_empty() { String::new() } else { format!(": {}", done.join(", ")) };
+    format!("{} of {count} studies had run{names}", done.len())
+}

@@ -1,0 +1,109 @@
+//! `verify`: the main job.
+
+use std::path::Path;
+
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::report::{can_be_blessed, key_numbers, sentence};
+use crate::run::Finished;
+use crate::study::{Study, StudyFile, Tier};
+use crate::verify::{self, Request, Scope, Verification};
+
+use super::exit::Outcome;
+use crate::cli::running::{Limits, Watched};
+use crate::cli::screen;
+use crate::cli::workspace;
+use crate::cli::{github, moved, output, selection};
+
+/// Run the studies in `studies/` and write `reports/`
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Tier of studies; full holds quick
+    #[arg(long, value_parser = selection::tier_parser(), default_value = "quick")]
+    tier: Tier,
+    #[command(flatten)]
+    limits: Limits,
+    /// Take the new numbers for the baseline; refused where a study does not pass
+    #[arg(long)]
+    bless: bool,
+    /// No progress bar, and of the table only what does not pass
+    #[arg(long)]
+    quiet: bool,
+    /// Every number that is not what it was, not only the worst of each study
+    #[arg(long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// Ids or patterns of studies; their reports go to reports/local/partial/
+    #[arg(value_name = "ID")]
+    ids: Vec<String>,
+}
+
+/// Runs the studies, writes the reports, prints the table.
+///
+/// # Errors
+/// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
+pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let root = workspace::root()?;
+    let all = workspace::studies(project, &root)?;
+    let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
+    let list = format!("{} list", project.command);
+    let meant = selection::select(&headers, arguments.tier, &arguments.ids, &list)?;
+    let scope = scope(arguments, &all);
+    let studies: Vec<Box<dyn Study>> =
+        all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
+
+    let request = Request { scope, effort: arguments.limits.effort(), bless: arguments.bless, root };
+    let watched = Watched::new(&studies, !arguments.quiet);
+    let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
+    watched.clear();
+    let verification = verification?;
+    output::print(&text(project, &verification, &request, arguments))?;
+    github::announce(&verification.findings(project, &request.scope, &request.scope.command(project)));
+    Ok(verification.verdict.into())
+}
+
+fn scope(arguments: &Arguments, all: &[StudyFile]) -> Scope {
+    if arguments.ids.is_empty() {
+        Scope::Tier(arguments.tier, all.iter().map(|file| file.study.header().id.clone()).collect())
+    } else {
+        Scope::Selection(arguments.ids.clone())
+    }
+}
+
+/// The table, what moved, what became of the blessing, where the reports are, and the verdict last.
+fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
+    let quiet = arguments.quiet;
+    let shown = found.finished.iter().filter(|finished| !quiet || finished.outcome.verdict != Verdict::Pass);
+    let rows: Vec<Vec<String>> = shown.map(row).collect();
+    let mut text = String::new();
+    if !rows.is_empty() {
+        text += &screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
+        text += "\n";
+    }
+    text += &moved::lines(&found.changes, arguments.verbose);
+    match &found.blessing {
+        Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
+        Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
+        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
+            text += &format!("if that is meant: {} --bless\n", request.scope.command(project));
+        }
+        None => {}
+    }
+    if !quiet {
+        let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
+        text += &format!("report: {page}, {readme}\n");
+        if matches!(request.scope, Scope::Selection(_)) {
+            text += "a selection leaves the committed report as it is\n";
+        }
+    }
+    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, &found.changes))
+}
+
+fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
+    let seconds = format!("{:.2}", spent.busy.as_secs_f64());
+    vec![header.id.clone(), outcome.verdict.to_string(), seconds, key_numbers(outcome)]
+}
+
+/// A path as seen from the workspace.
+fn below(path: &Path, root: &Path) -> String {
+    path.strip_prefix(root).unwrap_or(path).display().to_string()
+}

@@ -1,0 +1,102 @@
+//! The one error of everything that reads files.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::text::names::did_you_mean;
+
+/// A place in a text file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+/// An input file that cannot be used: where, which field, what was found and what is allowed.
+///
+/// Shown as one line `file:line:column: field: complaint`; a function adds two lines, with a caret below the place.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub struct InputError {
+    /// The file, as it was given.
+    pub file: String,
+    /// The place; `None` where the file could not be read at all.
+    pub place: Option<Place>,
+    /// The field by its dotted name, such as `beam.zeta`; `None` where the whole file is meant.
+    pub field: Option<String>,
+    /// What is wrong.
+    pub complaint: Box<Complaint>,
+}
+
+/// What is wrong with an input file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Complaint {
+    /// The file cannot be read.
+    #[error("cannot be read: {reason}")]
+    Unreadable {
+        /// The operating system's reason.
+        reason: String,
+    },
+    /// The file is too large to be a scene or a study.
+    #[error("found more than {allowed} bytes; allowed is a file of at most {allowed} bytes")]
+    TooLarge {
+        /// Bytes allowed.
+        allowed: u64,
+    },
+    /// The file is not TOML.
+    #[error("not valid TOML: {reason}")]
+    Malformed {
+        /// The parser's reason.
+        reason: String,
+    },
+    /// A key that nobody reads.
+    #[error("unknown key `{found}`{}; allowed is {allowed}", did_you_mean(.suggestion))]
+    UnknownKey {
+        /// The key.
+        found: String,
+        /// A known key that is a typing error away.
+        suggestion: Option<String>,
+        /// The keys known here.
+        allowed: String,
+    },
+    /// A key that has no default is not there.
+    #[error("missing; allowed is {allowed}")]
+    Missing {
+        /// What would have to be there, in words.
+        allowed: String,
+    },
+    /// A value of the wrong type, out of range, or in conflict with another.
+    #[error("found {found}; allowed is {allowed}")]
+    NotAllowed {
+        /// The value, as written or in words.
+        found: String,
+        /// The values allowed, in words.
+        allowed: String,
+    },
+    /// A text that its reader refuses.
+    #[error("{reason}")]
+    Invalid {
+        /// The reader's words.
+        reason: String,
+    },
+}
+
+/// A name as it can be shown: a file may name anything, and a terminal obeys control characters.
+pub fn visible(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&visible(&self.file))?;
+        if let Some(Place { line, column }) = self.place {
+            write!(f, ":{line}:{column}")?;
+        }
+        if let Some(field) = &self.field {
+            write!(f, ": {}", visible(field))?;
+        }
+        write!(f, ": {}", self.complaint)
+    }
+}

@@ -1,0 +1,120 @@
+//! TOML files whose every complaint names file, line, field, what was found and what is allowed.
+//!
+//! A thin layer over the spanned values of the `toml` crate: a `Section` is a table that knows where it stands, a
+//! `Field` a value that does. Readers ask them for what they need and never build a message's position by hand.
+
+mod error;
+mod field;
+mod section;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+pub mod error_table;
+
+pub use error::{Complaint, InputError, Place, visible};
+pub use field::{Field, Misread, shorten};
+pub use section::Section;
+
+/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
+const FILE_BYTES: u64 = 10_000_000;
+
+/// A text and the name of the file that it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Source<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    /// Line and column, from 1, of a byte of the text.
+    pub fn place(&self, offset: usize) -> Place {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let before = &self.text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Place { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
+    }
+}
+
+/// The whole text of a file.
+pub fn read_text(path: &Path) -> Result<String, InputError> {
+    let file = path.display().to_string();
+    let fail = |complaint| InputError { file: file.clone(), place: None, field: None, complaint: Box::new(complaint) };
+    let unreadable = |error: std::io::Error| fail(Complaint::Unreadable { reason: error.to_string() });
+    let mut bytes = Vec::new();
+    // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
+    File::open(path).and_then(|f| f.take(FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > FILE_BYTES {
+        return Err(fail(Complaint::TooLarge { allowed: FILE_BYTES }));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
+        let place = Source { file: &file, text: &text }.place(valid);
+        let found = format!("the byte 0x{:02x}", error.as_bytes()[valid]);
+        InputError { place: Some(place), ..fail(Complaint::NotAllowed { found, allowed: "UTF-8 text".to_owned() }) }
+    })
+}
+
+/// Parses `text` and hands its topmost table to `read`.
+pub fn parse<T>(
+    text: &str,
+    file: &str,
+    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let source = Source { file, text };
+    let root = table(source, text)?;
+    read(&Section::root(source, &root))
+}
+
+/// As [`parse`]; `read` is also handed the folder of the file, which its own file names are relative to.
+pub fn parse_beside<T>(
+    text: &str,
+    file: &Path,
+    read: impl FnOnce(&Section<'_>, &Path) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    parse(text, &file.display().to_string(), |root| read(root, folder))
+}
+
+/// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.
+///
+/// Places in complaints are those in `text`, a newline and `overlay`, one after the other.
+pub fn parse_overlaid<T>(
+    text: &str,
+    overlay: &str,
+    file: &str,
+    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let whole = format!("{text}\n{overlay}");
+    let source = Source { file, text: &whole };
+    // Behind as much blank space as the text is long, values have the places that they have in the whole.
+    let shifted = " ".repeat(text.len() + 1) + overlay;
+    let mut root = table(source, text)?;
+    for (key, value) in table(source, &shifted)? {
+        let below = root.get_mut(&key).map(Spanned::get_mut);
+        match (below, value.get_ref()) {
+            (Some(DeValue::Table(below)), DeValue::Table(above)) => below.extend(above.clone()),
+            _ => drop(root.insert(key, value)),
+        }
+    }
+    read(&Section::root(source, &root))
+}
+
+/// The topmost table of `text`, whose places are those of `source`.
+fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
+    // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
+    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| InputError {
+        file: source.file.to_owned(),
+        place: Some(source.place(error.span().map_or(text.len(), |span| span.start))),
+        field: None,
+        complaint: Box::new(Complaint::Malformed { reason: error.message().to_owned() }),
+    })
+}

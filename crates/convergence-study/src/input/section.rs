@@ -1,0 +1,99 @@
+//! A table that knows where it stands.
+
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+use super::error::{Complaint, InputError};
+use super::{Field, Source};
+use crate::text::names::nearest;
+
+/// A table of the document, with its dotted name.
+#[derive(Debug, Clone)]
+pub struct Section<'a> {
+    source: Source<'a>,
+    table: &'a DeTable<'a>,
+    /// Empty for the document itself.
+    path: String,
+    span: Range<usize>,
+}
+
+impl<'a> Section<'a> {
+    pub(super) fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+        Self { source, table, path: String::new(), span: 0..0 }
+    }
+
+    pub(super) fn new(source: Source<'a>, table: &'a DeTable<'a>, path: String, span: Range<usize>) -> Self {
+        Self { source, table, path, span }
+    }
+
+    /// The whole text of the document.
+    pub fn text(&self) -> &'a str {
+        self.source.text
+    }
+
+    /// The name of the document's file, as messages have it.
+    pub fn file(&self) -> &'a str {
+        self.source.file
+    }
+
+    /// Refuses every key but these.
+    pub fn allow(&self, keys: &[&str]) -> Result<(), InputError> {
+        let unknown = self.table.keys().filter(|key| !keys.contains(&key.get_ref().as_ref()));
+        // The table is sorted by name; a reader starts at the top of the file.
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let found = key.get_ref().as_ref();
+        Err(InputError {
+            file: self.source.file.to_owned(),
+            place: Some(self.source.place(key.span().start)),
+            field: Some(self.name_of(&super::field::shorten(found))),
+            complaint: Box::new(Complaint::UnknownKey {
+                found: super::field::shorten(found),
+                suggestion: nearest(found, keys.iter().copied()).map(str::to_owned),
+                allowed: keys.join(", "),
+            }),
+        })
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<Field<'a>> {
+        let value = self.table.get(key)?;
+        Some(Field::new(self.source, value.get_ref(), self.name_of(key), value.span()))
+    }
+
+    /// The value of a key that has no default; `allowed` says what would have to be there.
+    pub fn require(&self, key: &str, allowed: &str) -> Result<Field<'a>, InputError> {
+        self.get(key).ok_or_else(|| self.missing(key, allowed))
+    }
+
+    /// The complaint about a key that is not there.
+    pub fn missing(&self, key: &str, allowed: &str) -> InputError {
+        self.complain(key, Complaint::Missing { allowed: allowed.to_owned() })
+    }
+
+    /// A complaint about a key: at its value, or at the head of the table where the key is not there.
+    pub fn refuse(&self, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
+        match self.get(key) {
+            Some(field) => field.refuse(found, allowed),
+            None => self.complain(key, Complaint::NotAllowed { found: found.into(), allowed: allowed.into() }),
+        }
+    }
+
+    /// The table of that name; `None` if it is not there.
+    pub fn section(&self, key: &str) -> Result<Option<Section<'a>>, InputError> {
+        self.get(key).map(|field| field.section()).transpose()
+    }
+
+    fn name_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    fn complain(&self, key: &str, complaint: Complaint) -> InputError {
+        InputError {
+            file: self.source.file.to_owned(),
+            place: Some(self.source.place(self.span.start)),
+            field: Some(self.name_of(key)),
+            complaint: Box::new(complaint),
+        }
+    }
+}

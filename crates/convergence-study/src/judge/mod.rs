@@ -1,0 +1,6 @@
+//! From steps and errors to a rate with an interval, and from a rate and a claim to a verdict.
+
+pub mod calibration;
+pub mod fit;
+pub mod random;
+pub mod verdict;

@@ -1,0 +1,178 @@
+//! What the judge says: a verdict, its reason, and the numbers that it rests on.
+
+use std::{fmt, ops::Range};
+
+use crate::judge::fit::{Level, pairwise_rates};
+
+/// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Verdict {
+    /// The claim holds.
+    Pass,
+    /// The data cannot tell. Not a pass.
+    Inconclusive,
+    /// The claim does not hold.
+    Fail,
+}
+
+impl Verdict {
+    /// The worst of several. None at all is inconclusive: checking nothing proves nothing.
+    pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        verdicts.into_iter().max().unwrap_or(Self::Inconclusive)
+    }
+
+    /// `pass`, `fail` or `inconclusive`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Inconclusive => "inconclusive",
+            Self::Fail => "fail",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Why a verdict is what it is; each reason has one verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Reason {
+    /// The whole interval lies in the band about the order.
+    Agrees,
+    /// An error is NaN or infinite.
+    NonFiniteError,
+    /// An error is negative, which no norm can be.
+    NegativeError,
+    /// The error does not fall on the finest refinement above the round-off floor.
+    ErrorGrows,
+    /// The rates fall away from the order on the finest refinements.
+    FallsAway,
+    /// The whole interval lies below the band.
+    TooLow,
+    /// The whole interval lies above the band: as suspicious as below.
+    TooHigh,
+    /// An error is exactly zero.
+    ZeroError,
+    /// The steps are not positive, finite and decreasing.
+    StepsNotDecreasing,
+    /// The order or the tolerance is not a positive number.
+    ClaimUnusable,
+    /// The tolerance accepts neighbouring orders.
+    ToleranceTooWide,
+    /// Fewer levels than a rate needs.
+    TooFewLevels,
+    /// The rates are still changing, or move away.
+    NotAsymptotic,
+    /// Too few levels are left above the round-off floor.
+    RoundOffFloor,
+    /// A pairwise rate that belongs to no convergent family of this order.
+    WildRate,
+    /// The interval is wider than the band and overlaps it.
+    IntervalTooWide,
+    /// The interval is narrow enough, but holds an end of the band.
+    AtTheEdge,
+}
+
+impl Reason {
+    /// The verdict that goes with this reason.
+    pub fn verdict(self) -> Verdict {
+        match self {
+            Self::Agrees => Verdict::Pass,
+            Self::NonFiniteError
+            | Self::NegativeError
+            | Self::ErrorGrows
+            | Self::FallsAway
+            | Self::TooLow
+            | Self::TooHigh => Verdict::Fail,
+            _ => Verdict::Inconclusive,
+        }
+    }
+
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Agrees => "the rate agrees with the order",
+            Self::NonFiniteError => "an error is NaN or infinite",
+            Self::NegativeError => "an error is negative",
+            Self::ErrorGrows => "the error does not fall on the finest refinement",
+            Self::FallsAway => "the rates fall away from the order",
+            Self::TooLow => "the rate is too low",
+            Self::TooHigh => "the rate is too high",
+            Self::ZeroError => "an error of exactly zero carries no rate",
+            Self::StepsNotDecreasing => "the step sizes are not positive and decreasing",
+            Self::ClaimUnusable => "the order and the tolerance must be positive numbers",
+            Self::ToleranceTooWide => "the tolerance is too wide to tell anything",
+            Self::TooFewLevels => "too few levels",
+            Self::NotAsymptotic => "not yet asymptotic",
+            Self::RoundOffFloor => "at the round-off floor",
+            Self::WildRate => "a pairwise rate is wild",
+            Self::IntervalTooWide => "the interval is too wide for the tolerance",
+            Self::AtTheEdge => "the interval crosses the edge of the tolerance",
+        }
+    }
+}
+
+/// The judgement of one sequence of errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RateVerdict {
+    /// What theory claims.
+    pub order: f64,
+    /// Half-width of the band about the order.
+    pub tolerance: f64,
+    /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept.
+    pub pairwise: Vec<f64>,
+    /// The rate at h → 0 by the best-fitting candidate of [`rate_interval`](crate::judge::fit::rate_interval).
+    pub fitted: Option<f64>,
+    /// The interval that was judged; it holds `fitted`.
+    pub interval: Option<[f64; 2]>,
+    /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
+    pub extrapolated: Option<f64>,
+    /// Indices of the levels that the fit used; empty when there was none.
+    pub used: Range<usize>,
+    /// The outcome.
+    pub verdict: Verdict,
+    /// The reason by name.
+    pub kind: Reason,
+    /// The reason in words, with its numbers.
+    pub reason: String,
+}
+
+impl RateVerdict {
+    /// Nothing fitted, nothing decided.
+    pub(super) fn blank(levels: &[Level], order: f64, tolerance: f64) -> Self {
+        Self {
+            order,
+            tolerance,
+            pairwise: pairwise_rates(levels),
+            fitted: None,
+            interval: None,
+            extrapolated: None,
+            used: 0..0,
+            verdict: Verdict::Inconclusive,
+            kind: Reason::TooFewLevels,
+            reason: String::new(),
+        }
+    }
+
+    /// Settles the verdict; call it last, the words quote the other fields.
+    pub(super) fn because(mut self, kind: Reason) -> Self {
+        let levels = if self.pairwise.is_empty() { 0 } else { self.pairwise.len() + 1 };
+        self.verdict = kind.verdict();
+        self.kind = kind;
+        self.reason = match self.interval {
+            Some([low, high]) => format!(
+                "{}: {low:.3} to {high:.3} from levels {} to {} of {levels}, claimed {} ± {}",
+                kind.text(),
+                self.used.start + 1,
+                self.used.end,
+                self.order,
+                self.tolerance
+            ),
+            None => kind.text().to_owned(),
+        };
+        self
+    }
+}

@@ -1,0 +1,43 @@
+//! Convergence studies of any numerical code: rates with intervals, verdicts, a baseline, reports.
+//!
+//! # The rule
+//!
+//! [`judge`] knows neither norm nor scheme, only steps and errors.
+//!
+//! ```
+//! use convergence_study::judge::verdict::{Verdict, judge_pairs};
+//!
+//! // The midpoint rule for the integral of exp, claimed to be of second order; then, of fourth.
+//! let error = |n: i32| {
+//!     let h = 1.0 / f64::from(n);
+//!     let sum: f64 = (0..n).map(|i| h * ((f64::from(i) + 0.5) * h).exp()).sum();
+//!     (h, (sum - 1f64.exp_m1()).abs())
+//! };
+//! let errors = [4, 8, 16, 32, 64].map(error);
+//! assert_eq!(judge_pairs(errors, 2.0, 0.05).verdict, Verdict::Pass);
+//! assert_eq!(judge_pairs(errors, 4.0, 0.05).verdict, Verdict::Fail);
+//! ```
+//!
+//! # From a file to a report
+//!
+//! ```text
+//! TOML ── StudyFile::read ──> Study ── run::run ──> Finished ── baseline, record, junit, report ──> verify
+//!           input               cases     threads      Outcome
+//! ```
+//!
+//! A study is data. Its [`Kind`](study::Kind), which a project writes, says what its cases compute and how their results are
+//! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, and
+//! [`verify`] runs, judges, compares with the baseline and writes the report.
+
+pub mod cli;
+pub mod explain;
+pub mod input;
+pub mod judge;
+pub mod plots;
+pub mod project;
+pub mod report;
+pub mod run;
+pub mod store;
+pub mod study;
+pub mod text;
+pub mod verify;

@@ -1,0 +1,252 @@
+//! The page: the one place that emits SVG.
+//!
+//! Plotters' SVG backend places everything on whole pixels and knows neither dashes nor clipping. So the page is drawn
+//! on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives
+//! it the dash pattern, the clip rectangle or the halo, which SVG lets its children inherit.
+
+use super::rect::{Point, Rect, keep_inside};
+use super::style::{self, Dash};
+use plotters::backend::SVGBackend;
+use plotters::coord::Shift;
+use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
+use std::fmt::Write;
+
+/// Grid lines per px.
+const RESOLUTION: f64 = 10.0;
+/// Plotters divides font sizes by this before it writes them.
+const PLOTTERS_FONT_FACTOR: f64 = 1.24;
+
+/// From px to the page's grid. Far-away values are cut: plotters computes with `i32`.
+pub fn grid(v: f64) -> i32 {
+    (v * RESOLUTION).round().clamp(-1e6, 1e6) as i32
+}
+
+/// What all of a layer has in common.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Layer {
+    clip: Option<Rect>,
+    dash: Option<Dash>,
+    halo: bool,
+}
+
+impl Layer {
+    pub fn plain() -> Self {
+        Self::default()
+    }
+
+    pub fn clipped(clip: Rect) -> Self {
+        Self { clip: Some(clip), ..Self::default() }
+    }
+
+    pub fn dashed(self, dash: Dash) -> Self {
+        Self { dash: Some(dash), ..self }
+    }
+
+    /// Text with a white rim, readable on any colour.
+    pub fn with_halo(self) -> Self {
+        Self { halo: true, ..self }
+    }
+
+    fn open(&self) -> String {
+        let mut tags = String::new();
+        // A nested viewport clips without an id, so that several figures can live in one HTML page.
+        if let Some(r) = self.clip {
+            let view = [r.left, r.top, r.width(), r.height()].map(grid);
+            let [x, y, w, h] = view;
+            let _ = write!(
+                tags,
+                "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" viewBox=\"{x} {y} {w} {h}\" overflow=\"hidden\">"
+            );
+        }
+        tags.push_str("<g stroke-linejoin=\"round\"");
+        if let Some(pattern) = self.dash.and_then(Dash::pattern) {
+            let lengths: Vec<String> = pattern.iter().map(|&d| grid(d).to_string()).collect();
+            let _ = write!(tags, " stroke-dasharray=\"{}\"", lengths.join(" "));
+        }
+        if self.halo {
+            let _ = write!(tags, " stroke=\"#ffffff\" stroke-width=\"{}\" paint-order=\"stroke\"", grid(3.5));
+        }
+        tags + ">\n"
+    }
+
+    fn close(&self) -> &'static str {
+        if self.clip.is_some() { "</g></svg>\n" } else { "</g>\n" }
+    }
+}
+
+/// A page being drawn, layer upon layer.
+pub struct Canvas {
+    width: f64,
+    height: f64,
+    body: String,
+}
+
+impl Canvas {
+    pub fn new(width: f64, height: f64) -> Self {
+        Self { width, height, body: String::new() }
+    }
+
+    /// Draws a layer on top of the others.
+    pub fn draw(&mut self, layer: Layer, draw: impl FnOnce(&Pen<'_>)) {
+        let mut fragment = String::new();
+        let size = (grid(self.width) as u32, grid(self.height) as u32);
+        {
+            let page = Rect { left: 0.0, top: 0.0, right: self.width, bottom: self.height };
+            let pen = Pen { page, area: SVGBackend::with_string(&mut fragment, size).into_drawing_area() };
+            draw(&pen);
+            let closed = pen.area.present();
+            debug_assert!(closed.is_ok(), "drawing into memory cannot fail");
+        }
+        self.body.push_str(&layer.open());
+        self.body.push_str(&without_ballast(&fragment));
+        self.body.push_str(layer.close());
+    }
+
+    /// What is drawn inside shares a group with these attributes.
+    pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
+        let _ = writeln!(self.body, "<g{attributes}>");
+        draw(self);
+        self.body.push_str("</g>\n");
+    }
+
+    /// Adds SVG elements for what plotters cannot say; positions are on the page's [`grid`].
+    pub fn raw(&mut self, elements: &str) {
+        self.body.push_str(elements);
+    }
+
+    /// The document. `description` is what screen readers say, and browsers show on hovering.
+    /// `attributes` are those of the whole picture.
+    pub fn finish(self, description: &str, attributes: &str) -> String {
+        let (w, h) = (self.width.round(), self.height.round());
+        let (gw, gh) = (grid(w), grid(h));
+        let description = escape(description);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {gw} {gh}\" \
+             role=\"img\"{attributes}>\n<title>{description}</title>\n<rect width=\"{gw}\" height=\"{gh}\" fill=\"#ffffff\"/>\n\
+             {}</svg>\n",
+            self.body
+        )
+    }
+}
+
+/// What plotters writes, without what says nothing: a document of its own around every layer, and attributes that hold
+/// the values which they have anyway. A third of the bytes.
+fn without_ballast(fragment: &str) -> String {
+    let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
+    fragment.lines().filter(is_frame).fold(String::with_capacity(fragment.len()), |mut kept, line| {
+        // Texts stand on lines of their own, and start with anything but a tag.
+        let element = line.starts_with('<');
+        let bare = element.then(|| line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
+        kept.push_str(bare.as_deref().unwrap_or(line));
+        kept.push('\n');
+        kept
+    })
+}
+
+/// Text that XML accepts: markup escaped, control characters blanked.
+pub fn escape(text: &str) -> String {
+    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Text for an attribute in double quotes.
+pub fn escape_attribute(text: &str) -> String {
+    escape(text).replace('"', "&quot;")
+}
+
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { ' ' } else { c }).collect()
+}
+
+/// Where a text's position lies, horizontally.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Draws shapes and text, in px.
+pub struct Pen<'a> {
+    page: Rect,
+    area: DrawingArea<SVGBackend<'a>, Shift>,
+}
+
+impl Pen<'_> {
+    fn put<E>(&self, element: &E)
+    where
+        for<'b> &'b E: PointCollection<'b, (i32, i32)>,
+        for<'b> E: Drawable<SVGBackend<'b>>,
+    {
+        let drawn = self.area.draw(element);
+        debug_assert!(drawn.is_ok(), "drawing into memory cannot fail");
+    }
+
+    /// An open line through points.
+    pub fn line(&self, points: &[Point], colour: RGBColor, width: f64) {
+        // Plotters moves what lies off the page to its edge, which would bend the line.
+        for piece in keep_inside(points, &self.page) {
+            self.path(&piece, colour, width);
+        }
+    }
+
+    fn path(&self, points: &[Point], colour: RGBColor, width: f64) {
+        let mut path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
+        path.dedup();
+        if let [only] = path[..] {
+            path.push(only);
+        }
+        self.put(&PathElement::new(path, stroke(colour, width)));
+    }
+
+    pub fn polygon(&self, points: &[Point], colour: RGBColor) {
+        let path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
+        self.put(&Polygon::new(path, colour.filled()));
+    }
+
+    pub fn rect(&self, r: Rect, colour: RGBColor) {
+        let corners = [(grid(r.left), grid(r.top)), (grid(r.right), grid(r.bottom))];
+        self.put(&Rectangle::new(corners, colour.filled()));
+    }
+
+    /// The rim of a rectangle.
+    pub fn frame(&self, r: Rect, colour: RGBColor, width: f64) {
+        // Plotters' rectangles have no line width.
+        let (a, c) = ((r.left, r.top), (r.right, r.bottom));
+        self.line(&[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)], colour, width);
+    }
+
+    pub fn disc(&self, centre: Point, radius: f64, colour: RGBColor) {
+        self.put(&Circle::new((grid(centre.0), grid(centre.1)), grid(radius), colour.filled()));
+    }
+
+    /// Horizontal text, vertically centred on `at`.
+    pub fn text(&self, text: &str, at: Point, size: f64, anchor: Anchor, colour: RGBColor) {
+        self.write(text, at, size, anchor, FontTransform::None, colour);
+    }
+
+    /// Text that reads upwards, its middle at `at`.
+    pub fn text_upwards(&self, text: &str, at: Point, size: f64) {
+        self.write(text, at, size, Anchor::Middle, FontTransform::Rotate270, style::INK);
+    }
+
+    fn write(&self, text: &str, at: Point, size: f64, anchor: Anchor, turn: FontTransform, colour: RGBColor) {
+        let h = match anchor {
+            Anchor::Start => HPos::Left,
+            Anchor::Middle => HPos::Center,
+            Anchor::End => HPos::Right,
+        };
+        let font = (style::FONT, f64::from(grid(size)) * PLOTTERS_FONT_FACTOR)
+            .into_text_style(&self.area)
+            .transform(turn)
+            .color(&colour)
+            .pos(Pos::new(h, VPos::Center));
+        self.put(&Text::new(printable(text), (grid(at.0), grid(at.1)), font));
+    }
+}
+
+fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
+    colour.stroke_width(grid(width).max(1) as u32)
+}

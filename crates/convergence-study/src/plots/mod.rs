@@ -1,0 +1,116 @@
+//! Figures: plain data in, a self-contained SVG document out.
+//!
+//! Every figure is a struct of numbers and labels and a pure function from it to a `String`. They know nothing of the
+//! solver, read and write no files, and give the same bytes for the same data. Bad data never stops a figure: points
+//! that are not finite, or not positive on a logarithmic axis, are left out and counted in a note under the plot.
+//!
+//! | figure | shows |
+//! | --- | --- |
+//! | [`convergence`] | errors against `h` or `dt`, fitted lines, slope triangles, a baseline |
+//! | [`surface`] | an error over a grid of two parameters, with iso lines |
+//! | [`history`] | quantities over time, with limits and contact phases |
+//! | [`space_time`] | `u(x, t)` as a picture |
+//! | [`iterations`] | iterations per step |
+//! | [`parameter_map`] | a value and a category over two parameters, with boundary curves |
+//! | [`work_precision`] | error against run time |
+//!
+//! What is drawn can be read back: `readable` writes names and values into the picture, for a page that shows them.
+//!
+//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
+//! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
+//!
+//! ```
+//! use convergence_study::plots::{ErrorSeries, Convergence, convergence};
+//!
+//! let points = [8.0, 16.0, 32.0].map(|n: f64| (1.0 / n, 0.3 / n)).to_vec();
+//! let series = vec![ErrorSeries { label: "velocity".into(), points, order: Some(1.0), ..Default::default() }];
+//! let svg = convergence(&Convergence { series, slopes: vec![1.0], ..Convergence::in_space() });
+//! assert!(svg.starts_with("<svg"));
+//! ```
+
+pub mod canvas;
+mod colour;
+mod contour;
+mod convergence;
+mod decimate;
+pub mod heat;
+mod history;
+pub mod legend;
+pub mod look;
+pub mod marker;
+mod parameter_map;
+mod readable;
+pub mod rect;
+pub mod ruler;
+mod sheet;
+mod slopes;
+mod space_time;
+pub mod style;
+mod surface;
+mod work_precision;
+pub mod xy;
+
+pub use convergence::{Convergence, ErrorSeries, PowerLaw, convergence};
+pub use history::{History, Iterations, history, iterations};
+pub use parameter_map::{ParameterMap, parameter_map};
+pub use space_time::{SpaceTime, space_time};
+pub use surface::{Surface, surface};
+pub use work_precision::{WorkPrecision, work_precision};
+
+/// How an axis maps its values to the page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal steps, equal distances.
+    #[default]
+    Linear,
+    /// Equal factors, equal distances; values that are not positive cannot be drawn.
+    Log,
+}
+
+/// An axis: what it measures, and its scale.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// Quantity, symbol and unit, such as `"time t (dimensionless)"`.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Linear }
+    }
+
+    /// A logarithmic axis.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Log }
+    }
+}
+
+/// Points with a name for the legend, in drawing order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub label: String,
+    /// `(x, y)`.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A value worth a line across the plot: an obstacle, a limit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Guide {
+    /// Short text, set in the right margin at the line's height.
+    pub label: String,
+    /// Where on the vertical axis.
+    pub value: f64,
+}
+
+/// Intervals of the horizontal axis to shade, such as the phases of contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Phases {
+    /// Name in the legend.
+    pub label: String,
+    /// `(from, to)`, in any order; they may touch or overlap.
+    pub intervals: Vec<(f64, f64)>,
+}

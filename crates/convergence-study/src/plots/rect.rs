@@ -1,0 +1,103 @@
+//! Points and rectangles; the parts of lines inside and outside of a rectangle.
+
+/// A position in px, `y` downwards.
+pub type Point = (f64, f64);
+
+/// A rectangle in px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    pub left: f64,
+    pub top: f64,
+    pub right: f64,
+    pub bottom: f64,
+}
+
+impl Rect {
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub fn centre(&self) -> Point {
+        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+    }
+}
+
+/// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and Barsky).
+fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    let directions = [(a.0, b.0 - a.0, r.left, r.right), (a.1, b.1 - a.1, r.top, r.bottom)];
+    for (start, step, low, high) in directions {
+        if step == 0.0 {
+            if start < low || start > high {
+                return None;
+            }
+            continue;
+        }
+        let (s, t) = ((low - start) / step, (high - start) / step);
+        enter = enter.max(s.min(t));
+        leave = leave.min(s.max(t));
+    }
+    (enter <= leave).then_some((enter, leave))
+}
+
+fn along(a: Point, b: Point, s: f64) -> Point {
+    (a.0 + s * (b.0 - a.0), a.1 + s * (b.1 - a.1))
+}
+
+/// What remains of a line within a rectangle.
+pub fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
+    let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
+    if line.iter().all(holds) {
+        return vec![line.to_vec()];
+    }
+    let mut kept: Vec<Vec<Point>> = Vec::new();
+    for pair in line.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let Some((enter, leave)) = inside(a, b, r) else { continue };
+        match kept.last_mut() {
+            Some(last) if enter == 0.0 && last.last() == Some(&a) => last.push(along(a, b, leave)),
+            _ => kept.push(vec![along(a, b, enter), along(a, b, leave)]),
+        }
+    }
+    kept
+}
+
+/// What remains of a segment outside a rectangle: up to two pieces.
+pub fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
+    match inside(a, b, r) {
+        None => vec![[a, b]],
+        Some((enter, leave)) => {
+            let pieces = [(0.0, enter), (leave, 1.0)].into_iter().filter(|(s, t)| t > s);
+            pieces.map(|(s, t)| [along(a, b, s), along(a, b, t)]).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: Rect = Rect { left: 0.0, top: 0.0, right: 1.0, bottom: 1.0 };
+
+    #[test]
+    fn a_line_that_leaves_is_cut_on_the_rim() {
+        assert_eq!(
+            keep_inside(&[(0.5, 0.5), (2.5, 0.5), (2.5, 0.9), (0.5, 0.9)], &UNIT),
+            [vec![(0.5, 0.5), (1.0, 0.5)], vec![(1.0, 0.9), (0.5, 0.9)]]
+        );
+        assert!(keep_inside(&[(-1.0, 2.0), (2.0, 2.0)], &UNIT).is_empty());
+    }
+
+    #[test]
+    fn a_segment_across_leaves_two_pieces_outside() {
+        assert_eq!(
+            keep_outside([(-1.0, 0.5), (3.0, 0.5)], &UNIT),
+            [[(-1.0, 0.5), (0.0, 0.5)], [(1.0, 0.5), (3.0, 0.5)]]
+        );
+        assert!(keep_outside([(0.2, 0.2), (0.8, 0.8)], &UNIT).is_empty());
+    }
+}

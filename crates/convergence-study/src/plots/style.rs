@@ -1,0 +1,69 @@
+//! The house style of all figures: sizes, colours, dashes, widths of texts.
+
+use plotters::style::RGBColor;
+
+/// Page width in px. Figures are read at full and at half of it, which the text sizes below allow for.
+pub const WIDTH: f64 = 900.0;
+/// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
+pub const PLOT_HEIGHT: f64 = 430.0;
+
+/// Helvetica and its metric twins first: the estimates of [`text_width`] are taken from the widest, DejaVu Sans.
+pub const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
+pub const TITLE_SIZE: f64 = 22.0;
+pub const LABEL_SIZE: f64 = 20.0;
+pub const TICK_SIZE: f64 = 18.0;
+pub const NOTE_SIZE: f64 = 16.0;
+
+pub const INK: RGBColor = RGBColor(34, 34, 34);
+pub const WHITE: RGBColor = RGBColor(255, 255, 255);
+pub const MUTED: RGBColor = RGBColor(96, 96, 96);
+pub const GRID: RGBColor = RGBColor(214, 214, 214);
+pub const MINOR_GRID: RGBColor = RGBColor(238, 238, 238);
+/// Shaded intervals and regions: light enough for the grid's darker lines to stay visible on it.
+pub const SHADE: RGBColor = RGBColor(228, 233, 240);
+/// Cells without a value.
+pub const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
+
+pub const THIN: f64 = 1.2;
+pub const LINE: f64 = 2.2;
+
+/// Dash patterns, distinct in black and white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    Solid,
+    Long,
+    Short,
+    Dotted,
+    Mixed,
+}
+
+impl Dash {
+    /// The `stroke-dasharray` in px, `None` for a solid line.
+    pub fn pattern(self) -> Option<&'static [f64]> {
+        match self {
+            Dash::Solid => None,
+            Dash::Long => Some(&[12.0, 5.0]),
+            Dash::Short => Some(&[6.0, 4.0]),
+            Dash::Dotted => Some(&[2.2, 3.6]),
+            Dash::Mixed => Some(&[11.0, 4.0, 2.5, 4.0]),
+        }
+    }
+}
+
+/// Width of a text in px, on the generous side: without font files it can only be estimated.
+pub fn text_width(text: &str, size: f64) -> f64 {
+    let em: f64 = text.chars().map(glyph_width).sum();
+    em * size
+}
+
+/// Advance of one glyph in em, after DejaVu Sans, rounded up.
+fn glyph_width(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | 'I' | ' ' => 0.33,
+        'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '[' | ']' => 0.42,
+        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' => 0.43,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.98,
+        'A'..='Z' | '=' | '+' | '−' | '×' | '<' | '>' | '≥' | '≤' => 0.8,
+        _ => 0.64,
+    }
+}

@@ -1,0 +1,223 @@
+//! The core of all figures with curves: ranges, layers in their order, notes on what was left out.
+
+use super::canvas::{Anchor, Layer};
+use super::decimate::{lines, merge_intervals};
+use super::legend::{Entry, Swatch};
+use super::look::{Look, look};
+use super::marker::Marks;
+use super::readable;
+use super::rect::{Point, Rect};
+use super::ruler::{Ruler, on_scale};
+use super::sheet::{Plan, Sheet, guide_margin};
+use super::style::{self, TICK_SIZE};
+use super::{Axis, Guide, Phases, Scale, Series};
+
+/// Room left around the data, as a fraction of its range.
+const MARGIN: f64 = 0.05;
+/// Columns of envelopes that all curves of a figure share, which bounds the size of the document.
+const ENVELOPE_COLUMNS: usize = 3200;
+
+/// A curve and how to draw it.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The entry of the legend that it belongs to.
+    pub name: String,
+    /// Whether that entry is to be made from the curve; several curves may share one.
+    pub is_listed: bool,
+    pub points: Vec<(f64, f64)>,
+    pub look: Look,
+    /// Line width in px; 0 for markers alone.
+    pub width: f64,
+    pub marks: Marks,
+    /// Whether the points are data: only those set the range and are counted when left out.
+    pub is_data: bool,
+}
+
+impl Curve {
+    /// The k-th series as a line, with an entry of its own.
+    pub fn line(k: usize, series: &Series) -> Self {
+        Self {
+            name: series.label.clone(),
+            is_listed: true,
+            points: series.points.clone(),
+            look: look(k),
+            width: style::LINE,
+            marks: Marks::None,
+            is_data: true,
+        }
+    }
+}
+
+/// A closed outline with texts, such as a slope triangle; positions in data coordinates.
+#[derive(Clone, Debug)]
+pub struct Outline {
+    pub corners: Vec<(f64, f64)>,
+    /// Text, where, how many px right and down of that, and its anchor.
+    pub texts: Vec<(String, (f64, f64), Point, Anchor)>,
+}
+
+/// A figure with curves.
+#[derive(Clone, Debug, Default)]
+pub struct Xy {
+    pub title: Option<String>,
+    pub x: Axis,
+    pub y: Axis,
+    pub curves: Vec<Curve>,
+    pub guides: Vec<Guide>,
+    pub phases: Phases,
+    pub outlines: Vec<Outline>,
+    /// Everything right of this x is shaded, with the text above it.
+    pub beyond: Option<(f64, String)>,
+    /// More values that the vertical axis must show.
+    pub show_y: Vec<f64>,
+    /// More values that the horizontal axis must show.
+    pub show_x: Vec<f64>,
+    /// Entries ahead of the curves', after them those of the phases.
+    pub legend: Vec<Entry>,
+}
+
+impl Xy {
+    /// The horizontal range.
+    pub fn x_ruler(&self) -> Ruler {
+        let values = self.drawable().map(|p| p.0).chain(self.show_x.iter().copied());
+        let phases = self.phases.intervals.iter().flat_map(|&(a, b)| [a, b]);
+        // Time runs from edge to edge; parameters that were chosen deserve room around them.
+        let margin = if self.x.scale == Scale::Log { MARGIN } else { 0.0 };
+        let ruler = Ruler::around(self.x.scale, values.chain(phases), margin);
+        // The end of the first step is as good as the start.
+        let starts_at_zero = self.x.scale == Scale::Linear && ruler.lo > 0.0 && ruler.lo < 0.02 * ruler.hi;
+        if starts_at_zero { Ruler::between(self.x.scale, 0.0, ruler.hi) } else { ruler }
+    }
+
+    /// The vertical range.
+    pub fn y_ruler(&self) -> Ruler {
+        let guides = self.guides.iter().map(|g| g.value);
+        let values = self.drawable().map(|p| p.1).chain(guides).chain(self.show_y.iter().copied());
+        Ruler::around(self.y.scale, values, MARGIN)
+    }
+
+    /// Data points that both axes can show.
+    fn drawable(&self) -> impl Iterator<Item = (f64, f64)> {
+        let data = self.curves.iter().filter(|c| c.is_data).flat_map(|c| c.points.iter().copied());
+        data.filter(|&(x, y)| on_scale(self.x.scale, x).and(on_scale(self.y.scale, y)).is_some())
+    }
+
+    /// Draws the figure.
+    pub fn draw(&self) -> String {
+        let mut sheet = self.plan().lay_out();
+        self.draw_ground(&mut sheet);
+        sheet.draw_grid();
+        sheet.draw_guides(&self.guides);
+        self.draw_curves(&mut sheet);
+        self.draw_outlines(&mut sheet);
+        sheet.finish()
+    }
+
+    fn plan(&self) -> Plan {
+        let x = self.x_ruler();
+        let above = self.beyond.as_ref().and_then(|(from, text)| {
+            let from = on_scale(self.x.scale, *from)?.max(x.lo);
+            (from < x.hi).then(|| (0.5 * (from + x.hi), text.clone()))
+        });
+        Plan {
+            title: self.title.clone(),
+            x,
+            y: self.y_ruler(),
+            x_label: self.x.label.clone(),
+            y_label: self.y.label.clone(),
+            right: guide_margin(&self.guides),
+            above,
+            legend: self.entries(),
+            notes: self.notes(),
+        }
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let mut entries = self.legend.clone();
+        entries.extend(self.curves.iter().filter(|c| c.is_listed).map(|c| {
+            let swatch = Swatch::Line { look: c.look, width: c.width, marks: c.marks };
+            Entry { swatch, label: c.name.clone() }
+        }));
+        if !self.phases.intervals.is_empty() {
+            entries.push(Entry { swatch: Swatch::Fill(style::SHADE), label: self.phases.label.clone() });
+        }
+        entries
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let data = || self.curves.iter().filter(|c| c.is_data).flat_map(|c| &c.points);
+        let is_drawable = |&(x, y): &(f64, f64)| on_scale(Scale::Linear, x).and(on_scale(Scale::Linear, y)).is_some();
+        let non_finite = data().filter(|p| !is_drawable(p)).count();
+        let off_scale = data().count() - non_finite - self.drawable().count();
+        left_out(non_finite, off_scale)
+    }
+
+    fn draw_ground(&self, sheet: &mut Sheet) {
+        let plot = sheet.plot;
+        let ends = self.phases.intervals.iter().filter_map(|&(a, b)| {
+            let (a, b) = (sheet.x.px(a)?, sheet.x.px(b)?);
+            Some((a.min(b), a.max(b)))
+        });
+        let mut spans = merge_intervals(ends.collect());
+        if let Some(from) = self.beyond.as_ref().and_then(|b| sheet.x.px(b.0)) {
+            spans.push((from.max(plot.left), plot.right));
+        }
+        sheet.canvas.draw(Layer::clipped(plot), |pen| {
+            for &(left, right) in &spans {
+                // A contact shorter than a pixel still leaves a trace.
+                pen.rect(Rect { left, right: right.max(left + 0.7), ..plot }, style::SHADE);
+            }
+        });
+    }
+
+    fn draw_curves(&self, sheet: &mut Sheet) {
+        let share = ENVELOPE_COLUMNS / self.curves.len().max(1);
+        let columns = (sheet.plot.width() as usize).min(share).max(1);
+        for curve in &self.curves {
+            let positions: Vec<Option<Point>> = curve.points.iter().map(|&p| sheet.px(p)).collect();
+            let (alone, lines): (Vec<_>, Vec<_>) = match curve.width {
+                0.0 => Default::default(),
+                _ => lines(&positions, columns).into_iter().partition(|line| line.len() == 1),
+            };
+            let attributes = readable::series(&curve.name, curve.is_data.then_some(&curve.points));
+            let line_layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
+            sheet.canvas.group(&attributes, |canvas| {
+                canvas.draw(line_layer, |pen| {
+                    lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
+                });
+                // Not clipped: a marker on the frame stays whole.
+                canvas.draw(Layer::plain(), |pen| {
+                    alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
+                    for &at in positions.iter().flatten() {
+                        curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
+                    }
+                });
+            });
+        }
+    }
+
+    fn draw_outlines(&self, sheet: &mut Sheet) {
+        for outline in &self.outlines {
+            let mut path: Vec<Point> = outline.corners.iter().filter_map(|&p| sheet.px(p)).collect();
+            path.extend(path.first().copied());
+            let texts: Vec<_> = outline.texts.iter().filter_map(|t| Some((t, sheet.px(t.1)?))).collect();
+            sheet.canvas.draw(Layer::plain(), |pen| {
+                pen.line(&path, style::INK, 1.6);
+                for ((text, _, shift, anchor), at) in texts {
+                    pen.text(text, (at.0 + shift.0, at.1 + shift.1), TICK_SIZE, *anchor, style::INK);
+                }
+            });
+        }
+    }
+}
+
+/// The note on data that a figure cannot show.
+pub fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
+    let points = |n: usize, what: &str, why: &str| {
+        let s = if n == 1 { "" } else { "s" };
+        (n > 0).then(|| format!("{n} {what} point{s} not drawn{why}"))
+    };
+    let non_finite = points(non_finite, "non-finite", "");
+    let not_positive = points(not_positive, "non-positive", " (logarithmic axis)");
+    non_finite.into_iter().chain(not_positive).collect()
+}

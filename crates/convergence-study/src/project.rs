@@ -1,0 +1,31 @@
+//! What a project says about itself to the harness.
+
+use crate::study::Kinds;
+
+/// A project whose studies the harness runs, judges and reports on.
+#[derive(Debug, Clone, Copy)]
+pub struct Project {
+    /// Its name, for JUnit reports.
+    pub name: &'static str,
+    /// The command that users type before the harness's commands, such as `cargo xtask`.
+    pub command: &'static str,
+    /// What it is, in a sentence, for `--help`.
+    pub about: &'static str,
+    /// The kinds of study that it knows.
+    pub kinds: &'static Kinds,
+    /// Its own words that `explain` knows beside kinds and reasons, such as norms.
+    pub terms: &'static [Term],
+    /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.
+    pub front_pictures: &'static [(&'static str, &'static str)],
+}
+
+/// A word of a project, for `explain`.
+#[derive(Debug, Clone, Copy)]
+pub struct Term {
+    /// The word.
+    pub name: &'static str,
+    /// What it is, such as `a norm`.
+    pub what: &'static str,
+    /// What it means.
+    pub text: &'static str,
+}

@@ -1,0 +1,155 @@
+//! Markdown of the report as HTML.
+//!
+//! Texts of studies are set in Markdown as what they say; should one of them slip through as markup, it ends here: tags
+//! that the report does not write itself are shown, not obeyed, and pictures are those of the study.
+
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+use crate::study::outcome::Figure;
+
+/// Converts a piece of the report; pictures are put in place.
+pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
+    let mut events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
+    let mut kept = Vec::new();
+    // What is written ahead of a table is its title.
+    let mut title = String::new();
+    while let Some(event) = events.next() {
+        match event {
+            Event::Start(Tag::Paragraph) => {
+                let inner: Vec<_> = events.by_ref().take_while(|e| *e != Event::End(TagEnd::Paragraph)).collect();
+                title = plain(&inner);
+                match picture(&inner, figures) {
+                    Some(picture) => kept.push(Event::Html(picture.into())),
+                    None => {
+                        kept.push(Event::Start(Tag::Paragraph));
+                        kept.extend(inner.into_iter().filter_map(tamed));
+                        kept.push(Event::End(TagEnd::Paragraph));
+                    }
+                }
+            }
+            Event::Start(Tag::Table(alignments)) => {
+                let label = escape(&title);
+                let open = format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n");
+                kept.extend([Event::Html(open.into()), Event::Start(Tag::Table(alignments))]);
+            }
+            Event::End(TagEnd::Table) => kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]),
+            Event::Html(text) if is_own(&text) => {
+                title = without_own_tags(&text).trim().to_owned();
+                kept.push(Event::Html(text));
+            }
+            other => kept.extend(tamed(other)),
+        }
+    }
+    let mut html = String::new();
+    pulldown_cmark::html::push_html(&mut html, kept.into_iter());
+    html
+}
+
+/// An event without the power to load, to link or to run anything.
+fn tamed(event: Event<'_>) -> Option<Event<'_>> {
+    match event {
+        Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
+        Event::Start(Tag::Image { .. } | Tag::Link { .. }) | Event::End(TagEnd::Image | TagEnd::Link) => None,
+        other => Some(other),
+    }
+}
+
+const OWN_TAGS: [&str; 9] =
+    ["<details>", "<details open=\"\">", "</details>", "<summary>", "</summary>", "<b>", "</b>", "<code>", "</code>"];
+
+/// Whether this is markup that the report writes, which is that of folded tables.
+fn is_own(text: &str) -> bool {
+    !without_own_tags(text).contains('<')
+}
+
+fn without_own_tags(text: &str) -> String {
+    OWN_TAGS.iter().fold(text.to_owned(), |text, tag| text.replace(tag, ""))
+}
+
+fn plain(events: &[Event<'_>]) -> String {
+    let text = |event: &Event<'_>| match event {
+        Event::Text(text) | Event::Code(text) => text.to_string(),
+        _ => String::new(),
+    };
+    events.iter().map(text).collect()
+}
+
+/// The picture that a paragraph consists of, in place.
+fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
+    let [Event::Start(Tag::Image { dest_url, .. }), .., Event::End(TagEnd::Image)] = paragraph else { return None };
+    let figure = figures.iter().find(|figure| dest_url.strip_prefix("figures/") == Some(figure.file.as_str()))?;
+    Some(format!(
+        "<figure class=\"scroll\" tabindex=\"0\" aria-label=\"{}\">\n{}</figure>\n",
+        escape(&figure.caption),
+        figure.svg
+    ))
+}
+
+/// Text as it is to be read, in an element or an attribute.
+pub(super) fn escape(raw: &str) -> String {
+    let mut escaped = String::with_capacity(raw.len());
+    for c in raw.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            '\'' => escaped += "&#39;",
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The same, with code in backticks.
+pub(super) fn phrase(raw: &str) -> String {
+    let parts: Vec<String> = raw.split('`').map(escape).collect();
+    // Backticks that do not come in pairs are no code.
+    if parts.len().is_multiple_of(2) {
+        return parts.join("`");
+    }
+    let set = |(i, part): (usize, &String)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.clone() };
+    parts.iter().enumerate().map(set).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markup_that_is_not_the_reports_own_is_shown() {
+        // Backticks of three lengths: Markdown takes none of them for code.
+        for text in
+            ["``` <script>alert(1)</script> ` ``", "a\n\n<script>alert(1)</script>\n\nb", "<img src=x onerror=y>"]
+        {
+            let html = html(text, &[]);
+            assert!(!html.contains("<script") && !html.contains("<img"), "{html}");
+            assert!(html.contains("&lt;"), "{html}");
+        }
+        let html = html("[a](javascript:b) ![c](http://d/e.svg) <http://f>", &[]);
+        assert_eq!(html, "<p>a c http://f</p>\n");
+    }
+
+    #[test]
+    fn folded_tables_keep_their_markup_and_tables_scroll_under_their_title() {
+        let text = "<details>\n<summary><b>One &lt; two</b></summary>\n\n| a |\n| - |\n| b |\n\n</details>\n";
+        let html = html(text, &[]);
+        assert!(html.starts_with("<details>\n<summary><b>One &lt; two</b></summary>\n<div class=\"scroll\""), "{html}");
+        assert!(html.contains("<td>b</td>") && html.ends_with("</div>\n</details>\n"), "{html}");
+    }
+
+    #[test]
+    fn a_picture_is_put_in_place_if_it_is_the_studys() {
+        let figure = Figure { file: "a.svg".into(), caption: "a < \"b\"".into(), svg: "<svg/>".into() };
+        let html = html("![x](figures/a.svg)\n\n![y](figures/b.svg)\n", &[figure]);
+        let figure = "<figure class=\"scroll\" tabindex=\"0\" aria-label=\"a &lt; &quot;b&quot;\">\n<svg/></figure>\n";
+        assert_eq!(html, format!("{figure}<p>y</p>\n"));
+    }
+
+    #[test]
+    fn a_phrase_holds_code_and_no_markup() {
+        assert_eq!(phrase("`a<b` & c"), "<code>a&lt;b</code> &amp; c");
+        assert_eq!(phrase("one ` only"), "one ` only");
+    }
+}

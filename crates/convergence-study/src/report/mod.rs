@@ -1,0 +1,167 @@
+//! The report for readers: what was claimed, what was found, and how to see it again. It reads, it never computes.
+//!
+//! The same outcomes give the same bytes. Nothing here knows of times or machines.
+
+mod html;
+mod markdown;
+mod page;
+mod section;
+mod tables;
+mod words;
+
+use std::io;
+
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::run::Finished;
+use crate::store::baseline::Change;
+use crate::store::file_set::ReportSet;
+use crate::store::junit::junit;
+use crate::store::record::{self, Precision, Record};
+use crate::study::outcome::Figure;
+use crate::text::number::committed;
+use markdown::{cell, text};
+
+pub use section::markdown;
+pub use tables::tables;
+pub use words::{can_be_blessed, key_numbers, sentence};
+
+/// What is reported on.
+#[derive(Debug, Clone, Copy)]
+pub struct Findings<'f> {
+    /// Whose studies they are.
+    pub project: &'f Project,
+    /// What was run, such as `quick`.
+    pub scope: &'f str,
+    /// The command that runs it again.
+    pub command: &'f str,
+    /// The studies.
+    pub finished: &'f [Finished],
+    /// What moved away from the baseline.
+    pub changes: &'f [Change],
+    /// The verdict on all.
+    pub verdict: Verdict,
+    /// Another report to point to: its title, and the path of its folder from this one's.
+    pub see_also: Option<(&'f str, &'f str)>,
+}
+
+impl Findings<'_> {
+    /// All committed files of a report.
+    ///
+    /// # Errors
+    /// Two figures of one name, and what the writers of JSON and XML refuse.
+    pub fn files(&self) -> io::Result<ReportSet> {
+        let changes = self.changes.iter().map(Change::to_string).collect();
+        let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
+        let mut set = ReportSet::default();
+        set.add("README.md", self.readme())?;
+        set.add("index.html", self.page())?;
+        set.add("results.json", record::json(&record)?)?;
+        set.add("junit.xml", junit(self.project.name, self.finished, self.changes).map_err(io::Error::other)?)?;
+        set.add("errors.csv", self.errors_csv())?;
+        for (file, name) in self.project.front_pictures {
+            if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
+                set.add(*name, figure.svg.as_str())?;
+            }
+        }
+        for figure in self.figures() {
+            set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
+        }
+        Ok(set)
+    }
+
+    fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.finished.iter().flat_map(|finished| &finished.outcome.figures)
+    }
+
+    /// The report in Markdown: the verdict, one table, then a section for each study.
+    pub fn readme(&self) -> String {
+        let link = |id: &str| format!("[{}](#{})", cell(id), markdown::anchor(id));
+        let mut page = format!("# Verification report\n\n{}", self.verdict_line());
+        page += &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.command);
+        if let Some((title, folder)) = self.see_also {
+            page += &format!(" See also [{}]({folder}/README.md).", text(title));
+        }
+        page += &format!("\n\n{}{}", self.overview(link), self.moved());
+        page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
+        page
+    }
+
+    /// The same as one page that needs nothing else.
+    pub fn page(&self) -> String {
+        page::page(self)
+    }
+
+    /// What of the report fits on one page of a continuous integration: no links, no sections.
+    pub fn digest(&self) -> String {
+        let title = format!("## Verification, {}\n\n", self.scope);
+        title + &self.verdict_line() + &self.overview(cell) + &self.moved()
+    }
+
+    fn verdict_line(&self) -> String {
+        format!("**{}**: {}\n\n", self.verdict, text(&sentence(self.finished, self.changes)))
+    }
+
+    fn overview(&self, id: impl Fn(&str) -> String) -> String {
+        let row = |Finished { header, outcome, .. }: &Finished| {
+            let verdict = section::marked(outcome.verdict);
+            vec![id(&header.id), cell(&header.claim), verdict, cell(&key_numbers(outcome))]
+        };
+        markdown::table(&["study", "claim", "verdict", "key numbers"], self.finished.iter().map(row).collect())
+    }
+
+    /// What moved away from the baseline; nothing where nothing did.
+    fn moved(&self) -> String {
+        if self.changes.is_empty() {
+            return String::new();
+        }
+        let row = |change: &Change| vec![cell(&change.study), cell(&change.name), cell(&change.movement.to_string())];
+        let rows = self.changes.iter().map(row).collect();
+        let table = section::untitled(&["study", "quantity", "change"], rows, "numbers");
+        let bless = if can_be_blessed(self.finished) {
+            format!("\nIf it is meant: `{} --bless`.\n", self.command)
+        } else {
+            String::new()
+        };
+        format!("\n## Moved from the baseline\n\n{table}{bless}")
+    }
+
+    /// Errors in long form, one a line.
+    pub fn errors_csv(&self) -> String {
+        let levels = || self.finished.iter().flat_map(|finished| &finished.outcome.levels);
+        let parameters = distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
+        let mut csv: String = ["study"]
+            .into_iter()
+            .chain(parameters.iter().map(|name| name.as_str()))
+            .map(|name| field(name) + ",")
+            .collect();
+        csv += "norm,error\n";
+        for Finished { header, outcome, .. } in self.finished {
+            for level in &outcome.levels {
+                let value =
+                    |name: &&String| level.parameter(name).map(|value| value.to_string()).unwrap_or_default() + ",";
+                let values: String = parameters.iter().map(value).collect();
+                for (norm, error) in &level.errors {
+                    csv += &format!("{},{values}{},{}\n", field(&header.id), field(norm), committed(*error));
+                }
+            }
+        }
+        csv
+    }
+}
+
+/// Each name once, in the order in which they are first met.
+fn distinct<'n>(names: impl Iterator<Item = &'n String>) -> Vec<&'n String> {
+    let mut distinct: Vec<&String> = vec![];
+    for name in names {
+        if !distinct.contains(&name) {
+            distinct.push(name);
+        }
+    }
+    distinct
+}
+
+/// A field of a CSV line, in quotes where it needs them (RFC 4180).
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}

@@ -1,0 +1,72 @@
+//! The section of one study.
+
+use super::html::phrase;
+use super::markdown::{cell, table, text};
+use super::tables::tables;
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::run::Finished;
+use crate::study::outcome::{Figure, Table};
+
+/// A longer table is folded: what it shows has been said in a sentence, a rate or a figure before.
+const MOST_ROWS: usize = 12;
+
+/// Claim, verdict in words, tables, figures, and how to run it again.
+pub(super) fn section(finished: &Finished, project: &Project) -> String {
+    let header = &finished.header;
+    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, project))
+}
+
+/// All of a section but heading and claim.
+pub(super) fn body(finished: &Finished, project: &Project) -> String {
+    let Finished { header, outcome, .. } = finished;
+    let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&outcome.summary))];
+    let passes = outcome.verdict == Verdict::Pass;
+    parts.extend(tables(finished).iter().map(|table| titled(table, passes)));
+    parts.extend(outcome.figures.iter().map(figure));
+    let (tier, kind) = (header.tier.name(), &header.kind);
+    parts.push(format!("Again: `{} verify {}` (tier {tier}, kind {kind})\n", project.command, header.id));
+    parts.join("\n")
+}
+
+/// The verdict; in bold where it is not a pass.
+pub(super) fn marked(verdict: Verdict) -> String {
+    if verdict == Verdict::Pass { verdict.to_string() } else { format!("**{verdict}**") }
+}
+
+/// The lines of a table in Markdown, without its title.
+pub fn markdown(Table { head, rows, .. }: &Table) -> String {
+    table(&cells(head), rows.iter().map(|row| cells(row)).collect())
+}
+
+/// A table under its title; a long one is folded, but open in a study that does not pass.
+fn titled(whole: &Table, passes: bool) -> String {
+    let (Table { title, rows, .. }, lines) = (whole, markdown(whole));
+    if rows.len() <= MOST_ROWS {
+        return format!("**{}**\n\n{lines}", text(title));
+    }
+    folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
+}
+
+/// What can be unfolded under a summary, which is HTML.
+fn folded(summary: &str, lines: &str, open: bool) -> String {
+    let open = if open { " open=\"\"" } else { "" };
+    format!("<details{open}>\n<summary>{summary}</summary>\n\n{lines}\n</details>\n")
+}
+
+/// A table without a title; folded under how many rows of what it has if they are many.
+pub(super) fn untitled(head: &[&str], rows: Vec<Vec<String>>, what: &str) -> String {
+    let count = rows.len();
+    let lines = table(head, rows);
+    if count <= MOST_ROWS { lines } else { folded(&format!("{count} {what}"), &lines, false) }
+}
+
+fn cells(row: &[String]) -> Vec<String> {
+    row.iter().map(|raw| cell(raw)).collect()
+}
+
+/// The picture with its caption, which is also what is read where it cannot be seen.
+fn figure(figure: &Figure) -> String {
+    let alternative = figure.caption.replace(['[', ']', '\n', '`', '\\'], " ");
+    format!("![{alternative}](figures/{})\n\n*{}*\n", figure.file, text(&figure.caption))
+}

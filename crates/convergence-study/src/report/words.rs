@@ -1,0 +1,119 @@
+//! Verdicts in words, the same ones for report and terminal.
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::run::Finished;
+use crate::store::baseline::Change;
+use crate::study::outcome::Outcome;
+use crate::text::number::{committed_rate, plain_text, rate_text};
+
+/// The verdict on a run in one line, without the verdict itself.
+pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
+    let of = |verdict: Verdict| {
+        let ids = finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
+        ids.map(|finished| finished.header.id.as_str()).collect::<Vec<_>>()
+    };
+    let (failed, inconclusive) = (of(Verdict::Fail), of(Verdict::Inconclusive));
+    let studies = match finished.len() {
+        0 => "no study was run".to_owned(),
+        1 if failed.is_empty() && inconclusive.is_empty() => "the study passes".to_owned(),
+        n if failed.is_empty() && inconclusive.is_empty() => format!("all {n} studies pass"),
+        n => {
+            let count = |ids: &[&str], what: &str| match ids {
+                [] => None,
+                ids => Some(format!("{} of {n} {what} ({})", ids.len(), ids.join(", "))),
+            };
+            [count(&failed, "fail"), count(&inconclusive, "inconclusive")]
+                .into_iter()
+                .flatten()
+                .collect::<Vec<_>>()
+                .join(", ")
+        }
+    };
+    format!("{studies}; {}", guarded(finished, changes))
+}
+
+fn guarded(finished: &[Finished], changes: &[Change]) -> String {
+    let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
+    match (changes.len(), guarded) {
+        (0, 0) => "no number is guarded".to_owned(),
+        (0, n) => format!("of {n} guarded numbers none has moved"),
+        (1, _) => "one guarded number is not what it was".to_owned(),
+        (n, _) => format!("{n} guarded numbers are not what they were"),
+    }
+}
+
+/// Whether a blessing is worth a hint: it is refused where a study does not pass.
+pub fn can_be_blessed(finished: &[Finished]) -> bool {
+    finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
+}
+
+/// The numbers to read first: the study's own, or the rate that decides against its order; then what does not pass.
+pub fn key_numbers(outcome: &Outcome) -> String {
+    let Outcome { headline, rates, checks, .. } = outcome;
+    let mut parts = if headline.is_empty() { of_rates(rates) } else { vec![headline.clone()] };
+    parts.extend(not_passed(rates.iter().map(|(_, rate)| rate.verdict), "rates"));
+    parts.extend(not_passed(checks.iter().map(|check| check.verdict), "checks"));
+    match (parts.is_empty(), checks.len()) {
+        (true, 0) => "nothing judged".to_owned(),
+        (true, n) => format!("all {n} checks pass"),
+        (false, _) => parts.join("; "),
+    }
+}
+
+/// The worst rate, and how far the others are from their orders at most.
+fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
+    // The last of the worst would do as well; the first is the one that the study names first.
+    let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
+    let fitted = worst.fitted.map_or_else(|| "without a rate".to_owned(), |fitted| rate_text(Some(fitted)));
+    let mut parts = vec![format!("{name} {fitted} (order {})", plain_text(worst.order))];
+    let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
+    let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
+    if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1) {
+        // Rates are kept with four decimals: nothing can be said to be closer.
+        let farthest = distances.into_iter().fold(1e-4, f64::max);
+        parts.push(format!("{} rates within {farthest:.4} of their orders", rates.len()));
+    }
+    parts
+}
+
+fn not_passed(verdicts: impl Iterator<Item = Verdict> + Clone, what: &str) -> Option<String> {
+    let all = verdicts.clone().count();
+    let missed = verdicts.filter(|verdict| *verdict != Verdict::Pass).count();
+    (missed > 0).then(|| format!("{missed} of {all} {what} do not pass"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict::judge_pairs;
+    use crate::study::outcome::Check;
+
+    fn rate(exponent: f64, order: f64) -> (String, RateVerdict) {
+        let pairs = (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(k).powf(exponent)));
+        (format!("of {exponent}"), judge_pairs(pairs, order, 0.05))
+    }
+
+    #[test]
+    fn rates_that_hold_are_told_with_the_farthest_from_its_order() {
+        let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
+        assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders");
+    }
+
+    #[test]
+    fn what_does_not_pass_is_told_with_what_decides() {
+        let checks = vec![Check::that(false, "c", "e"), Check::that(true, "d", "e")];
+        let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(1.5, 2.0)], checks);
+        let told = "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
+        assert_eq!(key_numbers(&outcome), told);
+        let headline = "largest residual 1e-16".to_owned();
+        let own = Outcome { headline, ..outcome };
+        assert!(key_numbers(&own).starts_with("largest residual 1e-16; 1 of 2 rates"), "{}", key_numbers(&own));
+    }
+
+    #[test]
+    fn without_rates_and_words_of_its_own_a_study_has_its_checks() {
+        let check = || Check::that(true, "c", "e");
+        assert_eq!(key_numbers(&Outcome::new("", vec![], vec![check(), check()])), "all 2 checks pass");
+        assert_eq!(key_numbers(&Outcome::new("", vec![], vec![])), "nothing judged");
+    }
+}

@@ -1,0 +1,196 @@
+//! Runs the cases of all studies on all threads; the one place that knows of threads.
+//!
+//! Parallel across cases only: a case is computed by one thread from start to end and the results are put back into the
+//! order of the cases, so an [`Outcome`] has the same bits for any number of threads. What varies from run to run, the
+//! time, is kept apart in [`Spent`].
+
+mod caught;
+mod queue;
+pub mod time_limit;
+
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+use crate::study::soundness;
+use crate::study::{Case, CaseFailure, Check, Header, Outcome, Plan, Study};
+use caught::caught;
+use queue::{Counter, Done, Job};
+
+pub use queue::Progress;
+
+/// A study that has been run.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// Its id, claim, tier and kind.
+    pub header: Header,
+    /// What it found.
+    pub outcome: Outcome,
+    /// Cases without a result, in the order of the cases.
+    pub failed_cases: Vec<FailedCase>,
+    /// What it cost, which is different each time.
+    pub spent: Spent,
+}
+
+/// A case that did not come to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FailedCase {
+    /// Its label.
+    pub label: String,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// Time spent on a study.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spent {
+    /// Added up over its cases, whichever thread ran them, and its conclusion.
+    pub busy: Duration,
+    /// From the start of its first case to the end of its last one.
+    pub wall: Duration,
+}
+
+/// Why nothing was run.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// Two studies of one name: what is said about one would be taken for the other.
+    #[error("two studies have the id `{0}`; allowed is an id for each study of its own")]
+    DuplicateId(String),
+    /// The operating system refuses the threads.
+    #[error("cannot start the threads: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+/// What a run may take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Number of threads; no more than there are cases are started.
+    pub jobs: NonZeroUsize,
+    /// The longest that a case may take; `None` for as long as it takes.
+    pub case_limit: Option<Duration>,
+}
+
+impl From<NonZeroUsize> for Effort {
+    fn from(jobs: NonZeroUsize) -> Self {
+        Self { jobs, case_limit: None }
+    }
+}
+
+/// Runs all studies, costliest cases first, and judges them.
+///
+/// * `effort`: threads and time, or the number of threads alone.
+/// * `progress`: called after every case, by one thread at a time.
+/// * Returns the studies in the order in which they were given.
+///
+/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A study that panics
+/// while listing its cases or judging them fails; so does one of which a case was stopped at its limit.
+///
+/// # Errors
+/// [`RunError`], before anything was run.
+pub fn run(
+    studies: &[Box<dyn Study>],
+    effort: impl Into<Effort>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
+    let Effort { jobs, case_limit } = effort.into();
+    refuse_duplicates(studies)?;
+    let planned: Vec<Planned<'_>> = studies.iter().map(|study| Planned::new(study.as_ref())).collect();
+    let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
+    // Threads without a case would only be started and ended.
+    let pool = ThreadPoolBuilder::new().num_threads(jobs.get().min(cases.max(1))).build()?;
+    let done = run_cases(&pool, &planned, case_limit, progress);
+    // Figures are drawn here, which takes its time too.
+    Ok(pool.install(|| planned.into_par_iter().zip(done).map(|(planned, done)| conclude(planned, &done)).collect()))
+}
+
+/// A study and its plan, or why it panicked over listing its cases.
+struct Planned<'s> {
+    header: &'s Header,
+    plan: Result<Box<dyn Plan + 's>, String>,
+    cases: Vec<Case<()>>,
+}
+
+impl<'s> Planned<'s> {
+    fn new(study: &'s dyn Study) -> Self {
+        let listed = caught(|| {
+            let plan = study.plan();
+            let cases = plan.cases();
+            (plan, cases)
+        });
+        let (plan, cases) = match listed {
+            Ok((plan, cases)) => (Ok(plan), cases),
+            Err(reason) => (Err(reason), vec![]),
+        };
+        Self { header: study.header(), plan, cases }
+    }
+}
+
+fn refuse_duplicates(studies: &[Box<dyn Study>]) -> Result<(), RunError> {
+    let mut ids: Vec<&str> = studies.iter().map(|study| study.header().id.as_str()).collect();
+    ids.sort_unstable();
+    match ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(RunError::DuplicateId(pair[0].to_owned())),
+        None => Ok(()),
+    }
+}
+
+/// Runs all cases; what was measured of each, for each study in the order of its cases.
+fn run_cases(
+    pool: &ThreadPool,
+    planned: &[Planned<'_>],
+    limit: Option<Duration>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Vec<Vec<Done>> {
+    let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
+    let counter = Counter::new(&jobs, progress);
+    let run = |job: Job| {
+        let done = job.time(|| {
+            let Ok(plan) = &planned[job.study].plan else { return false };
+            let (ended, up) = time_limit::within(limit, || caught(|| plan.run(job.case)));
+            if let Err(reason) = ended {
+                plan.fail(job.case, CaseFailure { reason });
+            }
+            // A run that was cut short has no result, whatever its study made of it.
+            if let Some(up) = up {
+                plan.fail(job.case, up.into());
+            }
+            up.is_some()
+        });
+        counter.count(&job);
+        done
+    };
+    // A parallel iterator over the vector would cut it in halves; the bridge hands out one job after the other.
+    let done: Vec<Done> = pool.install(|| jobs.into_iter().par_bridge().map(run).collect());
+    queue::in_order(done, planned.len())
+}
+
+/// The outcome of one study from the results of its cases.
+fn conclude(Planned { header, plan, cases }: Planned<'_>, done: &[Done]) -> Finished {
+    let mut spent = queue::spent(done);
+    let started = Instant::now();
+    let mut failed_cases = vec![];
+    let mut outcome = match plan {
+        Ok(plan) => {
+            let failed = cases.iter().enumerate().filter_map(|(i, case)| {
+                Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
+            });
+            failed_cases.extend(failed);
+            caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
+        }
+        Err(reason) => broken("list its cases", &reason),
+    };
+    spent.busy += started.elapsed();
+    for (case, _) in cases.iter().zip(done).filter(|(_, done)| done.is_stopped) {
+        let failed = failed_cases.iter().find(|failed| failed.label == case.label);
+        let reason = failed.map_or("", |failed| failed.reason.as_str());
+        outcome.checks.push(Check::that(false, format!("{} ends within the limit", case.label), reason));
+    }
+    Finished { outcome: soundness::settle(&header.id, outcome), failed_cases, header: header.clone(), spent }
+}
+
+fn broken(what: &str, reason: &str) -> Outcome {
+    let claim = format!("the study can {what}");
+    Outcome::new(format!("the study cannot {what}: {reason}"), vec![], vec![Check::that(false, claim, reason)])
+}

@@ -1,0 +1,117 @@
+//! The order in which cases are started, and the order in which their results are read.
+
+use std::cmp::Reverse;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use super::Spent;
+use crate::study::Case;
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Cases that have come to their end.
+    pub done_cases: usize,
+    /// All cases.
+    pub cases: usize,
+    /// Cost of the cases that have come to their end.
+    pub done_cost: f64,
+    /// Cost of all cases.
+    pub cost: f64,
+    /// The study, by its place in the list, whose last case this was.
+    pub ended: Option<usize>,
+}
+
+/// One case of one study.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Job {
+    pub(super) study: usize,
+    pub(super) case: usize,
+    cost: f64,
+}
+
+/// A case that has come to its end.
+#[derive(Debug)]
+pub(super) struct Done {
+    study: usize,
+    case: usize,
+    /// Whether it was stopped at the limit on its time.
+    pub(super) is_stopped: bool,
+    started: Instant,
+    ended: Instant,
+}
+
+impl Job {
+    /// Runs it and reads the clock before and after; `run` says whether the case was stopped at its limit.
+    pub(super) fn time(&self, run: impl FnOnce() -> bool) -> Done {
+        let started = Instant::now();
+        let is_stopped = run();
+        Done { study: self.study, case: self.case, is_stopped, started, ended: Instant::now() }
+    }
+}
+
+/// All cases of all studies. The costliest come first, so that no thread is left alone with a long one at the end.
+pub(super) fn costliest_first<'c>(plans: impl Iterator<Item = &'c [Case<()>]>) -> Vec<Job> {
+    let mut jobs = Vec::new();
+    for (study, cases) in plans.enumerate() {
+        let job = |(case, Case { cost, .. }): (usize, &Case<()>)| Job { study, case, cost: usable(*cost) };
+        jobs.extend(cases.iter().enumerate().map(job));
+    }
+    jobs.sort_by(|a, b| b.cost.total_cmp(&a.cost));
+    jobs
+}
+
+/// A cost that can be added and compared, whatever a study has estimated.
+fn usable(cost: f64) -> f64 {
+    if cost.is_finite() && cost > 0.0 { cost } else { 1.0 }
+}
+
+/// The results for each study, in the order of its cases.
+pub(super) fn in_order(mut done: Vec<Done>, studies: usize) -> Vec<Vec<Done>> {
+    done.sort_by_key(|done| Reverse((done.study, done.case)));
+    let take = |study| {
+        let rest = done.partition_point(|done| done.study > study);
+        let mut own = done.split_off(rest);
+        own.reverse();
+        own
+    };
+    (0..studies).map(take).collect()
+}
+
+/// The time that the cases of a study took.
+pub(super) fn spent(done: &[Done]) -> Spent {
+    let busy = done.iter().map(|done| done.ended - done.started).sum();
+    let started = done.iter().map(|done| done.started).min();
+    let ended = done.iter().map(|done| done.ended).max();
+    let wall = ended.zip(started).map(|(ended, started)| ended - started).unwrap_or_default();
+    Spent { busy, wall }
+}
+
+/// Counts what is done and tells it.
+pub(super) struct Counter<'p> {
+    /// How far it is, and the cases left of each study.
+    now: Mutex<(Progress, Vec<usize>)>,
+    tell: &'p (dyn Fn(Progress) + Sync),
+}
+
+impl<'p> Counter<'p> {
+    pub(super) fn new(jobs: &[Job], tell: &'p (dyn Fn(Progress) + Sync)) -> Self {
+        let cost = jobs.iter().map(|job| job.cost).sum();
+        let now = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None };
+        let studies = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
+        let mut left = vec![0; studies];
+        jobs.iter().for_each(|job| left[job.study] += 1);
+        Self { now: Mutex::new((now, left)), tell }
+    }
+
+    /// Tells while it holds the lock, so that what is told only grows.
+    pub(super) fn count(&self, job: &Job) {
+        let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let (now, left) = &mut *state;
+        left[job.study] -= 1;
+        now.ended = (left[job.study] == 0).then_some(job.study);
+        now.done_cases += 1;
+        now.done_cost += job.cost;
+        (self.tell)(*now);
+    }
+}

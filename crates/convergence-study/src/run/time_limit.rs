@@ -1,0 +1,131 @@
+//! A limit on the time that one case may take.
+//!
+//! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
+//! case, and every time loop asks its own `Patience` before a step. Nothing is done per node, the clock is read once in
+//! a millisecond or so, and not at all where there is no limit. What is computed is the same with a limit and without.
+
+use std::cell::Cell;
+use std::time::{Duration, Instant};
+
+use thiserror::Error;
+
+/// The limit was reached.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("stopped at the limit of {} s, after step {step}, t = {t}", .limit.as_secs_f64())]
+pub struct TimeUp {
+    /// Steps, or whatever the case counts, that were done.
+    pub step: usize,
+    /// Time reached in the scene.
+    pub t: f64,
+    /// The limit.
+    pub limit: Duration,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Deadline {
+    at: Instant,
+    limit: Duration,
+}
+
+thread_local! {
+    static DEADLINE: Cell<Option<Deadline>> = const { Cell::new(None) };
+    static REACHED: Cell<Option<TimeUp>> = const { Cell::new(None) };
+}
+
+/// Runs a case, which is anything that one thread computes, with a limit or without, and says whether it was stopped at
+/// it, whatever it has made of that.
+pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
+    let now = Instant::now();
+    // A limit beyond what the clock can count to is none.
+    let deadline = limit.and_then(|limit| Some(Deadline { at: now.checked_add(limit)?, limit }));
+    let before = DEADLINE.replace(deadline);
+    REACHED.set(None);
+    let result = case();
+    DEADLINE.set(before);
+    (result, REACHED.take())
+}
+
+/// What a loop asks before each of its rounds.
+#[derive(Debug, Clone)]
+pub struct Patience {
+    deadline: Option<Deadline>,
+    /// Work of a round and work since the clock was read, in units of some 10 to 100 ns.
+    round: usize,
+    since: usize,
+}
+
+impl Patience {
+    /// Work between two looks at the clock: about a millisecond.
+    const WORK: usize = 1 << 15;
+    /// What a step costs beside its elements.
+    const STEP: usize = 8;
+
+    /// For rounds that each advance so many elements by a step.
+    pub fn new(elements: usize) -> Self {
+        let round = elements.saturating_add(Self::STEP);
+        // Rounds that cost nothing until the first look would let a loop of few, long ones go on.
+        Self { deadline: DEADLINE.get(), round, since: Self::WORK }
+    }
+
+    /// For rounds of another kind, each long enough for a look at the clock.
+    pub fn of_long_rounds() -> Self {
+        Self::new(Self::WORK)
+    }
+
+    /// May the round after number `step` begin, the scene being at time `t`?
+    ///
+    /// # Errors
+    /// [`TimeUp`] where the limit is reached.
+    pub fn check(&mut self, step: usize, t: impl FnOnce() -> f64) -> Result<(), TimeUp> {
+        let Some(Deadline { at, limit }) = self.deadline else { return Ok(()) };
+        self.since = self.since.saturating_add(self.round);
+        if self.since < Self::WORK {
+            return Ok(());
+        }
+        self.since = 0;
+        if Instant::now() < at {
+            return Ok(());
+        }
+        let up = TimeUp { step, t: t(), limit };
+        REACHED.set(Some(up));
+        Err(up)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounds done until it is stopped, at most so many.
+    fn rounds(limit: Option<Duration>, most: usize, pause: Duration) -> (usize, Option<TimeUp>) {
+        within(limit, || {
+            let mut patience = Patience::new(100);
+            let mut done = 0;
+            while done < most && patience.check(done, || 0.5).is_ok() {
+                std::thread::sleep(pause);
+                done += 1;
+            }
+            done
+        })
+    }
+
+    #[test]
+    fn without_a_limit_nothing_is_stopped() {
+        assert_eq!(rounds(None, 1_000_000, Duration::ZERO), (1_000_000, None));
+        assert_eq!(rounds(Some(Duration::MAX), 1_000_000, Duration::ZERO), (1_000_000, None));
+    }
+
+    #[test]
+    fn a_limit_that_is_reached_is_told_with_step_and_time_and_ends_with_the_case() {
+        let limit = Duration::from_millis(20);
+        let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
+        assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit }));
+        assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s, after step "));
+        assert_eq!(rounds(None, 1000, Duration::ZERO), (1000, None));
+    }
+
+    #[test]
+    fn a_limit_of_nothing_stops_before_the_first_round() {
+        assert_eq!(rounds(Some(Duration::ZERO), 10, Duration::ZERO).0, 0);
+    }
+}

@@ -1,0 +1,152 @@
+//! Files that are there as a whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::store::writing;
+
+/// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
+///
+/// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
+///
+/// # Errors
+/// What the file system says, the file named in front; the old file is then untouched and nothing is left beside it.
+pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
+    write_with(path, |file| file.write_all(bytes.as_ref()))
+}
+
+/// As [`write()`], for content that is too long to be held in memory: `fill` writes it piece by piece.
+///
+/// # Errors
+/// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let naming = |error: io::Error| naming(path, &error);
+    let _writing = writing::begin();
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(naming)?;
+    }
+    let beside = name_beside(path)?;
+    let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        // The first error is the one to tell; that the rest cannot be cleared away follows from it.
+        let _ = fs::remove_file(&beside);
+    }
+    written.map_err(naming)
+}
+
+/// Makes the folder, with those above it, and proves that files can be written to it.
+///
+/// # Errors
+/// That of the operating system, `folder` named in front of it.
+pub fn prepare_folder(folder: &Path) -> io::Result<()> {
+    let naming = |error: io::Error| naming(folder, &error);
+    fs::create_dir_all(folder).map_err(naming)?;
+    let probe = name_beside(&folder.join("probe"))?;
+    fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
+}
+
+/// Removes what writers of `path` that were killed have left beside it. Call it where no other process writes this file.
+///
+/// # Errors
+/// That of the operating system.
+pub fn remove_leftovers(path: &Path) -> io::Result<()> {
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
+        return Ok(());
+    };
+    let is_leftover = |found: &str| {
+        let number =
+            found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)).and_then(|rest| rest.strip_prefix('.'));
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        number
+            .and_then(|number| number.split_once('-'))
+            .is_some_and(|(process, count)| digits(process) && digits(count))
+    };
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries.map_err(|error| naming(folder, &error))?,
+    };
+    for entry in entries {
+        let entry = entry.map_err(|error| naming(folder, &error))?;
+        if entry.file_name().to_str().is_some_and(is_leftover) {
+            fs::remove_file(entry.path()).map_err(|error| naming(&entry.path(), &error))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file and waits until it is on the disk.
+pub fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fill_through(path, |file| file.write_all(bytes))
+}
+
+fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut file = BufWriter::new(File::create_new(path)?);
+    fill(&mut file)?;
+    file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+}
+
+pub fn naming(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
+/// A name in the same folder that no other thread or process uses.
+fn name_beside(path: &Path) -> io::Result<PathBuf> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "a folder, not a file"))?;
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    let mut beside = std::ffi::OsString::from(".");
+    beside.push(name);
+    beside.push(format!(".{}-{count}", process::id()));
+    Ok(path.with_file_name(beside))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_new_bytes_replace_the_old_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/er/file.txt");
+        write(&path, "old, and longer").unwrap();
+        write(&path, "new").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_failed_write_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let taken = folder.path().join("taken");
+        fs::create_dir_all(taken.join("full")).unwrap();
+        assert!(write(&taken, "bytes").is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".a.json.17-0", ".a.json.17-x", ".b.json.17-0", "a.json", ".a.json.-0", "a.json.17-0"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_leftovers(&folder.path().join("a.json")).unwrap();
+        remove_leftovers(&folder.path().join("nowhere/a.json")).unwrap();
+        let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, [".a.json.-0", ".a.json.17-x", ".b.json.17-0", "a.json", "a.json.17-0"]);
+    }
+
+    #[test]
+    fn a_folder_is_made_with_those_above_it_and_stays_empty() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("a/b");
+        prepare_folder(&deep).unwrap();
+        assert_eq!(fs::read_dir(&deep).unwrap().count(), 0);
+        fs::write(folder.path().join("file"), "").unwrap();
+        let message = prepare_folder(&folder.path().join("file")).unwrap_err().to_string();
+        assert!(message.contains("file"), "{message}");
+    }
+}

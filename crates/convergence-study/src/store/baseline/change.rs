@@ -1,0 +1,135 @@
+//! What differs between a baseline and a run.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::Guarded;
+use crate::study::outcome::Quantity;
+use crate::text::number::plain_text;
+
+/// A guarded number that is not what it was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Change {
+    /// The study.
+    pub study: String,
+    /// The quantity.
+    pub name: String,
+    /// What happened to it.
+    pub movement: Movement,
+}
+
+/// What happened to a guarded number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Movement {
+    /// It changed by more than is tolerated.
+    Moved {
+        /// The baseline's value.
+        from: f64,
+        /// The new value.
+        to: f64,
+        /// The relative change tolerated.
+        tolerance: f64,
+    },
+    /// Its tolerance is another one: a guard is not loosened in passing.
+    Tolerance {
+        /// The baseline's tolerance.
+        from: f64,
+        /// The new tolerance.
+        to: f64,
+    },
+    /// The baseline does not have it.
+    New {
+        /// Its value.
+        value: f64,
+    },
+    /// The run does not have it.
+    Vanished {
+        /// The baseline's value.
+        value: f64,
+    },
+}
+
+impl Movement {
+    /// What to look at first: by how many times the tolerance a number has moved. What cannot be compared comes ahead of
+    /// all, but for what is only new.
+    pub fn weight(&self) -> f64 {
+        match *self {
+            Self::Moved { from, to, tolerance } => {
+                let times = (to - from).abs() / (tolerance * from.abs());
+                if times.is_nan() { f64::INFINITY } else { times }
+            }
+            Self::Tolerance { .. } | Self::Vanished { .. } => f64::INFINITY,
+            Self::New { .. } => 0.0,
+        }
+    }
+}
+
+/// Whether a number is what it was. Nothing meets NaN or infinity, and a tolerance that is neither is no tolerance.
+pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
+    tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()
+}
+
+/// The changes of one study: in the run's order, then what has vanished.
+pub(super) fn between(study: &str, expected: &BTreeMap<String, Guarded>, found: &[Quantity]) -> Vec<Change> {
+    let change = |name: &String, movement| Change { study: study.to_owned(), name: name.clone(), movement };
+    let mut changes = Vec::new();
+    for quantity in found {
+        match expected.get(&quantity.name) {
+            Some(guarded) => changes.extend(movement(guarded, quantity).map(|moved| change(&quantity.name, moved))),
+            None => changes.push(change(&quantity.name, Movement::New { value: quantity.value })),
+        }
+    }
+    let vanished = expected.iter().filter(|(name, _)| !found.iter().any(|quantity| quantity.name == **name));
+    changes.extend(vanished.map(|(name, guarded)| change(name, Movement::Vanished { value: guarded.value })));
+    changes
+}
+
+fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
+    if !meets(from.value, to.value, from.tolerance) {
+        Some(Movement::Moved { from: from.value, to: to.value, tolerance: from.tolerance })
+    } else if from.tolerance != to.tolerance {
+        Some(Movement::Tolerance { from: from.tolerance, to: to.tolerance })
+    } else {
+        None
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} {}", self.study, self.name, self.movement)
+    }
+}
+
+impl fmt::Display for Movement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Moved { from, to, tolerance } => moved(f, from, to, tolerance),
+            Self::Tolerance { from, to } => write!(f, "has another tolerance: was {from:e}, is {to:e}"),
+            Self::New { value } => write!(f, "is new: {}", plain_text(value)),
+            Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(value)),
+        }
+    }
+}
+
+fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt::Result {
+    write!(f, "moved from {} to {}", plain_text(from), plain_text(to))?;
+    let change = (to - from) / from.abs();
+    if change.is_finite() {
+        write!(f, ", by {}{}, tolerated {}", if change > 0.0 { "+" } else { "" }, percent(change), percent(tolerance))
+    } else if from == 0.0 && to.is_finite() {
+        write!(f, ", and nothing but 0 is tolerated")
+    } else {
+        write!(f, ", and what is not finite meets nothing")
+    }
+}
+
+/// A share as a percentage with two significant digits.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
+        format!("{rounded} %")
+    } else {
+        format!("{rounded:e} %")
+    }
+}

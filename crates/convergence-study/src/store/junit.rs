@@ -1,0 +1,67 @@
+//! The verdicts as JUnit XML, for continuous integration.
+//!
+//! One suite for each study, one test case for each rate and check; inconclusive is a failure of its own type. Without
+//! times: the file is committed and must not change when nothing has changed.
+
+use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
+
+use crate::judge::verdict::Verdict;
+use crate::run::Finished;
+use crate::store::baseline::Change;
+
+/// The document, for a project of that name.
+///
+/// # Errors
+/// What `quick-junit` cannot write.
+pub fn junit(name: &str, finished: &[Finished], changes: &[Change]) -> Result<String, SerializeError> {
+    let mut report = Report::new(name);
+    report.add_test_suites(finished.iter().map(suite));
+    report.add_test_suite(baseline(changes));
+    report.to_string()
+}
+
+fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite {
+    let mut suite = TestSuite::new(header.id.as_str());
+    suite.add_property(("claim", header.claim.as_str()));
+    for (norm, rate) in &outcome.rates {
+        let name = format!("{norm}: order {}", rate.order);
+        suite.add_test_case(case(&header.id, &name, rate.verdict, &rate.reason));
+    }
+    for check in &outcome.checks {
+        suite.add_test_case(case(&header.id, &check.claim, check.verdict, &check.evidence));
+    }
+    // Where each part passes and the whole does not, or where there are no parts, the whole has to speak.
+    if outcome.verdict != Verdict::Pass && suite.failures == 0 {
+        suite.add_test_case(case(&header.id, "verdict", outcome.verdict, &outcome.summary));
+    }
+    if !failed_cases.is_empty() {
+        let lines = failed_cases.iter().map(|failed| format!("{}: {}\n", failed.label, failed.reason));
+        suite.set_system_err(lines.collect::<String>());
+    }
+    suite
+}
+
+fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
+    let mut status = match verdict {
+        Verdict::Pass => TestCaseStatus::success(),
+        Verdict::Fail | Verdict::Inconclusive => TestCaseStatus::non_success(NonSuccessKind::Failure),
+    };
+    if verdict != Verdict::Pass {
+        status.set_type(verdict.name()).set_message(reason);
+    }
+    let mut case = TestCase::new(name, status);
+    case.set_classname(study);
+    case
+}
+
+fn baseline(changes: &[Change]) -> TestSuite {
+    let mut suite = TestSuite::new("baseline");
+    if changes.is_empty() {
+        suite.add_test_case(case("baseline", "no guarded number has moved", Verdict::Pass, ""));
+    }
+    for change in changes {
+        let name = format!("{}: {}", change.study, change.name);
+        suite.add_test_case(case("baseline", &name, Verdict::Fail, &change.movement.to_string()));
+    }
+    suite
+}

@@ -1,0 +1,9 @@
+//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and files written as one set.
+
+pub mod atomic;
+pub mod baseline;
+pub mod file_set;
+pub mod junit;
+pub mod provenance;
+pub mod record;
+pub mod writing;

@@ -1,0 +1,94 @@
+//! Where a record comes from: machine, tools, revision and times. All that varies between two runs is here.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::Serialize;
+
+use crate::run::Finished;
+use crate::store::record::SCHEMA;
+
+/// Origin of a run. What cannot be found out is `null`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Provenance {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Version of this crate.
+    pub crate_version: &'static str,
+    /// What was run, as a command.
+    pub command: String,
+    /// Git revision of the working tree.
+    pub git_revision: Option<String>,
+    /// Whether the working tree differs from that revision.
+    pub git_modified: Option<bool>,
+    /// What `rustc --version` says.
+    pub toolchain: Option<String>,
+    /// Model of the processor.
+    pub cpu: Option<String>,
+    /// Operating system and architecture.
+    pub platform: String,
+    /// Threads that the machine has.
+    pub threads_available: Option<usize>,
+    /// Threads that were used.
+    pub jobs: usize,
+    /// End of the run, in seconds since 1970.
+    pub finished_at: Option<u64>,
+    /// Time of each study.
+    pub studies: Vec<StudyTime>,
+}
+
+/// Time of a study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StudyTime {
+    /// Its id.
+    pub id: String,
+    /// Added up over all cases, whichever thread ran them.
+    pub busy_seconds: f64,
+    /// From the start of the first case to the end of the last one.
+    pub wall_seconds: f64,
+}
+
+impl Provenance {
+    /// Looks around.
+    ///
+    /// * `root`: a folder of the working tree.
+    /// * `command`: what was run.
+    pub fn collect(root: &Path, command: String, jobs: usize, finished: &[Finished]) -> Self {
+        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+        Self {
+            schema: SCHEMA,
+            crate_version: env!("CARGO_PKG_VERSION"),
+            command,
+            git_revision: said(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
+            git_modified: said(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
+                .map(|changes| !changes.is_empty()),
+            toolchain: said(Command::new(rustc).arg("--version").current_dir(root)),
+            cpu: cpu_model(),
+            platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            threads_available: thread::available_parallelism().ok().map(usize::from),
+            jobs,
+            finished_at: SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
+            studies: finished.iter().map(time).collect(),
+        }
+    }
+}
+
+fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
+    StudyTime { id: header.id.clone(), busy_seconds: spent.busy.as_secs_f64(), wall_seconds: spent.wall.as_secs_f64() }
+}
+
+/// What a command says when it succeeds.
+fn said(command: &mut Command) -> Option<String> {
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
+}
+
+/// Linux tells it in a file; elsewhere it stays unknown.
+fn cpu_model() -> Option<String> {
+    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    line.split_once(':').map(|(_, model)| model.trim().to_owned())
+}

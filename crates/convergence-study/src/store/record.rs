@@ -1,0 +1,288 @@
+//! The record of a run: what was found, as data with a versioned schema, to be read by programs.
+//!
+//! One form, two precisions. [`Precision::Full`] is for programs that read a run as it happens; [`Precision::Committed`] is for
+//! the file under version control, which must not change by a byte when nothing has changed. Times, machine and revision
+//! are in neither: they belong to the [`provenance`](crate::store::provenance).
+//!
+//! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::run::Finished;
+use crate::study::outcome::{Check, LevelErrors, Outcome, Quantity};
+use crate::text::number::{committed, committed_rate};
+
+/// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
+pub const SCHEMA: u32 = 1;
+
+/// How many digits a record keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// All of them.
+    Full,
+    /// Those that are the same from run to run and, mostly, from machine to machine: see [`committed`].
+    Committed,
+}
+
+/// A whole run.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Record {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Version of this crate.
+    pub crate_version: &'static str,
+    /// What was run, such as `quick`.
+    pub scope: String,
+    /// The verdict on the run, the baseline's word included.
+    pub verdict: &'static str,
+    /// What moved away from the baseline, in words.
+    pub baseline_changes: Vec<String>,
+    /// One entry for each study.
+    pub studies: Vec<StudyRecord>,
+}
+
+/// One study of a run.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct StudyRecord {
+    /// Its id.
+    pub id: String,
+    /// What it claims.
+    pub claim: String,
+    /// `quick` or `full`.
+    pub tier: &'static str,
+    /// The kind of study.
+    pub kind: String,
+    /// `pass`, `fail` or `inconclusive`.
+    pub verdict: &'static str,
+    /// The verdict in a sentence.
+    pub summary: String,
+    /// Errors by level.
+    pub levels: Vec<LevelRecord>,
+    /// Rates judged.
+    pub rates: Vec<RateRecord>,
+    /// Everything else that was judged.
+    pub checks: Vec<CheckRecord>,
+    /// Numbers that the baseline guards.
+    pub quantities: Vec<QuantityRecord>,
+    /// Cases without a result.
+    pub failed_cases: Vec<FailedCaseRecord>,
+    /// The meaning of every `null` that stands for a number.
+    pub not_finite: Vec<NotFinite>,
+}
+
+/// Errors at one level.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct LevelRecord {
+    /// Its parameters, such as elements and steps, as keys of their own.
+    #[serde(flatten)]
+    pub parameters: Parameters,
+    /// Error by norm.
+    pub errors: Errors,
+}
+
+/// Norms and errors, written as a map in their own order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors(pub Vec<(String, f64)>);
+
+/// Parameters of a level, written as a map in their own order; whole numbers without a decimal point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameters(pub Vec<(String, f64)>);
+
+/// A rate that was judged.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct RateRecord {
+    /// The norm.
+    pub norm: String,
+    /// What theory says.
+    pub order: f64,
+    /// Half-width of the band about the order.
+    pub tolerance: f64,
+    /// Rates between neighbouring levels.
+    pub pairwise: Vec<f64>,
+    /// The rate fitted over the asymptotic range.
+    pub fitted: Option<f64>,
+    /// Its interval.
+    pub interval: Option<[f64; 2]>,
+    /// The limit of the pairwise rates.
+    pub extrapolated: Option<f64>,
+    /// `pass`, `fail` or `inconclusive`.
+    pub verdict: &'static str,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// A check.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct CheckRecord {
+    /// What is claimed.
+    pub claim: String,
+    /// `pass`, `fail` or `inconclusive`.
+    pub verdict: &'static str,
+    /// The evidence, with numbers.
+    pub evidence: String,
+}
+
+/// A guarded number.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct QuantityRecord {
+    /// Its name.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// The relative change that is tolerated.
+    pub tolerance: f64,
+}
+
+/// A case without a result.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct FailedCaseRecord {
+    /// Which one.
+    pub case: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// A number that JSON cannot hold.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct NotFinite {
+    /// Where in the study, such as `levels[2].errors.velocity`.
+    pub at: String,
+    /// `NaN`, `inf` or `-inf`.
+    pub value: String,
+}
+
+impl Record {
+    /// The record of a run.
+    pub fn new<'f>(
+        scope: &str,
+        verdict: Verdict,
+        baseline_changes: Vec<String>,
+        finished: impl IntoIterator<Item = &'f Finished>,
+        precision: Precision,
+    ) -> Self {
+        Self {
+            schema: SCHEMA,
+            crate_version: env!("CARGO_PKG_VERSION"),
+            scope: scope.to_owned(),
+            verdict: verdict.name(),
+            baseline_changes,
+            studies: finished.into_iter().map(|finished| StudyRecord::new(finished, precision)).collect(),
+        }
+    }
+}
+
+impl StudyRecord {
+    /// The record of one study.
+    pub fn new(Finished { header, outcome, failed_cases, .. }: &Finished, precision: Precision) -> Self {
+        let failed = failed_cases.iter();
+        Self {
+            id: header.id.clone(),
+            claim: header.claim.clone(),
+            tier: header.tier.name(),
+            kind: header.kind.clone(),
+            verdict: outcome.verdict.name(),
+            summary: outcome.summary.clone(),
+            levels: outcome.levels.iter().map(|level| precision.level(level)).collect(),
+            rates: outcome.rates.iter().map(|(norm, rate)| precision.rate(norm, rate)).collect(),
+            checks: outcome.checks.iter().map(check).collect(),
+            quantities: outcome.quantities.iter().map(|quantity| precision.quantity(quantity)).collect(),
+            failed_cases: failed
+                .map(|failed| FailedCaseRecord { case: failed.label.clone(), reason: failed.reason.clone() })
+                .collect(),
+            not_finite: not_finite(outcome),
+        }
+    }
+}
+
+impl Precision {
+    fn number(self, value: f64) -> f64 {
+        if self == Self::Full { value } else { committed(value) }
+    }
+
+    fn rate_number(self, rate: f64) -> f64 {
+        if self == Self::Full { rate } else { committed_rate(rate) }
+    }
+
+    fn level(self, level: &LevelErrors) -> LevelRecord {
+        let errors = level.errors.iter().map(|(norm, error)| (norm.clone(), self.number(*error)));
+        LevelRecord { parameters: Parameters(level.parameters.clone()), errors: Errors(errors.collect()) }
+    }
+
+    fn rate(self, norm: &str, rate: &RateVerdict) -> RateRecord {
+        RateRecord {
+            norm: norm.to_owned(),
+            order: rate.order,
+            tolerance: rate.tolerance,
+            pairwise: rate.pairwise.iter().map(|rate| self.rate_number(*rate)).collect(),
+            fitted: rate.fitted.map(|rate| self.rate_number(rate)),
+            interval: rate.interval.map(|ends| ends.map(|end| self.rate_number(end))),
+            extrapolated: rate.extrapolated.map(|rate| self.rate_number(rate)),
+            verdict: rate.verdict.name(),
+            reason: rate.reason.clone(),
+        }
+    }
+
+    fn quantity(self, quantity: &Quantity) -> QuantityRecord {
+        let Quantity { name, value, tolerance } = quantity;
+        QuantityRecord { name: name.clone(), value: self.number(*value), tolerance: *tolerance }
+    }
+}
+
+fn check(check: &Check) -> CheckRecord {
+    let Check { claim, verdict, evidence } = check;
+    CheckRecord { claim: claim.clone(), verdict: verdict.name(), evidence: evidence.clone() }
+}
+
+/// Every number of an outcome that JSON cannot hold.
+fn not_finite(outcome: &Outcome) -> Vec<NotFinite> {
+    let mut found = Vec::new();
+    let mut look = |at: String, value: f64| {
+        if !value.is_finite() {
+            found.push(NotFinite { at, value: value.to_string() });
+        }
+    };
+    for (i, level) in outcome.levels.iter().enumerate() {
+        level.errors.iter().for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
+    }
+    for (i, (_, rate)) in outcome.rates.iter().enumerate() {
+        rate.pairwise.iter().enumerate().for_each(|(j, rate)| look(format!("rates[{i}].pairwise[{j}]"), *rate));
+        let interval = rate.interval.into_iter().flatten();
+        interval.enumerate().for_each(|(j, end)| look(format!("rates[{i}].interval[{j}]"), end));
+        rate.fitted.into_iter().for_each(|fitted| look(format!("rates[{i}].fitted"), fitted));
+        rate.extrapolated.into_iter().for_each(|rate| look(format!("rates[{i}].extrapolated"), rate));
+    }
+    for (i, quantity) in outcome.quantities.iter().enumerate() {
+        look(format!("quantities[{i}].value"), quantity.value);
+    }
+    found
+}
+
+impl Serialize for Errors {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (norm, error) in &self.0 {
+            map.serialize_entry(norm, error)?;
+        }
+        map.end()
+    }
+}
+
+impl Serialize for Parameters {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            let whole = *value as i64;
+            if whole as f64 == *value { map.serialize_entry(name, &whole)? } else { map.serialize_entry(name, value)? }
+        }
+        map.end()
+    }
+}
+
+/// A record as JSON text with a line end, as it stands in a file.
+///
+/// # Errors
+/// What `serde_json` refuses, which is nothing of this module.
+pub fn json(record: &impl Serialize) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(record).map(|text| text + "\n")
+}

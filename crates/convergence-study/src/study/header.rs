@@ -1,0 +1,105 @@
+//! The table `[study]`, which every kind of study file has.
+
+use std::path::Path;
+
+use crate::input::{self, InputError, Section};
+
+/// The kind of a study whose file has no `kind`.
+pub const DEFAULT_KIND: &str = "convergence";
+
+/// Longest id: it is part of file names, of which some systems take 255 bytes.
+const LONGEST_NAME: usize = 100;
+
+/// When a study is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Tier {
+    /// Always.
+    Quick,
+    /// Only when everything is verified.
+    Full,
+}
+
+impl Tier {
+    /// All tiers.
+    pub const ALL: [Tier; 2] = [Tier::Quick, Tier::Full];
+
+    /// The name in study files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tier::Quick => "quick",
+            Tier::Full => "full",
+        }
+    }
+}
+
+/// What a study file says about itself, whatever its kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Header {
+    /// The study's name: small letters, digits, `.` and `-`.
+    pub id: String,
+    /// What is claimed, in words.
+    pub claim: String,
+    /// When it is run.
+    pub tier: Tier,
+    /// Which reader the rest of the file is for.
+    pub kind: String,
+}
+
+impl Header {
+    /// Reads `[study]` of a file and nothing else.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and field.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        Self::parse(&input::read_text(path)?, &path.display().to_string())
+    }
+
+    /// Reads `[study]` of `text` and nothing else; messages refer to `file_name`.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and field.
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
+        input::parse(text, file_name, Self::from_document)
+    }
+
+    /// Reads `[study]` of a document.
+    ///
+    /// # Errors
+    /// As [`Header::parse`].
+    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+        let study = root.require("study", "a table with id, claim and tier")?.section()?;
+        study.allow(&["id", "claim", "tier", "kind"])?;
+        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
+        Ok(Self {
+            id: name(&study, "id")?,
+            claim: claim(&study)?,
+            tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
+            kind: if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() },
+        })
+    }
+}
+
+/// A name that can stand in a file's name and on a command line.
+fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let allowed = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
+    let field = study.require(key, allowed)?;
+    let text = field.text()?;
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '.' || c == '-';
+    let begins = text.starts_with(|c: char| c.is_ascii_lowercase() || c.is_ascii_digit());
+    if !begins || text.len() > LONGEST_NAME || !text.chars().all(fits) {
+        return Err(field.refuse_as_written(allowed));
+    }
+    Ok(text.to_owned())
+}
+
+fn claim(study: &Section<'_>) -> Result<String, InputError> {
+    let allowed = "one line of text that says what the study claims";
+    let field = study.require("claim", allowed)?;
+    let text = field.text()?;
+    if text.trim().is_empty() || text.contains(char::is_control) {
+        Err(field.refuse_as_written(allowed))
+    } else {
+        Ok(text.to_owned())
+    }
+}

@@ -1,0 +1,180 @@
+//! A kind of study: typed for who writes one, erased for the runner.
+
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use super::case::{Case, CaseFailure, Ran};
+use super::header::Header;
+use super::outcome::Outcome;
+use crate::input::{self, InputError, Section};
+
+/// A study of one kind, read and validated: its cases, how one is computed, how all are judged.
+///
+/// A case is a pure function of its data, so that the study has the same outcome for any number of threads.
+pub trait Kind: Send + Sync {
+    /// What a case needs to know.
+    type Data: Send + Sync;
+    /// What a case finds.
+    type Found: Send;
+
+    /// Id, claim, tier and kind.
+    fn header(&self) -> &Header;
+
+    /// The computations, in the order in which they are judged.
+    fn cases(&self) -> Vec<Case<Self::Data>>;
+
+    /// Computes one case: the same result on every thread, at every time.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the computation did not complete.
+    fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
+
+    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must not pass unseen.
+    fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
+
+    /// What this study does, for `explain`: paragraphs, each with its title.
+    fn details(&self) -> Vec<(String, String)> {
+        vec![]
+    }
+}
+
+/// A kind of study that a file describes.
+pub trait FromFile: Kind + Sized {
+    /// Reads the study from the document of its file.
+    ///
+    /// * `header`: the table `[study]`, read already.
+    /// * `root`: the document.
+    /// * `folder`: the folder of the file, which names of other files are relative to.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+
+    /// Reads a study from `text`; messages name `file`, and files that it names are looked for beside it.
+    ///
+    /// # Errors
+    /// As [`FromFile::from_document`].
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, |root, folder| Self::from_document(Header::from_document(root)?, root, folder))
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`], and where the file cannot be read.
+    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
+    }
+}
+
+/// Runs all cases on this thread, one after the other, and judges them.
+pub fn run_here<K: Kind>(kind: &K) -> Outcome {
+    kind.judge(&run_cases_here(kind))
+}
+
+/// Runs all cases on this thread, one after the other.
+pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
+    let run = |case: Case<K::Data>| Ran { found: kind.run(&case.data), case };
+    kind.cases().into_iter().map(run).collect()
+}
+
+/// A study of any kind, as the runner sees it.
+pub trait Study: Send + Sync {
+    /// Id, claim, tier and kind.
+    fn header(&self) -> &Header;
+
+    /// Lists the cases, with a place for the result of each.
+    fn plan(&self) -> Box<dyn Plan + '_>;
+
+    /// What this study does, for `explain`: paragraphs, each with its title.
+    fn details(&self) -> Vec<(String, String)>;
+}
+
+/// The cases of a study while they are run.
+pub trait Plan: Send + Sync {
+    /// Label and cost of each case.
+    fn cases(&self) -> Vec<Case<()>>;
+
+    /// Runs case number `index` and keeps its result.
+    fn run(&self, index: usize);
+
+    /// Replaces the result of case number `index` by a failure.
+    fn fail(&self, index: usize, failure: CaseFailure);
+
+    /// Why case number `index` has no result; `None` if it has one.
+    fn failure(&self, index: usize) -> Option<CaseFailure>;
+
+    /// Judges the results, each case having been run.
+    fn judge(self: Box<Self>) -> Outcome;
+}
+
+/// A typed study as one that the runner takes.
+pub fn erased<'k, K: Kind + 'k>(kind: K) -> Box<dyn Study + 'k> {
+    Box::new(Erased(kind))
+}
+
+struct Erased<K>(K);
+
+impl<K: Kind> Study for Erased<K> {
+    fn header(&self) -> &Header {
+        self.0.header()
+    }
+
+    fn plan(&self) -> Box<dyn Plan + '_> {
+        let cases = self.0.cases();
+        let found = cases.iter().map(|_| Mutex::new(None)).collect();
+        Box::new(Typed { kind: &self.0, cases, found })
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        self.0.details()
+    }
+}
+
+/// Cases of one kind and their results; `None` until a case was run.
+struct Typed<'k, K: Kind> {
+    kind: &'k K,
+    cases: Vec<Case<K::Data>>,
+    found: Vec<Mutex<Option<Result<K::Found, CaseFailure>>>>,
+}
+
+impl<K: Kind> Typed<'_, K> {
+    fn keep(&self, index: usize, result: Result<K::Found, CaseFailure>) {
+        *self.found[index].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+    }
+}
+
+fn never_run() -> CaseFailure {
+    CaseFailure { reason: "the case was not run".to_owned() }
+}
+
+impl<K: Kind> Plan for Typed<'_, K> {
+    fn cases(&self) -> Vec<Case<()>> {
+        self.cases.iter().map(|case| Case { label: case.label.clone(), cost: case.cost, data: () }).collect()
+    }
+
+    fn run(&self, index: usize) {
+        self.keep(index, self.kind.run(&self.cases[index].data));
+    }
+
+    fn fail(&self, index: usize, failure: CaseFailure) {
+        self.keep(index, Err(failure));
+    }
+
+    fn failure(&self, index: usize) -> Option<CaseFailure> {
+        match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(Ok(_)) => None,
+            Some(Err(failure)) => Some(failure.clone()),
+            None => Some(never_run()),
+        }
+    }
+
+    fn judge(self: Box<Self>) -> Outcome {
+        let Self { kind, cases, found } = *self;
+        let result = |slot: Mutex<Option<Result<K::Found, CaseFailure>>>| {
+            slot.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(|| Err(never_run()))
+        };
+        let ran: Vec<_> = cases.into_iter().zip(found).map(|(case, slot)| Ran { case, found: result(slot) }).collect();
+        kind.judge(&ran)
+    }
+}

@@ -1,0 +1,233 @@
+//! Errors over levels of refinement: judged, guarded, drawn and listed in one way for all kinds of study.
+
+use super::axis::Axis;
+use super::case::Ran;
+use super::outcome::{Check, Figure, LevelErrors, Quantity, Table};
+use crate::judge::fit::Level;
+use crate::judge::verdict::{Judge, JudgeError, RateVerdict, Reason, Verdict};
+use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};
+
+/// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by 1e-8 at
+/// most, a change of the computation by more.
+pub const ERROR_TOLERANCE: f64 = 1e-6;
+
+/// The same for an observed rate.
+pub const RATE_TOLERANCE: f64 = 1e-4;
+
+/// What theory claims of an error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Claim {
+    /// The order.
+    pub order: f64,
+    /// How far the rate may be from it, above or below.
+    pub tolerance: f64,
+}
+
+/// One error on every level, coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorColumn {
+    /// Its name: a norm, a quantity.
+    pub name: String,
+    /// As measured; NaN where the case failed.
+    pub errors: Vec<f64>,
+    /// What is claimed of it, if anything.
+    pub claim: Option<Claim>,
+}
+
+/// One level of refinement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refinement {
+    /// What identifies it, in words, such as `n = 64, 20 steps`.
+    pub label: String,
+    /// Its parameters by name, such as elements and steps.
+    pub parameters: Vec<(String, f64)>,
+    /// The step that the errors are judged over: h, dt, or h = c dt.
+    pub step: f64,
+}
+
+/// Errors over levels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    /// What is refined.
+    pub axis: Axis,
+    /// The levels, steps decreasing.
+    pub refinements: Vec<Refinement>,
+    /// The errors.
+    pub columns: Vec<ErrorColumn>,
+}
+
+/// Rates that were judged, each with the name of its error.
+pub type Rates = [(String, RateVerdict)];
+
+impl Levels {
+    fn points(&self, column: &ErrorColumn) -> Vec<Level> {
+        let steps = self.refinements.iter().map(|level| level.step);
+        steps.zip(&column.errors).map(|(step, &error)| Level { step, error }).collect()
+    }
+
+    /// One verdict for each error of which an order is claimed.
+    pub fn judge(&self) -> Vec<(String, RateVerdict)> {
+        let verdict = |column: &ErrorColumn| {
+            let Claim { order, tolerance } = column.claim?;
+            let judged = Judge::new(tolerance).map(|judge| judge.judge(&self.points(column), order));
+            Some((column.name.clone(), judged.unwrap_or_else(|error| unusable(order, tolerance, &error))))
+        };
+        self.columns.iter().filter_map(verdict).collect()
+    }
+
+    /// The errors that were judged, each with the line of its rate, and triangles for the orders claimed.
+    pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
+        let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
+        let series = claimed.clone().map(|(column, claim)| {
+            let points = self.points(column);
+            let rate = rates.iter().find(|(name, _)| *name == column.name);
+            ErrorSeries {
+                label: column.name.clone(),
+                fit: rate.and_then(|(_, rate)| line(&points, rate)),
+                points: points.iter().map(|level| (level.step, level.error)).collect(),
+                order: Some(claim.order),
+                ..ErrorSeries::default()
+            }
+        });
+        let mut slopes: Vec<f64> = claimed.clone().map(|(_, claim)| claim.order).collect();
+        slopes.sort_by(f64::total_cmp);
+        slopes.dedup();
+        let labels = Convergence { x_label: self.axis.label().into(), ..Convergence::in_space() };
+        let svg = plots::convergence(&Convergence { title, series: series.collect(), slopes, ..labels });
+        Figure { file, caption, svg }
+    }
+
+    /// Every error of every level, for record and report.
+    pub fn errors(&self) -> Vec<LevelErrors> {
+        let level = |(i, level): (usize, &Refinement)| LevelErrors {
+            parameters: level.parameters.clone(),
+            errors: self.columns.iter().map(|column| (column.name.clone(), at(&column.errors, i))).collect(),
+        };
+        self.refinements.iter().enumerate().map(level).collect()
+    }
+
+    /// The numbers that the baseline guards: every observed rate, then every error of every level.
+    pub fn quantities(&self, rates: &Rates) -> Vec<Quantity> {
+        let errors = self.refinements.iter().enumerate().flat_map(|(i, level)| {
+            self.columns.iter().map(move |column| Quantity {
+                name: format!("error {}, {}", column.name, level.label),
+                value: at(&column.errors, i),
+                tolerance: ERROR_TOLERANCE,
+            })
+        });
+        rate_quantities(rates).chain(errors).collect()
+    }
+}
+
+fn at(errors: &[f64], level: usize) -> f64 {
+    errors.get(level).copied().unwrap_or(f64::NAN)
+}
+
+/// A tolerance that no verdict can be based on; readers of study files refuse it before.
+fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
+    RateVerdict {
+        order,
+        tolerance,
+        pairwise: vec![],
+        fitted: None,
+        interval: None,
+        extrapolated: None,
+        used: 0..0,
+        verdict: Verdict::Inconclusive,
+        kind: Reason::ToleranceTooWide,
+        reason: error.to_string(),
+    }
+}
+
+/// The observed rates, as numbers that the baseline guards.
+pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
+    rates.iter().filter_map(|(name, rate)| {
+        let value = rate.fitted?;
+        Some(Quantity { name: format!("rate {name}"), value, tolerance: RATE_TOLERANCE })
+    })
+}
+
+/// The observed rate as a line through the finest level that it was fitted to.
+///
+/// Not least squares: the rate is that of h → 0, and coarse levels off the line show how far they are from it.
+pub fn line(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
+    let finest = levels.get(rate.used.clone())?.last()?;
+    let rate = rate.fitted?;
+    (finest.error > 0.0).then(|| PowerLaw { rate, constant: finest.error / finest.step.powf(rate) })
+}
+
+/// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.
+pub fn rate_table(title: &str, rates: &Rates) -> Table {
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
+    let row = |(name, rate): &(String, RateVerdict)| {
+        let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| format!("{rate:.3}")).collect();
+        let interval = rate.interval.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"));
+        vec![
+            name.clone(),
+            rate.order.to_string(),
+            pairwise.join(" "),
+            number(rate.fitted),
+            interval,
+            rate.verdict.to_string(),
+            rate.kind.text().to_owned(),
+        ]
+    };
+    Table {
+        title: title.to_owned(),
+        head: ["error of", "order", "pairwise rates", "rate", "95 % interval", "verdict", "because"]
+            .map(str::to_owned)
+            .into(),
+        rows: rates.iter().map(row).collect(),
+    }
+}
+
+/// Rates and orders in a sentence: of all errors where all pass, else of those that do not, each with its reason.
+pub fn summary(rates: &Rates) -> String {
+    let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
+    let shown = rates.iter().filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
+    let one = |(name, rate): &(String, RateVerdict)| {
+        let found = rate.fitted.map_or("no rate".to_owned(), |fitted| format!("{fitted:.4}"));
+        let reason = if passes { String::new() } else { format!(": {}", rate.reason) };
+        format!("{name} {found} (order {}){reason}", rate.order)
+    };
+    shown.map(one).collect::<Vec<_>>().join("; ")
+}
+
+/// Fails unless every case has a result, and one without a number that is not finite.
+///
+/// * `not_finite`: names of the numbers of a result that are NaN or infinite.
+pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
+    let mut complaints = Vec::new();
+    for Ran { case, found } in ran {
+        match found {
+            Ok(found) => {
+                complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
+            }
+            Err(failure) => complaints.push(format!("{}: {}", case.label, failure.reason)),
+        }
+    }
+    let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
+    let mut evidence = format!("{completed} of {} cases completed", ran.len());
+    complaints.iter().for_each(|complaint| evidence += &format!("; {complaint}"));
+    Check::that(complaints.is_empty() && !ran.is_empty(), "every case completes, with finite numbers", evidence)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::case::{Case, CaseFailure};
+
+    #[test]
+    fn a_failed_case_or_a_nan_fails_the_completion() {
+        let verdict = |found: Vec<Result<f64, CaseFailure>>| {
+            let case = || Case { label: "n = 8".into(), cost: 1.0, data: () };
+            let ran: Vec<_> = found.into_iter().map(|found| Ran { case: case(), found }).collect();
+            let names = |value: &f64| if value.is_finite() { vec![] } else { vec!["error".to_owned()] };
+            completion(&ran, names).verdict
+        };
+        assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
+        assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);
+        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure { reason: "diverged".into() })]), Verdict::Fail);
+        assert_eq!(verdict(vec![]), Verdict::Fail);
+    }
+}

@@ -1,0 +1,21 @@
+//! A study: what it claims, its cases, and what it found.
+//!
+//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on any thread in any order) and
+//! how their results become an [`Outcome`]: checks with verdicts, rates, tables, figures, and the numbers that the baseline
+//! guards. The runner knows threads, the report knows Markdown, a study knows neither.
+
+mod axis;
+pub mod case;
+mod header;
+pub mod kind;
+pub mod levels;
+pub mod outcome;
+mod registry;
+pub mod soundness;
+
+pub use axis::Axis;
+pub use case::{Case, CaseFailure, Ran};
+pub use header::{Header, Tier};
+pub use kind::{FromFile, Kind, Plan, Study, erased, run_cases_here, run_here};
+pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
+pub use registry::{KindRow, Kinds, StudyFile, reader};

@@ -1,0 +1,5 @@
+//! Numbers, columns and names as text.
+
+pub mod columns;
+pub mod names;
+pub mod number;

@@ -1,0 +1,44 @@
+//! The known name closest to a misspelt one.
+
+/// Longest name for which a suggestion is sought: the distance costs the product of both lengths.
+const LONGEST: usize = 40;
+
+/// The second half of a message about an unknown name; empty without a suggestion.
+pub fn did_you_mean(suggestion: &Option<String>) -> String {
+    suggestion.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
+}
+
+/// The candidate closest to `name`, or `None` if none is close enough to be a typing error.
+///
+/// Distance: insertions, deletions, replacements and swaps of neighbours (optimal string alignment), upper and lower case
+/// counting as equal; at most one edit for every three letters, and at least one. Of equally close candidates the first.
+pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    let name = name.to_lowercase();
+    let letters = name.chars().count();
+    if letters > LONGEST {
+        return None;
+    }
+    let granted = (letters / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::osa_distance(&name, &candidate.to_lowercase()), candidate))
+        // A distance as long as the candidate itself means that no letter of it was written.
+        .filter(|&(distance, candidate)| distance <= granted && distance < candidate.chars().count())
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_typing_error_finds_the_name_and_a_different_word_does_not() {
+        let names = ["tier", "tolerance", "order", "kind"];
+        let cases = [("tear", Some("tier")), ("TIER", Some("tier")), ("odrer", Some("order")), ("size", None)];
+        for (written, meant) in cases {
+            assert_eq!(nearest(written, names), meant, "{written}");
+        }
+        assert_eq!(nearest(&"x".repeat(41), ["x".repeat(41).as_str()]), None);
+    }
+}

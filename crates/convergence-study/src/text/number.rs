@@ -1,0 +1,124 @@
+//! Numbers as reports have them: a maximum that keeps NaN, and how they are written where the bytes must stay the same.
+
+/// Significant digits of a number in a committed file: more than anyone compares, fewer than two machines agree on.
+const DIGITS: usize = 6;
+
+/// Decimal place beyond which the digits of quantities of order 1 are their rounding errors.
+const NOISE_PLACE: i32 = 15;
+
+/// Decimal places of a rate: a relative change of an error by 1e-5 does not show.
+const RATE_PLACES: usize = 4;
+
+/// The larger of two numbers; NaN if one of them is, which `f64::max` would hide.
+pub fn max_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}
+
+/// The number that a committed file has for `value`: six significant digits, none of them beyond 1e-15 but the first.
+///
+/// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical libraries need not make the
+/// same ones: 4.4541e-8 is kept, of 4.4413e-15 there remains 4e-15. Numbers that are not finite are left alone.
+pub fn committed(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let place = value.abs().log10().floor() as i32;
+    let digits = (place + NOISE_PLACE + 1).clamp(1, DIGITS as i32) as usize;
+    reread(format!("{value:.*e}", digits - 1), value)
+}
+
+/// The number that a committed file has for a rate: four decimals.
+pub fn committed_rate(rate: f64) -> f64 {
+    // Without the sum, a rate that is rounded to nothing would show its sign.
+    reread(format!("{rate:.RATE_PLACES$}"), rate) + 0.0
+}
+
+fn reread(text: String, value: f64) -> f64 {
+    text.parse().unwrap_or(value)
+}
+
+/// An error as reports show it: four significant digits, `4.454e-8`.
+pub fn error_text(value: f64) -> String {
+    let value = committed(value);
+    if value == 0.0 || !value.is_finite() { value.to_string() } else { format!("{value:.3e}") }
+}
+
+/// A rate as reports show it: three decimals; a dash where there is none.
+pub fn rate_text(rate: Option<f64>) -> String {
+    rate.map_or_else(|| "-".to_owned(), |rate| format!("{:.3}", committed_rate(rate)))
+}
+
+/// A number with so many decimals; one that is rounded to nothing shows no sign.
+pub fn decimals(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    if text.parse() == Ok(0.0) { text.replace('-', "") } else { text }
+}
+
+/// Any other number as reports show it: like an error where it is very small or large, plainly elsewhere.
+pub fn plain_text(value: f64) -> String {
+    let value = committed(value);
+    let size = value.abs();
+    if value.is_finite() && size != 0.0 && !(1e-3..1e6).contains(&size) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_maximum_keeps_nan() {
+        assert_eq!([0.0, 2.0, 1.0].into_iter().fold(0.0, max_or_nan), 2.0);
+        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
+        }
+    }
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign() {
+        assert_eq!(decimals(-4e-10, 8), "0.00000000");
+        assert_eq!(decimals(-4e-8, 8), "-0.00000004");
+        assert_eq!(decimals(f64::NAN, 2), "NaN");
+    }
+
+    #[test]
+    fn committed_numbers_keep_what_machines_agree_on() {
+        for (value, kept) in [
+            (1.0 / 3.0, 0.333333),
+            (-4.454123456e-8, -4.45412e-8),
+            (4.4413e-15, 4e-15),
+            (4.4413e-14, 4.4e-14),
+            (3.7e-19, 4e-19),
+            (123_456_789.0, 123_457_000.0),
+            (0.0, 0.0),
+            (f64::INFINITY, f64::INFINITY),
+        ] {
+            assert_eq!(committed(value), kept, "{value}");
+        }
+        assert!(committed(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn what_is_committed_stays_as_it_is_when_it_is_committed_again() {
+        for exponent in -20..20 {
+            let value = 1.234567891234 * 10f64.powi(exponent);
+            assert_eq!(committed(committed(value)), committed(value));
+        }
+    }
+
+    #[test]
+    fn texts_are_short_and_say_what_is_not_a_number() {
+        assert_eq!(error_text(4.454_12e-8), "4.454e-8");
+        assert_eq!(error_text(f64::NAN), "NaN");
+        assert_eq!(error_text(0.0), "0");
+        assert_eq!(rate_text(Some(1.99996)), "2.000");
+        assert_eq!(rate_text(Some(-1e-9)), "0.000");
+        assert_eq!(rate_text(None), "-");
+        assert_eq!(plain_text(1e-3), "0.001");
+        assert_eq!(plain_text(2.5e-7), "2.5e-7");
+        assert_eq!(plain_text(-0.0), "-0");
+    }
+}

@@ -1,0 +1,214 @@
+//! The main job, without command line and terminal: run, judge, compare with the baseline, bless, write.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::report::Findings;
+use crate::run::{self, Effort, Finished, Progress, RunError};
+use crate::store::atomic;
+use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
+use crate::store::file_set::{Shelf, lock};
+use crate::store::provenance::Provenance;
+use crate::store::record;
+use crate::store::writing;
+use crate::study::{Study, Tier};
+
+/// Which studies were asked for, and so where the reports go: a part never replaces the report on the whole.
+///
+/// | scope | reports |
+/// | --- | --- |
+/// | the quick tier | `reports/` |
+/// | the full tier | `reports/full/` |
+/// | a selection | `reports/local/partial/`, which git ignores |
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Scope {
+    /// All studies of a tier; the ids of all studies that there are, whatever their tier.
+    Tier(Tier, BTreeSet<String>),
+    /// Some studies, as they were asked for on the command line.
+    Selection(Vec<String>),
+}
+
+impl Scope {
+    /// The name in records.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Tier(tier, _) => tier.name(),
+            Self::Selection(_) => "selection",
+        }
+    }
+
+    /// The command of a project that runs it.
+    pub fn command(&self, project: &Project) -> String {
+        let verify = format!("{} verify", project.command);
+        match self {
+            Self::Tier(Tier::Quick, _) => verify,
+            Self::Tier(Tier::Full, _) => verify + " --tier full",
+            Self::Selection(asked) => {
+                let words = asked.iter().map(|word| quoted(word)).collect::<Vec<_>>();
+                format!("{verify} {}", words.join(" "))
+            }
+        }
+    }
+
+    fn known(&self) -> Option<&BTreeSet<String>> {
+        match self {
+            Self::Tier(_, known) => Some(known),
+            Self::Selection(_) => None,
+        }
+    }
+
+    fn shelf(&self, reports: &Path) -> Shelf {
+        let local = reports.join("local");
+        let workshop = local.join("workshop").join(self.name());
+        let place = match self {
+            Self::Tier(Tier::Quick, _) => reports.to_owned(),
+            Self::Tier(Tier::Full, _) => reports.join("full"),
+            Self::Selection(_) => local.join("partial"),
+        };
+        Shelf { place, workshop }
+    }
+}
+
+/// A word as a shell takes it for itself: patterns are not for the shell to resolve.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// What to do.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// Which studies these are.
+    pub scope: Scope,
+    /// Threads and time.
+    pub effort: Effort,
+    /// Whether to take the new numbers for the baseline.
+    pub bless: bool,
+    /// The workspace: `reports/` and `studies/baseline.json` are below.
+    pub root: PathBuf,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Verification {
+    /// The studies, in the order in which they were given.
+    pub finished: Vec<Finished>,
+    /// What differs from the baseline, after a blessing: nothing.
+    pub changes: Vec<Change>,
+    /// The worst of all studies, and fail where something differs.
+    pub verdict: Verdict,
+    /// Whether the baseline is new, where that was asked for.
+    pub blessing: Option<Result<(), Refusal>>,
+    /// The folder of the reports.
+    pub reports: PathBuf,
+}
+
+/// Why there is no verification.
+#[derive(Debug, Error)]
+pub enum VerificationError {
+    /// The studies cannot be run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The baseline cannot be used.
+    #[error(transparent)]
+    Baseline(#[from] BaselineError),
+    /// The reports cannot be written.
+    #[error("{}: the reports cannot be written: {error}", .folder.display())]
+    Reports {
+        /// Their folder.
+        folder: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+/// Runs the studies and writes baseline, if asked, and reports.
+///
+/// # Errors
+/// [`VerificationError`]; a baseline that cannot be read is found before anything is run.
+pub fn verify(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    request: &Request,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Verification, VerificationError> {
+    let baseline_file = request.root.join("studies").join("baseline.json");
+    Baseline::read(&baseline_file)?;
+    tidy(request).map_err(|error| VerificationError::Reports { folder: request.root.join("reports"), error })?;
+    let finished = run::run(studies, request.effort, progress)?;
+
+    let folder = request.root.join("reports");
+    let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
+    let _lock = lock(&folder.join("local").join("lock")).map_err(fail)?;
+    // A request to end the process waits until everything is written.
+    let _writing = writing::begin();
+    // Another run may have blessed in the meantime: under the lock it is read again.
+    let mut baseline = Baseline::read(&baseline_file)?;
+    let known = request.scope.known();
+    let blessing = request.bless.then(|| baseline.bless(&finished, known));
+    if let Some(Ok(())) = &blessing {
+        baseline.write(&baseline_file)?;
+    }
+    let changes = baseline.compare(&finished, known);
+    let verdict = verdict(&finished, &changes);
+    let shelf = request.scope.shelf(&folder);
+    let verification = Verification { finished, changes, verdict, blessing, reports: shelf.place.clone() };
+    write_reports(project, &verification, request, &shelf, &folder).map_err(fail)?;
+    Ok(verification)
+}
+
+/// Completes or clears away what a run that was killed has left, whatever that run was of.
+fn tidy(request: &Request) -> io::Result<()> {
+    let reports = request.root.join("reports");
+    let local = reports.join("local");
+    if !local.is_dir() {
+        return Ok(());
+    }
+    let _lock = lock(&local.join("lock"))?;
+    let _writing = writing::begin();
+    atomic::remove_leftovers(&request.root.join("studies").join("baseline.json"))?;
+    atomic::remove_leftovers(&local.join("provenance.json"))?;
+    let whole = |tier| Scope::Tier(tier, BTreeSet::new());
+    [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
+        .iter()
+        .try_for_each(|scope| scope.shelf(&reports).tidy())
+}
+
+/// Each study is judged on its own; the baseline can only make the whole worse.
+fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+    let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
+    if changes.is_empty() { own } else { Verdict::Fail }
+}
+
+impl Verification {
+    /// What is reported on.
+    pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
+        let Self { finished, changes, verdict, .. } = self;
+        Findings { project, scope: scope.name(), command, finished, changes, verdict: *verdict, see_also: None }
+    }
+}
+
+fn write_reports(
+    project: &Project,
+    found: &Verification,
+    request: &Request,
+    shelf: &Shelf,
+    folder: &Path,
+) -> io::Result<()> {
+    let scope = &request.scope;
+    let command = scope.command(project);
+    let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
+    let see_also = has_full.then_some(("the report on the full tier", "full"));
+    shelf.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
+    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
+    atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
+}

@@ -1,0 +1,409 @@
+//! What the judge must never do, and what it must always do.
+
+use convergence_study::judge::verdict::{
+    Judge, JudgeError, Level, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict, falls_away, judge, judge_pairs, moves_away,
+};
+
+/// Levels with step ratio 2 and exactly these pairwise rates.
+fn with_rates(rates: &[f64]) -> Vec<Level> {
+    let mut levels = vec![Level { step: 0.125, error: 0.1 }];
+    for rate in rates {
+        let last = levels[levels.len() - 1];
+        levels.push(Level { step: last.step / 2.0, error: last.error * 2.0_f64.powf(-rate) });
+    }
+    levels
+}
+
+fn with_errors(errors: &[f64]) -> Vec<Level> {
+    errors.iter().zip(0..).map(|(&error, k)| Level { step: 0.5_f64.powi(k), error }).collect()
+}
+
+#[track_caller]
+fn check(outcome: &RateVerdict, kind: Reason, verdict: Verdict) {
+    assert_eq!((outcome.kind, outcome.verdict), (kind, verdict), "{outcome:?}");
+    assert!(!outcome.reason.is_empty());
+}
+
+#[track_caller]
+fn check_rates(rates: &[f64], order: f64, kind: Reason, verdict: Verdict) {
+    check(&judge(&with_rates(rates), order, 0.05), kind, verdict);
+}
+
+#[track_caller]
+fn check_errors(errors: &[f64], order: f64, kind: Reason, verdict: Verdict) {
+    check(&judge(&with_errors(errors), order, 0.05), kind, verdict);
+}
+
+#[test]
+fn clean_rates_pass() {
+    check_rates(&[2.0, 2.0, 2.0], 2.0, Reason::Agrees, Verdict::Pass);
+    check_rates(&[1.0, 1.0], 1.0, Reason::Agrees, Verdict::Pass);
+    check_rates(&[1.992, 1.998, 1.9995, 1.9999], 2.0, Reason::Agrees, Verdict::Pass);
+    check_rates(&[0.983, 0.991, 0.996], 1.0, Reason::Agrees, Verdict::Pass);
+}
+
+#[test]
+fn rates_that_close_in_on_the_order_pass_though_their_mean_is_off() {
+    let outcome = judge(&with_rates(&[0.93, 0.96, 0.98, 0.99]), 1.0, 0.05);
+    check(&outcome, Reason::Agrees, Verdict::Pass);
+    assert!((outcome.extrapolated.expect("three rates") - 1.0).abs() < 1e-9);
+    check_rates(&[0.93, 0.965, 0.9825], 1.0, Reason::Agrees, Verdict::Pass);
+}
+
+#[test]
+fn interpolation_errors_of_a_superclose_scheme_pass_with_four_levels() {
+    let error = |h: f64| (h * h + 9.0 * h.powi(4)).sqrt();
+    let pairs = [8.0, 16.0, 32.0, 64.0].map(|n: f64| (1.0 / n, error(1.0 / n)));
+    check(&judge_pairs(pairs, 1.0, 0.05), Reason::Agrees, Verdict::Pass);
+}
+
+#[test]
+fn any_refinement_ratio_will_do() {
+    let pairs = [10.0, 15.0, 24.0, 50.0, 64.0].map(|n: f64| (1.0 / n, 0.3 * n.powi(-2) * (1.0 + 0.5 / n)));
+    check(&judge_pairs(pairs, 2.0, 0.05), Reason::Agrees, Verdict::Pass);
+    check(&judge_pairs(pairs, 1.9, 0.05), Reason::TooHigh, Verdict::Fail);
+}
+
+#[test]
+fn order_one_where_two_is_claimed_fails() {
+    check_rates(&[1.0, 1.0, 1.0], 2.0, Reason::TooLow, Verdict::Fail);
+    check_rates(&[0.97, 0.985, 0.9925], 2.0, Reason::TooLow, Verdict::Fail);
+}
+
+#[test]
+fn order_two_where_one_is_claimed_fails() {
+    check_rates(&[2.0, 2.0, 2.0], 1.0, Reason::TooHigh, Verdict::Fail);
+}
+
+#[test]
+fn an_order_one_tenth_off_fails_on_clean_data() {
+    check_rates(&[0.9, 0.9, 0.9], 1.0, Reason::TooLow, Verdict::Fail);
+    check_rates(&[1.1, 1.1, 1.1], 1.0, Reason::TooHigh, Verdict::Fail);
+}
+
+#[test]
+fn a_nan_error_anywhere_fails() {
+    for k in 0..4 {
+        let mut levels = with_rates(&[1.0, 1.0, 1.0]);
+        levels[k].error = f64::NAN;
+        let outcome = judge(&levels, 1.0, 0.05);
+        check(&outcome, Reason::NonFiniteError, Verdict::Fail);
+        assert!(outcome.pairwise.iter().any(|rate| rate.is_nan()), "NaN rates are reported");
+    }
+}
+
+#[test]
+fn all_nan_fails() {
+    check_errors(&[f64::NAN; 5], 1.0, Reason::NonFiniteError, Verdict::Fail);
+}
+
+#[test]
+fn an_infinite_error_fails() {
+    check_errors(&[f64::INFINITY, 0.5, 0.25, 0.125], 1.0, Reason::NonFiniteError, Verdict::Fail);
+}
+
+#[test]
+fn nan_fails_even_with_one_level() {
+    check_errors(&[f64::NAN], 1.0, Reason::NonFiniteError, Verdict::Fail);
+}
+
+#[test]
+fn a_negative_error_fails() {
+    check_errors(&[1.0, -0.5, 0.25, 0.125], 1.0, Reason::NegativeError, Verdict::Fail);
+    let all_negative = judge(&with_errors(&[-1.0, -0.5, -0.25, -0.125]), 1.0, 0.05);
+    check(&all_negative, Reason::NegativeError, Verdict::Fail);
+    assert!(all_negative.pairwise.iter().all(|rate| rate.is_nan()), "their quotients would look like rates of 1");
+}
+
+#[test]
+fn errors_all_zero_never_pass() {
+    check_errors(&[0.0; 5], 1.0, Reason::ZeroError, Verdict::Inconclusive);
+}
+
+#[test]
+fn one_zero_error_never_passes() {
+    check_errors(&[1.0, 0.5, 0.25, 0.125, 0.0], 1.0, Reason::ZeroError, Verdict::Inconclusive);
+}
+
+#[test]
+fn constant_errors_fail() {
+    check_errors(&[0.3; 5], 1.0, Reason::ErrorGrows, Verdict::Fail);
+}
+
+#[test]
+fn growing_errors_fail_even_when_the_sign_of_the_rate_is_lost() {
+    check_rates(&[-1.0, -1.0, -1.0], 1.0, Reason::ErrorGrows, Verdict::Fail);
+    check_rates(&[-2.0, -2.0, -2.0], 2.0, Reason::ErrorGrows, Verdict::Fail);
+}
+
+#[test]
+fn a_rate_of_75_976_never_passes() {
+    for rates in [[75.976, 1.0, 1.0], [1.0, 1.0, 75.976], [1.0, 75.976, 1.0], [75.976, 75.976, 75.976]] {
+        // Far above the round-off floor, so that nothing but the rate itself can stop it.
+        let pairs = with_rates(&rates).into_iter().map(|level| (level.step, 1e80 * level.error));
+        check(&judge_pairs(pairs, 1.0, 0.05), Reason::WildRate, Verdict::Inconclusive);
+        assert_ne!(judge(&with_rates(&rates), 1.0, 0.05).verdict, Verdict::Pass, "{rates:?}");
+    }
+}
+
+#[test]
+fn two_levels_never_pass() {
+    check_errors(&[], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
+    check_errors(&[1.0], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
+    check_errors(&[1.0, 0.5], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
+}
+
+#[test]
+fn an_interval_so_wide_that_everything_fits_is_inconclusive() {
+    check_rates(&[1.1, 0.92, 1.08, 0.93], 1.0, Reason::IntervalTooWide, Verdict::Inconclusive);
+    let outcome = judge(&with_rates(&[1.1, 0.92, 1.08, 0.93]), 2.0, 0.45);
+    assert_ne!(outcome.verdict, Verdict::Pass);
+}
+
+#[test]
+fn a_tolerance_so_wide_that_everything_fits_is_refused() {
+    assert_eq!(Judge::new(0.5), Err(JudgeError::ToleranceTooWide(0.5)));
+    assert_eq!(Judge::new(f64::INFINITY), Err(JudgeError::ToleranceTooWide(f64::INFINITY)));
+    assert!(Judge::new(0.0).is_err() && Judge::new(-0.1).is_err() && Judge::new(f64::NAN).is_err());
+    let levels = with_rates(&[1.0, 1.0, 1.0]);
+    check(&judge(&levels, 1.0, 1.0), Reason::ToleranceTooWide, Verdict::Inconclusive);
+    check(&judge(&levels, 1.0, f64::NAN), Reason::ClaimUnusable, Verdict::Inconclusive);
+}
+
+#[test]
+fn an_order_that_is_no_positive_number_is_inconclusive() {
+    for order in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        check(&judge(&with_rates(&[1.0, 1.0, 1.0]), order, 0.05), Reason::ClaimUnusable, Verdict::Inconclusive);
+    }
+}
+
+#[test]
+fn steps_that_do_not_decrease_are_inconclusive() {
+    for steps in [[1.0, 0.5, 0.5, 0.25], [0.125, 0.25, 0.5, 1.0], [1.0, 0.5, f64::NAN, 0.1], [1.0, 0.5, 0.25, 0.0]] {
+        let pairs = steps.into_iter().zip([1.0, 0.5, 0.25, 0.125]);
+        check(&judge_pairs(pairs, 1.0, 0.05), Reason::StepsNotDecreasing, Verdict::Inconclusive);
+    }
+}
+
+#[test]
+fn rates_that_still_change_are_inconclusive() {
+    check_rates(&[0.2, 0.5, 0.8, 1.1], 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
+}
+
+#[test]
+fn a_coarse_level_that_is_not_asymptotic_is_set_aside_and_said_so() {
+    let outcome = judge(&with_rates(&[0.4, 0.99, 0.995, 0.9975]), 1.0, 0.05);
+    check(&outcome, Reason::Agrees, Verdict::Pass);
+    assert_eq!(outcome.used, 1..5);
+    assert_eq!(outcome.pairwise.len(), 4, "its rate is reported all the same");
+}
+
+#[test]
+fn levels_at_the_known_floor_are_set_aside() {
+    let errors = [1e-4, 2.5e-5, 6.25e-6, 1.5625e-6, 2e-9, 1.9e-9, 2.1e-9];
+    let judge = Judge::new(0.05).and_then(|judge| judge.with_floor(2e-9)).expect("usable settings");
+    let outcome = judge.judge(&with_errors(&errors), 2.0);
+    // 1000 times the floor is 2e-6, so the fourth level goes as well.
+    check(&outcome, Reason::Agrees, Verdict::Pass);
+    assert_eq!(outcome.used, 0..3);
+}
+
+#[test]
+fn nothing_but_floor_is_inconclusive() {
+    let errors = [1.0, 0.7, 1.2, 0.9].map(|error| error * ROUND_OFF_FLOOR);
+    check_errors(&errors, 1.0, Reason::RoundOffFloor, Verdict::Inconclusive);
+}
+
+#[test]
+fn errors_that_level_off_above_the_floor_fail() {
+    // A consistency error of 1e-4 of the coarsest error: the first rates look perfect.
+    let errors: Vec<f64> = (0..16).map(|k| 0.5_f64.powi(k) + 1e-4).collect();
+    check_errors(&errors, 1.0, Reason::FallsAway, Verdict::Fail);
+    let rough: Vec<f64> = (0..9).map(|k| 0.25_f64.powi(k) + 1e-4 * if k % 2 == 0 { 1.0 } else { 0.8 }).collect();
+    assert_ne!(judge(&with_errors(&rough), 2.0, 0.05).verdict, Verdict::Pass);
+}
+
+#[test]
+fn a_lower_order_that_emerges_never_passes() {
+    check_rates(&[2.0, 2.0, 1.98, 1.94], 2.0, Reason::NotAsymptotic, Verdict::Inconclusive);
+    check_rates(&[2.0, 1.9, 1.6, 1.3], 2.0, Reason::FallsAway, Verdict::Fail);
+    assert_ne!(judge(&with_rates(&[2.0, 2.0, 1.99, 1.97]), 2.0, 0.05).verdict, Verdict::Pass);
+}
+
+#[test]
+fn the_worst_verdict_wins_and_none_at_all_is_inconclusive() {
+    use Verdict::{Fail, Inconclusive, Pass};
+    assert_eq!(Verdict::worst([Pass, Pass]), Pass);
+    assert_eq!(Verdict::worst([Pass, Inconclusive]), Inconclusive);
+    assert_eq!(Verdict::worst([Inconclusive, Fail, Pass]), Fail);
+    assert_eq!(Verdict::worst([]), Inconclusive);
+}
+
+#[test]
+fn settings_that_mean_nothing_are_refused() {
+    let judge = || Judge::new(0.125).expect("usable");
+    assert_eq!(judge().tolerance(), 0.125);
+    for confidence in [0.0, 1.0, -0.5] {
+        assert_eq!(judge().with_confidence(confidence), Err(JudgeError::Confidence(confidence)));
+    }
+    for floor in [-1e-300, f64::INFINITY] {
+        assert_eq!(judge().with_floor(floor), Err(JudgeError::Floor(floor)));
+    }
+    assert!(judge().with_floor(f64::NAN).is_err() && judge().with_confidence(f64::NAN).is_err());
+    assert!(judge().with_floor(0.0).is_ok());
+}
+
+#[test]
+fn more_confidence_takes_a_wider_interval_and_a_higher_floor_fewer_levels() {
+    let levels = with_rates(&[1.1, 0.95, 1.02, 0.99]);
+    let judge = || Judge::new(0.4).expect("usable");
+    let width = |judge: Judge| judge.judge(&levels, 1.0).interval.map(|[low, high]| high - low).expect("regular");
+    assert!(width(judge().with_confidence(0.99).expect("usable")) > 1.5 * width(judge()));
+    let floor = judge().with_floor(levels[4].error / 1000.0).expect("usable");
+    assert_eq!(floor.judge(&levels, 1.0).used, 0..4);
+}
+
+#[test]
+fn rates_fall_away_when_they_fall_twice_and_end_half_an_order_below() {
+    for (rates, expected) in [
+        (&[0.75, 0.625, 0.375][..], true),
+        (&[2.0, 0.75, 0.625, 0.375], true),
+        (&[0.75, 0.625, 0.5], false),
+        (&[0.625, 0.625, 0.375], false),
+        (&[0.75, 0.375, 0.375], false),
+        (&[0.5, 0.625, 0.375], false),
+        (&[0.75, 0.25, 0.375], false),
+        (&[0.75, 0.375], false),
+        (&[0.75, f64::NAN, 0.375], false),
+    ] {
+        assert_eq!(falls_away(rates, 1.0), expected, "{rates:?}");
+    }
+}
+
+#[test]
+fn rates_move_away_when_their_last_change_is_the_largest() {
+    for (rates, tolerance, expected) in [
+        (&[1.0, 1.0, 1.25][..], 0.25, true),
+        (&[1.0, 1.125, 0.75], 0.25, true),
+        // Not more than half the tolerance.
+        (&[1.0, 1.0, 1.25], 0.5, false),
+        (&[1.0, 1.0, 1.25], 0.49, true),
+        // Not more than an earlier one, whichever that is.
+        (&[1.0, 1.25, 1.5], 0.25, false),
+        (&[1.0, 1.5, 1.5, 1.75], 0.25, false),
+        (&[1.0, 1.25], 0.25, false),
+        (&[], 0.25, false),
+    ] {
+        assert_eq!(moves_away(rates, tolerance), expected, "{rates:?} {tolerance}");
+    }
+}
+
+#[test]
+fn a_rate_five_orders_off_is_wild_and_one_of_just_that_is_not() {
+    check_rates(&[6.25, 1.0, 1.0], 1.0, Reason::WildRate, Verdict::Inconclusive);
+    let kept = judge(&with_rates(&[5.75, 1.0, 1.0]), 1.0, 0.05);
+    check(&kept, Reason::Agrees, Verdict::Pass);
+    assert_eq!(kept.used, 1..4);
+    check_rates(&[-4.25, 1.0, 1.0], 1.0, Reason::WildRate, Verdict::Inconclusive);
+    // Exactly five orders off, to the bit.
+    let levels = with_rates(&[6.0, 1.0, 1.0]);
+    let order = judge(&levels, 1.0, 0.05).pairwise[0] - 5.0;
+    check(&judge(&levels, order, 0.05), Reason::Agrees, Verdict::Pass);
+    // The step down to the floor counts, those at the floor do not.
+    let floored = |rates: &[f64], floor_at: usize| {
+        let levels = with_rates(rates);
+        let floor = levels[floor_at].error / 999.0;
+        Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
+    };
+    check(&floored(&[1.0, 1.0, 7.0], 3), Reason::WildRate, Verdict::Inconclusive);
+    check(&floored(&[1.0, 1.0, 3.0, 7.0], 3), Reason::Agrees, Verdict::Pass);
+}
+
+#[test]
+fn too_few_levels_are_put_down_to_what_removed_more_of_them() {
+    let judged = |rates: &[f64], at_floor: usize| {
+        let levels = with_rates(rates);
+        let floor = levels[levels.len() - at_floor].error / 999.0;
+        Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
+    };
+    check(&judged(&[0.5, 1.0, 1.0], 1), Reason::RoundOffFloor, Verdict::Inconclusive);
+    check(&judged(&[0.5, 0.5, 1.0, 1.0], 1), Reason::NotAsymptotic, Verdict::Inconclusive);
+    check(&judged(&[0.5, 1.0, 1.0, 1.0], 2), Reason::RoundOffFloor, Verdict::Inconclusive);
+}
+
+#[test]
+fn infinite_steps_are_none() {
+    let pairs = [f64::INFINITY, 0.5, 0.25, 0.125].into_iter().zip([1.0, 0.5, 0.25, 0.125]);
+    check(&judge_pairs(pairs, 1.0, 0.05), Reason::StepsNotDecreasing, Verdict::Inconclusive);
+}
+
+#[test]
+fn a_verdict_says_on_what_it_rests() {
+    let outcome = judge(&with_rates(&[0.4, 1.0, 1.0, 1.0]), 1.0, 0.05);
+    let expected = "the rate agrees with the order: 1.000 to 1.000 from levels 2 to 5 of 5, claimed 1 ± 0.05";
+    assert_eq!(outcome.reason, expected);
+    assert_eq!((outcome.order, outcome.tolerance), (1.0, 0.05));
+    assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
+    let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
+    assert_eq!((nothing.reason.as_str(), nothing.used), ("too few levels", 0..0));
+    assert_eq!(
+        format!("{:>14}|{:<6}|{}", Verdict::Inconclusive, Verdict::Pass, Verdict::Fail),
+        "  inconclusive|pass  |fail"
+    );
+}
+
+#[test]
+fn each_reason_has_a_verdict_and_words_of_its_own() {
+    use Reason::*;
+    let failing = [NonFiniteError, NegativeError, ErrorGrows, FallsAway, TooLow, TooHigh];
+    let ignorant = [
+        ZeroError,
+        StepsNotDecreasing,
+        ClaimUnusable,
+        ToleranceTooWide,
+        TooFewLevels,
+        NotAsymptotic,
+        RoundOffFloor,
+        WildRate,
+        IntervalTooWide,
+        AtTheEdge,
+    ];
+    assert_eq!(Agrees.verdict(), Verdict::Pass);
+    assert!(failing.iter().all(|reason| reason.verdict() == Verdict::Fail));
+    assert!(ignorant.iter().all(|reason| reason.verdict() == Verdict::Inconclusive));
+    let texts: Vec<_> = [Agrees].iter().chain(&failing).chain(&ignorant).map(|reason| reason.text()).collect();
+    let distinct: std::collections::BTreeSet<_> = texts.iter().collect();
+    assert!(distinct.len() == 17 && texts.iter().all(|text| text.len() > 10), "{texts:?}");
+}
+
+mod whatever_is_measured {
+    use proptest::prelude::*;
+
+    use super::{Verdict, judge, judge_pairs, with_rates};
+
+    proptest! {
+        #[test]
+        fn no_input_panics_and_a_pass_has_its_interval_in_the_band(
+            pairs in prop::collection::vec((prop::num::f64::ANY, prop::num::f64::ANY), 0..9),
+            order in 0.5..3.0_f64,
+        ) {
+            let outcome = judge_pairs(pairs, order, 0.05);
+            if outcome.verdict == Verdict::Pass {
+                let [low, high] = outcome.interval.expect("a pass rests on an interval");
+                prop_assert!(order - 0.05 <= low && low <= high && high <= order + 0.05);
+            }
+        }
+
+        #[test]
+        fn the_units_of_step_and_error_do_not_matter(
+            rates in prop::collection::vec(0.9..1.1_f64, 2..7),
+            step in -3..3_i32, error in -3..3_i32,
+        ) {
+            let levels = with_rates(&rates);
+            let scaled = levels.iter().map(|l| (l.step * 10.0_f64.powi(step), l.error * 10.0_f64.powi(error)));
+            let (a, b) = (judge(&levels, 1.0, 0.05), judge_pairs(scaled, 1.0, 0.05));
+            let (a, b) = (a.interval.expect("regular"), b.interval.expect("regular"));
+            prop_assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{a:?} {b:?}");
+        }
+    }
+}

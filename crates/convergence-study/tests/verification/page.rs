@@ -1,0 +1,128 @@
+use std::collections::BTreeSet;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::plots::{Convergence, ErrorSeries, convergence};
+use convergence_study::report::Findings;
+use convergence_study::run::Finished;
+use convergence_study::study::outcome::Figure;
+use roxmltree::{Document, Node};
+
+use crate::fake::{Does, finished, study};
+
+pub(crate) fn page_of(finished: &[Finished]) -> String {
+    let see_also = Some(("the report on the full tier", "full"));
+    let command = "cargo xtask verify";
+    Findings { scope: "quick", command, finished, changes: &[], verdict: Verdict::Fail, see_also }.page()
+}
+
+/// One study that passes and one that fails, with a picture of two curves each.
+pub(crate) fn two() -> Vec<Finished> {
+    let mut both = finished(vec![study("good-1.0", Does::Converge), study("bad", Does::Stay)]);
+    for finished in &mut both {
+        let series = |label: &str, order: i32| ErrorSeries {
+            label: label.to_owned(),
+            points: (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k))).collect(),
+            ..ErrorSeries::default()
+        };
+        let svg =
+            convergence(&Convergence { series: vec![series("a<b", 1), series("c", 2)], ..Convergence::in_space() });
+        let file = format!("{}-errors.svg", finished.header.id);
+        finished.outcome.figures = vec![Figure { file, caption: "Two curves".to_owned(), svg }];
+    }
+    both
+}
+
+/// The page without its scripts, which are no XML.
+fn parsed<T>(page: &str, read: impl FnOnce(&Document<'_>) -> T) -> T {
+    let mut rest = page.strip_prefix("<!DOCTYPE html>\n").expect("a doctype");
+    let mut text = String::new();
+    while let Some((before, after)) = rest.split_once("<script>") {
+        text += before;
+        rest = after.split_once("</script>").expect("an end").1;
+    }
+    text += rest;
+    read(&Document::parse(&text).unwrap_or_else(|error| panic!("{error} in\n{text}")))
+}
+
+fn named<'d>(document: &'d Document<'d>, name: &'d str) -> impl Iterator<Item = Node<'d, 'd>> {
+    document.descendants().filter(move |node| node.tag_name().name() == name)
+}
+
+fn with_class<'d>(document: &'d Document<'d>, class: &'d str) -> impl Iterator<Item = Node<'d, 'd>> {
+    document.descendants().filter(move |node| node.attribute("class") == Some(class))
+}
+
+#[test]
+fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
+    parsed(&page_of(&two()), |document| {
+        let studies: Vec<_> = with_class(document, "study").collect();
+        assert_eq!(studies.iter().map(|study| study.attribute("id").unwrap()).collect::<Vec<_>>(), ["good-1.0", "bad"]);
+        for study in &studies {
+            let pictures = study.descendants().filter(|node| node.attribute("data-plot").is_some()).count();
+            assert_eq!(pictures, 1);
+            assert!(study.descendants().any(|node| node.tag_name().name() == "table"));
+        }
+        let ids: Vec<&str> = document.descendants().filter_map(|node| node.attribute("id")).collect();
+        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
+        let links: Vec<&str> = named(document, "a").filter_map(|link| link.attribute("href")).collect();
+        assert_eq!(links, ["full/index.html", "#good-1.0", "#bad"]);
+    });
+}
+
+#[test]
+fn verdicts_come_first_and_what_does_not_pass_is_unfolded() {
+    let page = page_of(&two());
+    assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
+    parsed(&page, |document| {
+        let open: Vec<bool> = with_class(document, "study").map(|study| study.has_attribute("open")).collect();
+        assert_eq!(open, [false, true]);
+        let badges: Vec<_> = document.descendants().filter_map(|node| node.attribute("class")).collect();
+        assert_eq!(badges.iter().filter(|class| **class == "badge fail").count(), 3);
+    });
+}
+
+#[test]
+fn nothing_is_loaded_and_hostile_words_do_no_harm() {
+    let hostile =
+        "``` <script>alert(1)</script> ` ``\"><img src=http://x/y onerror=z> [a](javascript:b) ![c](//d) ]]> &amp;";
+    let mut studies = two();
+    for finished in &mut studies {
+        finished.header.claim = hostile.to_owned();
+        finished.outcome.summary = hostile.to_owned();
+        finished.outcome.checks[0].evidence = hostile.to_owned();
+        finished.outcome.tables[0].title = hostile.to_owned();
+        finished.outcome.tables[0].rows = vec![vec![hostile.to_owned()]; 40];
+        finished.outcome.figures[0].caption = hostile.to_owned();
+    }
+    let page = page_of(&studies);
+    assert_eq!(page.matches("<script").count(), 3, "the page's own");
+    assert!(page.contains("default-src 'none'"));
+    parsed(&page, |document| {
+        assert_eq!(named(document, "img").chain(named(document, "iframe")).chain(named(document, "object")).count(), 0);
+        for node in document.descendants() {
+            for attribute in node.attributes() {
+                let (name, value) = (attribute.name(), attribute.value());
+                assert!(!name.starts_with("on") && name != "src", "{name}");
+                let stays = value == "data:," || value.starts_with('#') || value == "full/index.html";
+                assert!(name != "href" || stays, "{value}");
+            }
+        }
+        // Claim twice, summary, evidence, title, caption under the picture, and forty rows.
+        let shown = document.descendants().filter(|node| node.is_element() && node.text().is_some());
+        let text: String = shown.flat_map(|node| node.children()).filter_map(|node| node.text()).collect();
+        assert!(text.matches("<script>alert(1)</script>").count() >= 2 * (6 + 40), "{text}");
+    });
+}
+
+#[test]
+fn a_long_table_is_folded_and_unfolded_where_the_study_does_not_pass() {
+    let mut studies = two();
+    for finished in &mut studies {
+        finished.outcome.tables[0].rows = vec![vec!["cell".to_owned()]; 40];
+    }
+    parsed(&page_of(&studies), |document| {
+        let folded = named(document, "details").filter(|node| node.attribute("class").is_none());
+        let open: Vec<bool> = folded.map(|node| node.has_attribute("open")).collect();
+        assert_eq!(open, [false, true]);
+    });
+}

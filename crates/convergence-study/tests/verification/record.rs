@@ -1,0 +1,62 @@
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::store::record::{Precision, Record, json};
+use serde_json::Value;
+
+use crate::fake::{Does, Fake, fake, finished, study};
+
+fn record(does: Does, precision: Precision) -> Value {
+    let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };
+    let finished = finished(vec![Box::new(exact)]);
+    let record = Record::new("quick", Verdict::Pass, vec![], &finished, precision);
+    serde_json::from_str(&json(&record).unwrap()).unwrap()
+}
+
+#[test]
+fn a_record_has_the_contracted_fields() {
+    let record = record(Does::Converge, Precision::Full);
+    assert_eq!(record["schema"], 1);
+    let study = &record["studies"][0];
+    assert_eq!((&study["id"], &study["verdict"]), (&"a".into(), &"pass".into()));
+    let level = &study["levels"][4];
+    assert_eq!((&level["elements"], &level["steps"]), (&128.into(), &20.into()));
+    assert_eq!(level["errors"]["velocity"], std::f64::consts::PI * 0.3 / 128.0);
+    let rate = &study["rates"][0];
+    assert_eq!((&rate["norm"], &rate["order"]), (&"velocity".into(), &1.0.into()));
+    assert_eq!(rate["pairwise"].as_array().unwrap().len(), 4);
+    assert_eq!(rate["interval"].as_array().unwrap().len(), 2);
+    assert!(rate["fitted"].is_f64() && rate["extrapolated"].is_f64());
+    assert_eq!(rate["verdict"], "pass");
+    assert!(rate["reason"].as_str().unwrap().contains("agrees"));
+}
+
+#[test]
+fn a_committed_record_keeps_six_digits() {
+    let record = record(Does::Converge, Precision::Committed);
+    assert_eq!(record["studies"][0]["levels"][4]["errors"]["velocity"], 0.00736311);
+    assert_eq!(record["studies"][0]["quantities"][0]["value"], 0.00736311);
+    assert_eq!(record["studies"][0]["rates"][0]["fitted"], 1.0);
+}
+
+#[test]
+fn what_is_not_finite_is_null_and_named() {
+    for does in [Does::NotANumber, Does::Fail, Does::Panic] {
+        let record = record(does, Precision::Full);
+        let study = &record["studies"][0];
+        assert_eq!(study["verdict"], "fail");
+        assert!(study["levels"][1]["errors"]["velocity"].is_null());
+        assert!(study["rates"][0]["fitted"].is_null());
+        let named: Vec<&str> =
+            study["not_finite"].as_array().unwrap().iter().map(|entry| entry["at"].as_str().unwrap()).collect();
+        assert_eq!(named, ["levels[1].errors.velocity", "rates[0].pairwise[0]", "rates[0].pairwise[1]"]);
+        assert_eq!(study["failed_cases"].as_array().unwrap().len(), usize::from(does != Does::NotANumber));
+    }
+}
+
+#[test]
+fn norms_keep_their_order() {
+    let mut finished = finished(vec![study("a", Does::Converge)]);
+    finished[0].outcome.levels[0].errors = ["z", "a", "m"].map(|norm| (norm.to_owned(), 1.0)).to_vec();
+    let text = json(&Record::new("quick", Verdict::Pass, vec![], &finished, Precision::Full)).unwrap();
+    let at = |norm: &str| text.find(&format!("\"{norm}\": 1.0")).unwrap();
+    assert!(at("z") < at("a") && at("a") < at("m"));
+}

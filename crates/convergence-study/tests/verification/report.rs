@@ -1,0 +1,148 @@
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::report::{Findings, tables};
+use convergence_study::run::Finished;
+use convergence_study::store::baseline::Baseline;
+use convergence_study::store::junit::junit;
+use convergence_study::study::outcome::Quantity;
+use roxmltree::Document;
+
+use crate::fake::{Does, finished, study};
+
+fn several() -> Vec<Finished> {
+    let does = [Does::Converge, Does::Panic, Does::TooShort, Does::Nothing, Does::PanicAtTheEnd];
+    finished(does.iter().enumerate().map(|(i, does)| study(&format!("study-{i}.0"), *does)).collect())
+}
+
+fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
+    let changes = Baseline::default().compare(finished, None);
+    let command = "cargo xtask verify";
+    read(&Findings { scope: "quick", command, finished, changes: &changes, verdict: Verdict::Fail, see_also: None })
+}
+
+/// Columns of a line of a table: pipes that are not escaped.
+fn columns(line: &str) -> usize {
+    line.replace("\\|", "").matches('|').count()
+}
+
+#[test]
+fn every_table_is_well_formed_and_lined_up() {
+    let page = with(&several(), |findings| findings.readme());
+    let mut tables = 0;
+    for block in page.split("\n\n").filter(|block| block.starts_with('|')) {
+        let lines: Vec<&str> = block.lines().filter(|line| line.starts_with('|')).collect();
+        assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{block}");
+        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()), "{block}");
+        assert!(lines[1].chars().all(|c| "|-: ".contains(c)), "{block}");
+        tables += 1;
+    }
+    assert!(tables >= 12, "{tables} tables in\n{page}");
+}
+
+#[test]
+fn the_verdict_comes_first_and_every_study_has_its_section() {
+    let page = with(&several(), |findings| findings.readme());
+    let lines: Vec<&str> = page.lines().collect();
+    assert_eq!(
+        lines[2],
+        "**fail**: 2 of 5 fail (study-1.0, study-4.0), 2 of 5 inconclusive (study-2.0, study-3.0); \
+         3 guarded numbers are not what they were"
+    );
+    for part in [
+        "| [study-0.0](#study-00) | errors \\| fall < with \\*h\\* | pass ",
+        "## study-1.0\n\n> errors | fall < with \\*h\\*\n\n**fail**: an error is NaN or infinite",
+        "![errors | h](figures/study-0.0-errors.svg)",
+        "Again: `cargo xtask verify study-3.0` (tier quick, kind fake)",
+        "**Cases without a result**",
+        "a pivot of 0.01875 was lost",
+        "## Moved from the baseline",
+        "**inconclusive**: all well; nothing was judged",
+    ] {
+        assert!(page.contains(part), "{part} is not in\n{page}");
+    }
+}
+
+#[test]
+fn csv_has_one_error_a_line() {
+    let mut studies = several();
+    studies[0].outcome.levels[0].errors[0].0 = "a, \"b\"".to_owned();
+    let csv = with(&studies, |findings| findings.errors_csv());
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "study,elements,steps,norm,error");
+    assert_eq!(lines[1], "study-0.0,8,20,\"a, \"\"b\"\"\",0.0375");
+    assert_eq!(lines[2], "study-0.0,16,20,velocity,0.01875");
+    assert_eq!(lines[7], "study-1.0,16,20,velocity,NaN");
+    assert_eq!(lines.len(), 1 + 5 + 5 + 2);
+}
+
+#[test]
+fn junit_has_a_failure_for_everything_that_does_not_pass() {
+    let studies = several();
+    let text = junit(&studies, &Baseline::default().compare(&studies, None)).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let suites: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
+    let failures: Vec<&str> = suites.iter().map(|suite| suite.attribute("failures").unwrap()).collect();
+    assert_eq!(failures, ["0", "1", "1", "1", "1", "3"]);
+    let types: Vec<&str> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("failure"))
+        .map(|failure| {
+            assert!(!failure.attribute("message").unwrap().is_empty());
+            failure.attribute("type").unwrap()
+        })
+        .collect();
+    assert_eq!(types, ["fail", "inconclusive", "inconclusive", "fail", "fail", "fail", "fail"]);
+    assert!(!text.contains("time"), "times vary: {text}");
+}
+
+#[test]
+fn words_that_xml_and_markdown_reserve_do_no_harm() {
+    let mut studies = several();
+    studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
+    studies[1].outcome.checks[0].verdict = Verdict::Fail;
+    let text = junit(&studies, &[]).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let message =
+        document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
+    assert!(message.is_some(), "{text}");
+    let page = with(&studies, |findings| findings.readme());
+    assert!(page.contains("a < b & \"c\"  [31m \\| ]]> next"), "{page}");
+}
+
+#[test]
+fn the_same_outcomes_give_the_same_bytes() {
+    let files = || with(&several(), |findings| findings.files().unwrap());
+    assert_eq!(files(), files());
+}
+
+#[test]
+fn a_reason_is_given_where_a_rate_does_not_hold() {
+    let studies = finished(vec![study("good", Does::Converge), study("bad", Does::Stay)]);
+    let heads: Vec<bool> =
+        studies.iter().map(|finished| tables(finished)[0].head.contains(&"reason".to_owned())).collect();
+    assert_eq!(heads, [false, true]);
+    let rates = &tables(&studies[0])[0];
+    assert_eq!(rates.head.len(), rates.rows[0].len());
+    assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.000"]);
+    assert_eq!(rates.rows[0][6], "1-5 of 5");
+}
+
+#[test]
+fn the_picture_for_the_front_page_has_a_name_of_its_own() {
+    let mut studies = finished(vec![study("a", Does::Converge)]);
+    let has_beam = |studies: &[Finished]| {
+        let files = with(studies, |findings| findings.files().unwrap());
+        files.files().any(|(path, bytes)| path == "beam.svg" && bytes == b"<svg/>")
+    };
+    assert!(!has_beam(&studies));
+    studies[0].outcome.figures[0].file = "section-5-beam.svg".to_owned();
+    assert!(has_beam(&studies));
+}
+
+#[test]
+fn many_numbers_that_moved_are_folded() {
+    let mut studies = finished(vec![study("a", Does::Converge)]);
+    let one = studies[0].outcome.quantities[0].clone();
+    assert!(with(&studies, |findings| findings.readme()).contains("baseline\n\n| study"));
+    studies[0].outcome.quantities = (0..100).map(|i| Quantity { name: format!("q{i}"), ..one.clone() }).collect();
+    assert!(with(&studies, |findings| findings.readme()).contains("<summary>100 numbers</summary>"));
+}

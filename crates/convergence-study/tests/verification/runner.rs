@@ -1,0 +1,95 @@
+use std::sync::Mutex;
+use std::time::Duration;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::run::{self, Effort, RunError};
+
+use crate::fake::{Does, finished, jobs, study};
+
+const ALL: [Does; 8] = [
+    Does::Converge,
+    Does::Stay,
+    Does::NotANumber,
+    Does::Fail,
+    Does::Panic,
+    Does::PanicAtTheEnd,
+    Does::TooShort,
+    Does::Nothing,
+];
+
+fn all() -> Vec<Box<dyn thermobeam_study::study::Study>> {
+    ALL.iter().enumerate().map(|(i, does)| study(&format!("study-{i}"), *does)).collect()
+}
+
+#[test]
+fn every_way_of_not_passing_is_seen_and_stops_nothing_else() {
+    let expected = [
+        (Verdict::Pass, 0, "the rate agrees"),
+        (Verdict::Fail, 0, "does not fall"),
+        (Verdict::Fail, 0, "NaN or infinite"),
+        (Verdict::Fail, 1, "NaN or infinite"),
+        (Verdict::Fail, 1, "NaN or infinite"),
+        (Verdict::Fail, 0, "cannot judge its results: panicked at fake.rs"),
+        (Verdict::Inconclusive, 0, "too few levels"),
+        (Verdict::Inconclusive, 0, "nothing was judged"),
+    ];
+    for (finished, (verdict, failed, words)) in finished(all()).iter().zip(expected) {
+        let outcome = &finished.outcome;
+        assert_eq!(outcome.verdict, verdict, "{outcome:?}");
+        assert_eq!(finished.failed_cases.len(), failed, "{:?}", finished.failed_cases);
+        assert!(outcome.summary.contains(words), "{}", outcome.summary);
+    }
+}
+
+#[test]
+fn a_failed_case_keeps_its_label_and_reason() {
+    let finished = finished(vec![study("panics", Does::Panic), study("fails", Does::Fail)]);
+    let [panic, failure] = [0, 1].map(|i| &finished[i].failed_cases[0]);
+    assert_eq!((panic.label.as_str(), failure.label.as_str()), ("n = 16", "n = 16"));
+    assert!(panic.reason.starts_with("panicked at fake.rs:"), "{}", panic.reason);
+    assert!(panic.reason.ends_with("a pivot of 0.01875 was lost"), "{}", panic.reason);
+    assert_eq!(failure.reason, "step 3 | t = 0.1: diverged");
+}
+
+#[test]
+fn a_case_that_was_stopped_has_failed_whatever_it_says() {
+    let effort = Effort { case_limit: Some(Duration::from_millis(50)), ..jobs(2).into() };
+    let studies = vec![study("dawdles", Does::Dawdle), study("converges", Does::Converge)];
+    let finished = runner::run(&studies, effort, &|_| {}).unwrap();
+    let [stopped] = &finished[0].failed_cases[..] else { panic!("{:?}", finished[0].failed_cases) };
+    assert!(stopped.reason.starts_with("stopped at the limit of 0.05 s, after step "), "{}", stopped.reason);
+    assert_eq!((finished[0].outcome.verdict, finished[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_outcomes() {
+    let outcomes = |count| {
+        let finished = runner::run(&all(), jobs(count), &|_| {}).unwrap();
+        finished.into_iter().map(|finished| format!("{:?}", finished.outcome)).collect::<Vec<_>>()
+    };
+    let one = outcomes(1);
+    for count in [2, 3, 4, 16] {
+        assert_eq!(outcomes(count), one);
+    }
+}
+
+#[test]
+fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
+    let told = Mutex::new(Vec::new());
+    let studies = vec![study("a", Does::Converge), study("b", Does::Panic)];
+    runner::run(&studies, jobs(1), &|progress| told.lock().unwrap().push(progress)).unwrap();
+    let told = told.into_inner().unwrap();
+    let costs: Vec<f64> =
+        told.iter().scan(0.0, |before, now| Some(now.done_cost - std::mem::replace(before, now.done_cost))).collect();
+    assert_eq!(costs, [128.0, 128.0, 64.0, 64.0, 32.0, 32.0, 16.0, 16.0, 8.0, 8.0]);
+    let last = told.last().unwrap();
+    assert_eq!((last.done_cases, last.cases), (10, 10));
+    assert_eq!((last.done_cost, last.cost), (496.0, 496.0));
+}
+
+#[test]
+fn two_studies_of_one_name_are_refused() {
+    let studies = vec![study("same", Does::Converge), study("other", Does::Converge), study("same", Does::Stay)];
+    let refused = runner::run(&studies, jobs(1), &|_| panic!("nothing may run")).unwrap_err();
+    assert!(matches!(&refused, RunError::DuplicateId(id) if id == "same"), "{refused}");
+}

@@ -1,0 +1,129 @@
+//! The whole way, on disk.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::verify::{Request, Scope, Verification, VerificationError, verify};
+use thermobeam_study::study::Study;
+use thermobeam_study::study_file::Tier;
+
+use crate::fake::{Does, Fake, fake, ids, jobs, request, study};
+
+fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
+    verify(&studies, request, &|_| {}).unwrap()
+}
+
+/// The files directly in a folder and in its figures.
+fn committed(reports: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = |folder: &Path| {
+        let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+        entries
+            .filter(|path| path.is_file())
+            .map(|path| (path.display().to_string(), fs::read(&path).unwrap()))
+            .collect::<Vec<_>>()
+    };
+    files(reports).into_iter().chain(files(&reports.join("figures"))).collect()
+}
+
+#[test]
+fn a_run_that_is_new_fails_until_it_is_blessed() {
+    let root = tempfile::tempdir().unwrap();
+    let plain = request(root.path(), &["a"]);
+    let unknown = run(vec![study("a", Does::Converge)], &plain);
+    assert_eq!((unknown.verdict, unknown.changes.len()), (Verdict::Fail, 1));
+    let blessed = run(vec![study("a", Does::Converge)], &Request { bless: true, ..plain.clone() });
+    assert_eq!((blessed.verdict, blessed.blessing), (Verdict::Pass, Some(Ok(()))));
+    assert_eq!(run(vec![study("a", Does::Converge)], &plain).verdict, Verdict::Pass);
+    let moved = Fake { scale: 1.5, ..fake("a", Does::Converge) };
+    let moved = run(vec![Box::new(moved)], &plain);
+    assert_eq!((moved.finished[0].outcome.verdict, moved.verdict), (Verdict::Pass, Verdict::Fail));
+    assert!(fs::read_to_string(root.path().join("reports/README.md")).unwrap().contains("by +50 %"));
+}
+
+#[test]
+fn a_blessing_does_not_turn_a_failing_study_green() {
+    let root = tempfile::tempdir().unwrap();
+    let bless = Request { bless: true, ..request(root.path(), &["a"]) };
+    run(vec![study("a", Does::Converge)], &bless);
+    let file = root.path().join("studies/baseline.json");
+    let before = fs::read(&file).unwrap();
+    let failing = run(vec![study("a", Does::Stay)], &bless);
+    assert_eq!(failing.verdict, Verdict::Fail);
+    assert!(failing.blessing.unwrap().is_err());
+    assert_eq!(fs::read(&file).unwrap(), before);
+    // Nor does a baseline that agrees with what the failing study finds.
+    let agreeing = r#"{ "schema": 1, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
+    fs::write(&file, agreeing).unwrap();
+    let agreed = run(vec![study("a", Does::Stay)], &request(root.path(), &["a"]));
+    assert_eq!((agreed.changes.len(), agreed.verdict), (0, Verdict::Fail));
+}
+
+#[test]
+fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let studies = || vec![study("a", Does::Converge), study("b", Does::Panic), study("c", Does::NotANumber)];
+    let mut request = request(root.path(), &["a", "b", "c"]);
+    run(studies(), &request);
+    let first = committed(&reports);
+    assert_eq!(first.len(), 6 + 3);
+    for count in [1, 4] {
+        request.effort = jobs(count).into();
+        run(studies(), &request);
+        assert_eq!(committed(&reports), first, "{count} threads");
+    }
+    let provenance = fs::read_to_string(reports.join("local/provenance.json")).unwrap();
+    let provenance: serde_json::Value = serde_json::from_str(&provenance).unwrap();
+    assert_eq!((&provenance["jobs"], &provenance["command"]), (&4.into(), &"cargo xtask verify".into()));
+    assert_eq!(provenance["studies"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn a_part_does_not_replace_the_report_on_the_whole() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let quick = request(root.path(), &["a", "b"]);
+    run(vec![study("a", Does::Converge), study("b", Does::Converge)], &quick);
+    let whole = committed(&reports);
+    let asked = vec!["a".to_owned(), "b*".to_owned()];
+    let part = run(vec![study("a", Does::Stay)], &Request { scope: Scope::Selection(asked), ..quick.clone() });
+    assert_eq!(part.reports, reports.join("local/partial"));
+    assert_eq!(committed(&reports), whole);
+    let page = fs::read_to_string(part.reports.join("README.md")).unwrap();
+    assert!(page.contains("Written by `cargo xtask verify a 'b*'`"), "{page}");
+
+    let full = Request { scope: Scope::Tier(Tier::Full, ids(&["a", "b"])), ..quick.clone() };
+    run(vec![study("a", Does::Converge)], &full);
+    assert_eq!(committed(&reports), whole);
+    assert!(reports.join("full/figures/a-errors.svg").is_file());
+    // From now on the quick report knows of the full one, and stays as it is again.
+    run(vec![study("a", Does::Converge)], &quick);
+    let page = fs::read_to_string(reports.join("README.md")).unwrap();
+    assert!(page.contains("[the report on the full tier](full/README.md)"), "{page}");
+}
+
+#[test]
+fn a_selection_blesses_itself_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let quick = request(root.path(), &["a", "b"]);
+    let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
+    run(both(), &Request { bless: true, ..quick.clone() });
+    let scope = Scope::Selection(vec!["a".to_owned()]);
+    let moved: Vec<Box<dyn Study>> = vec![Box::new(Fake { scale: 2.0, ..fake("a", Does::Converge) })];
+    assert_eq!(run(moved, &Request { bless: true, scope, ..quick.clone() }).verdict, Verdict::Pass);
+    let after = run(both(), &quick);
+    assert_eq!(after.changes.iter().map(|change| change.study.as_str()).collect::<Vec<_>>(), ["a"]);
+}
+
+#[test]
+fn an_unusable_baseline_stops_everything_before_it_starts() {
+    let root = tempfile::tempdir().unwrap();
+    fs::create_dir_all(root.path().join("studies")).unwrap();
+    fs::write(root.path().join("studies/baseline.json"), "{").unwrap();
+    let studies = [study("a", Does::Converge)];
+    let stopped = verify(&studies, &request(root.path(), &["a"]), &|_| panic!("nothing may run")).unwrap_err();
+    assert!(matches!(stopped, VerificationError::Baseline(_)), "{stopped}");
+    assert!(!root.path().join("reports").exists());
+}

@@ -1,0 +1,9 @@
+//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document out.
+
+mod animation;
+mod bifurcation;
+mod contraction;
+
+pub use animation::{Animation, animation};
+pub use bifurcation::{Bifurcation, Branch, bifurcation};
+pub use contraction::{Contraction, contraction};

@@ -10,11 +10,11 @@ use convergence_study::store::provenance::Provenance;
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
 use convergence_study::{report, run as runner};
-use thermobeam_study::pace;
+use thermobeam_study::error::yardstick::Quantity;
+use thermobeam_study::kinds::work_precision::{WORK_PRECISION, WorkPrecision};
+use thermobeam_study::kinds::{FromFile, Study};
+use thermobeam_study::predict::pace;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::study::work_precision::{WORK_PRECISION, WorkPrecision};
-use thermobeam_study::study::{FromFile, Study};
-use thermobeam_study::yardstick::Quantity;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::{output, screen, selection, workspace};

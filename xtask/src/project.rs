@@ -1,7 +1,7 @@
 //! The beam as a project of the harness.
 
 use convergence_study::project::Project;
-use thermobeam_study::study::{KINDS, TERMS};
+use thermobeam_study::kinds::{KINDS, TERMS};
 
 /// The beam's kinds of study and words, under this command.
 pub(crate) const PROJECT: Project = Project {

@@ -10,10 +10,10 @@ use std::time::Duration;
 use clap::Args;
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
-use thermobeam_study::accuracy::Unreachable;
-use thermobeam_study::estimate::estimate;
+use thermobeam_study::predict::accuracy::Unreachable;
+use thermobeam_study::predict::estimate::estimate;
+use thermobeam_study::run::simulate::{Object, Recording, Run, Simulator, figures};
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{Object, Recording, Run, Simulator, figures};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::interrupt;

@@ -12,8 +12,8 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
-use thermobeam_study::study::{Study, convergence::Convergence};
-use thermobeam_study::study_file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::{Study, convergence::Convergence};
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
 /// discrete gradient. It damps half as much as the paper's, and is of first order all the same.

@@ -5,12 +5,14 @@
 use std::error::Error;
 
 use convergence_study::study::outcome::Outcome;
+use convergence_study::study::{Axis, Tier};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
-use thermobeam_study::study::{Study, convergence::Convergence};
-use thermobeam_study::study_file::{Axis, ConvergenceSpec, Expectation, Manufactured, Norm, Product, Refine, Tier};
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::tables::{Expectation, Manufactured, Norm, Product, Refine};
+use thermobeam_study::kinds::{Study, convergence::Convergence};
 
 const TOML: &str = r#"
     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }

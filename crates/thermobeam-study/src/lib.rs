@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use thermobeam_study::study::{Study, convergence::Convergence};
-//! use thermobeam_study::study_file::ConvergenceSpec;
+//! use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 //! use thermobeam_study::verdict::Verdict;
 //!
 //! let spec = ConvergenceSpec::parse(
@@ -52,25 +52,13 @@
 //!
 //! What the solver must obey is derived in [`thermobeam::theory`].
 
-pub mod accuracy;
-pub mod design;
-pub mod estimate;
+pub mod error;
 pub mod figures;
-pub mod free_vibration;
-mod functions;
-mod limits;
-pub mod march;
-pub mod pace;
-mod patience;
-pub mod rerun;
+pub mod kinds;
+pub mod predict;
+pub mod run;
 pub mod scene;
-mod shared_tables;
-pub mod simulate;
-pub mod study;
-pub mod study_file;
 pub mod sweep;
-pub mod template;
-pub mod yardstick;
 
 pub use thermobeam_exact as exact;
 pub use thermobeam_exact::{expression, quadrature};

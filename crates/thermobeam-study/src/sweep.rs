@@ -42,8 +42,8 @@ mod values;
 
 use std::path::Path;
 
-use crate::limits;
 use crate::scene::Scene;
+use crate::scene::limits;
 use convergence_study::input::{self, InputError};
 
 pub use case::Case;

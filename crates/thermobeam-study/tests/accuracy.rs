@@ -2,12 +2,12 @@
 
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::Settings;
-use thermobeam_study::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::free_vibration::{beam, vibration};
-use thermobeam_study::march::Family;
+use thermobeam_study::error::free_vibration::{beam, vibration};
+use thermobeam_study::error::yardstick::{Quantity, Reference, Yardstick};
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
+use thermobeam_study::run::march::Family;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::study_file::ConvergenceSpec;
-use thermobeam_study::yardstick::{Quantity, Reference, Yardstick};
 
 fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Family {
     let modes: Vec<_> = modes.iter().map(|&mode| (mode, 0.1)).collect();

@@ -1,7 +1,7 @@
 //! Estimated errors against true ones, where the exact answer is known.
 
 use thermobeam::vibration::{DampedMode, Mode};
-use thermobeam_study::estimate::{Estimate, Source, estimate};
+use thermobeam_study::predict::estimate::{Estimate, Source, estimate};
 use thermobeam_study::scene::Scene;
 
 const ZETA: f64 = 0.1;

@@ -6,7 +6,7 @@ use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use thermobeam_study::study::{self, Study};
+use thermobeam_study::kinds::{self, Study};
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 
@@ -204,7 +204,7 @@ fn the_full_study_reads_like_the_quick_one() {
 
 #[test]
 fn complaints_name_the_field() {
-    use thermobeam_study::study::{
+    use thermobeam_study::kinds::{
         FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
     };
     let complaint = |file: &str, from: &str, to: &str| {

@@ -5,13 +5,14 @@ use std::path::Path;
 use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
-use thermobeam_study::design::{Defect, Disagreement, Prepared};
-use thermobeam_study::study::controls::Controls;
-use thermobeam_study::study::convergence::Convergence;
-use thermobeam_study::study::energy::EnergyDecay;
-use thermobeam_study::study::fixed_point::FixedPoint;
-use thermobeam_study::study::{FromFile, Study};
-use thermobeam_study::study_file::{ConvergenceSpec, Norm};
+use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
+use thermobeam_study::kinds::controls::Controls;
+use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::energy::EnergyDecay;
+use thermobeam_study::kinds::fixed_point::FixedPoint;
+use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::kinds::{FromFile, Study};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)

@@ -5,8 +5,8 @@ use std::time::Duration;
 use convergence_study::run::time_limit::within;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
+use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, RunFailure, Simulator, figures};
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{MOST_ROWS, Object, Recording, Run, RunFailure, Simulator, figures};
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {

@@ -5,8 +5,8 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
-use thermobeam_study::study::work_precision::WorkPrecision;
-use thermobeam_study::study::{FromFile, Study};
+use thermobeam_study::kinds::work_precision::WorkPrecision;
+use thermobeam_study::kinds::{FromFile, Study};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies")

@@ -110,6 +110,11 @@ impl Simulation {
         self.step as f64 * self.stepping.dt
     }
 
+    /// The time step δt.
+    pub fn dt(&self) -> f64 {
+        self.stepping.dt
+    }
+
     /// The loads of the next step, `(F_u, F_φ, F_θ)` at each of the n + 1 nodes, to be filled before [`Self::advance`].
     ///
     /// `None` unless [`Stepping::loaded`] was set. Entries at clamped nodes are not read.

@@ -2,11 +2,11 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
-use thermobeam_study::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::march::Family;
+use thermobeam_study::error::yardstick;
+use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
+use thermobeam_study::run::march::Family;
+use thermobeam_study::run::simulate::Run;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::Run;
-use thermobeam_study::yardstick;
 
 /// What the error is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use super::accuracy::Planned;
+use thermobeam_study::run::simulate::{Run, energy_at_rest};
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{Run, energy_at_rest};
 
 /// A line of the summary: name, value, meaning.
 type Line = (&'static str, String, String);

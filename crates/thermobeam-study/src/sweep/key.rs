@@ -59,7 +59,7 @@ impl Key {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shared_tables;
+    use crate::scene::tables;
 
     #[test]
     fn every_coefficient_can_be_varied() {

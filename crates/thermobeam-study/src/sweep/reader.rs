@@ -6,7 +6,7 @@ use super::design::Design;
 use super::key::{KEYS, TABLES};
 use super::values::{self, Axis};
 use super::{Base, Case, Key, MOST_CASES, Sweep, content_hash};
-use crate::limits;
+use crate::scene::limits;
 use crate::scene::{Scene, stem};
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
 

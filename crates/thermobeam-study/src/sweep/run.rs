@@ -10,8 +10,8 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
 use super::{Case, Sweep};
+use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use crate::scene::Scene;
-use crate::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.

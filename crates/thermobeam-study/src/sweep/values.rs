@@ -2,7 +2,7 @@
 
 use super::Key;
 use super::design::stratified;
-use crate::limits::SWEEP_VALUES;
+use crate::scene::limits::SWEEP_VALUES;
 use convergence_study::input::{Field, InputError};
 
 /// How values are spread between two ends.

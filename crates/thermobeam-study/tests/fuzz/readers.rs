@@ -7,9 +7,9 @@ use convergence_study::input::error_table::RateTable;
 use convergence_study::judge::verdict::Judge;
 use convergence_study::store::baseline::Baseline;
 use tempfile::TempDir;
+use thermobeam_study::kinds;
+use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::Simulator;
-use thermobeam_study::study;
 use thermobeam_study::sweep::{Journal, Manifest, Share, Sweep};
 
 /// A kind of file.

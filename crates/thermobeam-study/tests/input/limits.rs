@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use thermobeam_study::kinds;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::study;
 use thermobeam_study::sweep::Sweep;
 
 use crate::says;

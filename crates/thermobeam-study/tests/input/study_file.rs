@@ -1,7 +1,9 @@
+use convergence_study::study::{Axis, Header, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver};
-use thermobeam_study::study_file::{Axis, ConvergenceSpec, Header, Norm, Perturbation, Tier};
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::tables::{Norm, Perturbation};
 
 use crate::says;
 

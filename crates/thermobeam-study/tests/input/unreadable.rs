@@ -1,9 +1,10 @@
 use std::fs;
 use std::path::PathBuf;
 
+use convergence_study::study::Header;
+use thermobeam_study::kinds;
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::study;
-use thermobeam_study::study_file::{ConvergenceSpec, Header};
 
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 use crate::{changed, file, passes_but_not_without_each_case, results, text};
 use convergence_study::judge::verdict::Verdict;
-use thermobeam_study::study::frequencies::Frequencies;
-use thermobeam_study::study::{FromFile, Study};
+use thermobeam_study::kinds::frequencies::Frequencies;
+use thermobeam_study::kinds::{FromFile, Study};
 
 fn study() -> Frequencies {
     Frequencies::read(file("frequencies.toml")).unwrap_or_else(|error| panic!("{error}"))

@@ -10,7 +10,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
-use thermobeam_study::study::Study;
+use thermobeam_study::kinds::Study;
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 

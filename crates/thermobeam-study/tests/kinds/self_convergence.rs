@@ -1,7 +1,7 @@
 use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
 use convergence_study::judge::verdict::Verdict;
-use thermobeam_study::study::self_convergence::SelfConvergence;
-use thermobeam_study::study::{FromFile, Study};
+use thermobeam_study::kinds::self_convergence::SelfConvergence;
+use thermobeam_study::kinds::{FromFile, Study};
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 

@@ -2,10 +2,10 @@
 
 use crate::{Results, changed, file, passes_but_not_without_each_case, results, text};
 use convergence_study::judge::verdict::Verdict;
-use thermobeam_study::study::extremes::Extremes;
-use thermobeam_study::study::random_scenes::RandomScenes;
-use thermobeam_study::study::stability::Stability;
-use thermobeam_study::study::{FromFile, Study};
+use thermobeam_study::kinds::extremes::Extremes;
+use thermobeam_study::kinds::random_scenes::RandomScenes;
+use thermobeam_study::kinds::stability::Stability;
+use thermobeam_study::kinds::{FromFile, Study};
 
 fn map() -> Stability {
     Stability::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))

@@ -1,7 +1,7 @@
 use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
 use convergence_study::judge::verdict::Verdict;
-use thermobeam_study::study::vibration::Vibration;
-use thermobeam_study::study::{FromFile, Study};
+use thermobeam_study::kinds::vibration::Vibration;
+use thermobeam_study::kinds::{FromFile, Study};
 
 const FILES: [&str; 4] =
     ["vibration-space.toml", "vibration-time.toml", "vibration-midpoint.toml", "vibration-coupled.toml"];

@@ -1,0 +1,178 @@
+//! The error of a discrete level: in the norm of Theorem 3.4, to the interpolant (superclose), and at the tip.
+//!
+//! Against an exact solution, or against a run so fine that its own error does not matter. The reference's mesh must
+//! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
+
+use crate::exact::errors::ErrorMeter;
+use crate::exact::factors::Factors;
+use crate::kinds::tables::{Manufactured, Norm, Product};
+use crate::run::march::{Family, OnMesh};
+use convergence_study::study::CaseFailure;
+use thermobeam::mesh::Mesh;
+use thermobeam::norms::TheoremSquares;
+use thermobeam::scheme::MIDPOINT;
+use thermobeam::solve::{Level, Settings};
+
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// The norm of (3.14).
+    Theorem34,
+    /// The same norm of the distance to the nodal interpolant.
+    Superclose,
+    /// |u_h(1) - u(1)|.
+    Tip,
+}
+
+impl Quantity {
+    /// All of them, in the order of [`Yardstick::measure`].
+    pub const ALL: [Quantity; 3] = [Quantity::Theorem34, Quantity::Superclose, Quantity::Tip];
+
+    /// The name in files, reports and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Theorem34 => "theorem-3.4",
+            Quantity::Superclose => "superclose",
+            Quantity::Tip => "tip",
+        }
+    }
+}
+
+/// A very fine run, kept at the times of observation.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    mesh: Mesh,
+    lengths: Vec<f64>,
+    /// At t = k t_end / observations, k = 1..
+    levels: Vec<Level>,
+}
+
+impl Reference {
+    /// Runs the family by `midpoint`; `steps` must be a multiple of `observations`.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the run does not come to its end.
+    pub fn compute(family: &Family, elements: usize, steps: usize, observations: usize) -> Result<Self, CaseFailure> {
+        let on = family.on(elements)?;
+        let mut march = on.march(MIDPOINT, Settings { tolerance: 1e-13, ..Settings::default() }, steps)?;
+        let mut levels = Vec::with_capacity(observations);
+        for _ in 0..observations {
+            march.advance(steps / observations)?;
+            levels.push(march.level().clone());
+        }
+        Ok(Self { lengths: on.mesh().lengths().collect(), mesh: on.mesh().clone(), levels })
+    }
+}
+
+enum Answer<'a> {
+    Exact { exact: &'a Manufactured, meter: Box<ErrorMeter>, factors: Factors, tip: Vec<f64> },
+    Computed { reference: &'a Reference, stride: usize, nodes: Vec<f64>, lengths: Vec<f64> },
+}
+
+/// Measures the levels of one mesh.
+pub struct Yardstick<'a> {
+    answer: Answer<'a>,
+}
+
+impl<'a> Yardstick<'a> {
+    /// Against `reference`, or else against the family's exact solution.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] without either, or where the reference's mesh does not contain the nodes.
+    pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Reference>) -> Result<Self, CaseFailure> {
+        let mesh = on.mesh();
+        let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
+        let answer = match (reference, family.exact()) {
+            (Some(reference), _) => {
+                let (fine, coarse) = (reference.lengths.len(), mesh.elements());
+                if !fine.is_multiple_of(coarse) {
+                    return Err(fail("the reference's number of elements is no multiple of this mesh's"));
+                }
+                let lengths = mesh.lengths().collect();
+                Answer::Computed { reference, stride: fine / coarse, nodes: mesh.nodes().to_vec(), lengths }
+            }
+            (None, Some(exact)) => {
+                let mut meter = Box::new(ErrorMeter::new(exact, mesh, false));
+                meter.lift(mesh, family.beam.theta_a);
+                let tip = exact.u.iter().map(|product: &Product| product.x.eval(1.0)).collect();
+                Answer::Exact { exact, meter, factors: Factors::default(), tip }
+            }
+            (None, None) => return Err(fail("there is nothing to measure the error against")),
+        };
+        Ok(Self { answer })
+    }
+
+    /// The three errors of a level at time t, which is observation number `index` from 0.
+    pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> [f64; 3] {
+        match &mut self.answer {
+            Answer::Exact { exact, meter, factors, tip } => {
+                factors.at(exact, t);
+                let errors = meter.measure(level, factors);
+                let of = |norm: Norm| errors[Norm::ALL.iter().position(|&other| other == norm).unwrap_or(0)];
+                let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
+                [of(Norm::Theorem34), of(Norm::Superclose), (level.u[level.u.len() - 1] - u).abs()]
+            }
+            Answer::Computed { reference, stride, nodes, lengths } => {
+                let fine = &reference.levels[index];
+                let nodal = distance(lengths, level, &restrict(fine, *stride));
+                let full = distance(&reference.lengths, &prolong(level, nodes, reference.mesh.nodes()), fine);
+                let tip = level.u[level.u.len() - 1] - fine.u[fine.u.len() - 1];
+                [full, nodal, tip.abs()]
+            }
+        }
+    }
+}
+
+/// Distance of two levels of one mesh in the norm of Theorem 3.4.
+pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
+    let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
+    let [v, u, w, phi, theta] = [(&a.v, &b.v), (&a.u, &b.u), (&a.w, &b.w), (&a.phi, &b.phi), (&a.theta, &b.theta)]
+        .map(|(a, b)| difference(a, b));
+    TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
+}
+
+fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
+    Level {
+        u: map(&level.u),
+        v: map(&level.v),
+        phi: map(&level.phi),
+        w: map(&level.w),
+        theta: map(&level.theta),
+        contact_force: level.contact_force,
+    }
+}
+
+/// `weight * a + (1 - weight) * b`, field by field.
+pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
+    let mix =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weight * a + (1.0 - weight) * b).collect::<Vec<f64>>();
+    Level {
+        u: mix(&a.u, &b.u),
+        v: mix(&a.v, &b.v),
+        phi: mix(&a.phi, &b.phi),
+        w: mix(&a.w, &b.w),
+        theta: mix(&a.theta, &b.theta),
+        contact_force: weight * a.contact_force + (1.0 - weight) * b.contact_force,
+    }
+}
+
+/// Values at every `stride`-th node.
+fn restrict(level: &Level, stride: usize) -> Level {
+    map_fields(level, |y| y.iter().step_by(stride).copied().collect())
+}
+
+/// The same P1 functions by their values at the nodes of another mesh, which must contain the old nodes.
+pub fn prolong(level: &Level, nodes: &[f64], fine: &[f64]) -> Level {
+    map_fields(level, |y| {
+        let mut left = 0;
+        fine.iter()
+            .map(|&x| {
+                while left + 2 < nodes.len() && nodes[left + 1] <= x {
+                    left += 1;
+                }
+                let fraction = (x - nodes[left]) / (nodes[left + 1] - nodes[left]);
+                (1.0 - fraction) * y[left] + fraction * y[left + 1]
+            })
+            .collect()
+    })
+}

@@ -1,0 +1,83 @@
+//! Reading the file of a bifurcation study.
+
+use std::path::Path;
+
+use super::BifurcationStudy;
+use crate::kinds::FromFile;
+use crate::kinds::steady::{listed_scenes, positive};
+use crate::scene::limits;
+use crate::scene::tables;
+use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::judge::verdict::Judge;
+use convergence_study::study::Header;
+
+impl FromFile for BifurcationStudy {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, from_document)
+    }
+}
+
+fn from_document(root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
+    let header = Header::from_document(root)?;
+    root.allow(&["study", "diagram", "buckling", "rest"])?;
+    let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
+    diagram.allow(&["scenes", "beta", "points"])?;
+    let (meshes, judge) = buckling(root)?;
+    let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
+    rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
+    let t_max = rest.require("t_max", "a number")?;
+    limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
+    Ok(BifurcationStudy {
+        header,
+        scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
+        grid: grid(&diagram)?,
+        meshes,
+        judge,
+        betas: ascending(&rest, "beta", 1)?,
+        elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
+        dt: positive(&rest, "dt")?,
+        speed: positive(&rest, "speed")?,
+        t_max: positive(&rest, "t_max")?,
+        distance: positive(&rest, "distance")?,
+    })
+}
+
+/// The β of the diagrams.
+fn grid(diagram: &Section<'_>) -> Result<Vec<f64>, InputError> {
+    let allowed = "a list of two numbers, ascending";
+    let field = diagram.require("beta", allowed)?;
+    let ends = numbers(&field, allowed)?;
+    let &[low, high] = ends.as_slice() else { return Err(field.refuse_as_written(allowed)) };
+    if low >= high {
+        return Err(field.refuse_as_written(allowed));
+    }
+    let points = diagram.require("points", "a whole number >= 2")?.count(2..=100_000)?;
+    let last = (points - 1) as f64;
+    Ok((0..points).map(|k| low + (high - low) * (k as f64 / last)).collect())
+}
+
+fn buckling(root: &Section<'_>) -> Result<(Vec<usize>, Judge), InputError> {
+    let section = root.require("buckling", "a table with elements and tolerance")?.section()?;
+    section.allow(&["elements", "tolerance"])?;
+    let allowed = "a list of at least three numbers of elements, ascending";
+    let field = section.require("elements", allowed)?;
+    let meshes = field.items(allowed)?.iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
+    if meshes.len() < 3 || meshes.windows(2).any(|pair| pair[0] >= pair[1]) {
+        return Err(field.refuse_as_written(allowed));
+    }
+    let tolerance = section.require("tolerance", "a number > 0 and < 0.5")?;
+    let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
+    Ok((meshes, judge))
+}
+
+fn ascending(section: &Section<'_>, key: &str, least: usize) -> Result<Vec<f64>, InputError> {
+    let allowed = "a list of numbers, ascending";
+    let field = section.require(key, allowed)?;
+    let values = numbers(&field, allowed)?;
+    let ordered = values.windows(2).all(|pair| pair[0] < pair[1]);
+    if values.len() >= least && ordered { Ok(values) } else { Err(field.refuse_as_written(allowed)) }
+}
+
+fn numbers(field: &Field<'_>, allowed: &str) -> Result<Vec<f64>, InputError> {
+    field.items(allowed)?.iter().map(Field::number).collect()
+}

@@ -1,0 +1,109 @@
+//! Beams with random coefficients and random initial data: moderate and smooth, or anything that is allowed.
+
+use convergence_study::judge::random::SplitMix;
+use std::f64::consts::PI;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::simulation::{Initial, Problem};
+
+/// Modes of the initial data.
+const MODES: usize = 4;
+
+/// The smooth beam of that seed: the same on every machine.
+pub(super) fn problem(mesh: &Mesh, seed: u64) -> Problem {
+    let mut random = SplitMix::new(seed);
+    let mut between = |low: f64, high: f64| random.within([low, high]);
+    let beam = Beam {
+        zeta: 10f64.powf(between(-2.0, 0.0)),
+        a: between(-1.0, 1.0),
+        rho: if between(0.0, 1.0) < 0.2 { 0.0 } else { 10f64.powf(between(-1.0, 2.0)) },
+        beta: between(-0.65, 6.0),
+        theta_a: between(-20.0, 20.0),
+    };
+    let obstacles =
+        Obstacles { epsilon: 10f64.powf(between(-5.0, -1.0)), g1: -between(0.0, 0.1), g2: between(0.0, 0.1) };
+    let initial = initial(mesh, beam.theta_a, |size, wave| smooth(&mut random, mesh, size, wave));
+    Problem { beam, obstacles: Some(obstacles), mesh: mesh.clone(), initial }
+}
+
+/// The wild beam of that seed, and its time step: every coefficient over its whole range, zeros included, elements whose
+/// lengths differ by up to a factor of 1000, data that are smooth or as rough as the mesh can carry.
+pub(in crate::kinds) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
+    let mut random = SplitMix::new(seed);
+    let mesh = wild_mesh(&mut random, elements)?;
+    let beam = wild_beam(&mut random);
+    let gap = |random: &mut SplitMix| or_zero(random, |random| power(random, -6.0, 0.0));
+    let mut pair = || Obstacles { epsilon: power(&mut random, -8.0, 1.0), g1: -gap(&mut random), g2: gap(&mut random) };
+    let obstacles = pair();
+    let without = random.uniform() < 0.1;
+    let dt = power(&mut random, -6.0, 1.0);
+    let rough = random.uniform() < 0.3;
+    let initial = initial(&mesh, beam.theta_a, |size, wave| {
+        if rough { noise(&mut random, &mesh, size) } else { smooth(&mut random, &mesh, size, wave) }
+    });
+    Ok((Problem { beam, obstacles: (!without).then_some(obstacles), mesh, initial }, dt))
+}
+
+/// Ten to a power between the two.
+fn power(random: &mut SplitMix, low: f64, high: f64) -> f64 {
+    10f64.powf(random.within([low, high]))
+}
+
+/// Zero in one of ten cases.
+fn or_zero(random: &mut SplitMix, value: impl FnOnce(&mut SplitMix) -> f64) -> f64 {
+    let value = value(random);
+    if random.uniform() < 0.1 { 0.0 } else { value }
+}
+
+fn wild_beam(random: &mut SplitMix) -> Beam {
+    let sign = if random.uniform() < 0.5 { 1.0 } else { -1.0 };
+    Beam {
+        zeta: or_zero(random, |random| power(random, -6.0, 1.0)),
+        a: sign * or_zero(random, |random| power(random, -3.0, 0.0)),
+        rho: or_zero(random, |random| power(random, -2.0, 6.0)),
+        beta: if random.uniform() < 0.5 { random.within([-2.0, 2.0]) } else { power(random, 0.0, 3.0) },
+        theta_a: or_zero(random, |random| random.within([-50.0, 50.0])),
+    }
+}
+
+fn wild_mesh(random: &mut SplitMix, elements: usize) -> Result<Mesh, MeshError> {
+    let spread = random.within([0.0, 3.0]);
+    let lengths: Vec<f64> = (0..elements).map(|_| power(random, -spread, 0.0)).collect();
+    let total: f64 = lengths.iter().sum();
+    let sums = lengths.iter().scan(0.0, |x, h| {
+        *x += h / total;
+        Some(*x)
+    });
+    let mut nodes: Vec<f64> = std::iter::once(0.0).chain(sums).collect();
+    nodes[elements] = 1.0;
+    Mesh::from_nodes(nodes)
+}
+
+/// The five fields, each from `field(size, wave numbers in π)`; the temperature gets its boundary values.
+fn initial(mesh: &Mesh, theta_a: f64, mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>) -> Initial {
+    let clamped = |k: f64| k + 0.5;
+    let mut theta = field(5.0, |k| k + 1.0);
+    let last = theta.len() - 1;
+    (theta[0], theta[last]) = (0.0, 0.0);
+    for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
+        *theta += theta_a * (1.0 - x);
+    }
+    Initial {
+        u: field(0.1, clamped),
+        u_t: field(2.0, clamped),
+        phi: field(0.1, clamped),
+        phi_t: field(2.0, clamped),
+        theta,
+    }
+}
+
+fn smooth(random: &mut SplitMix, mesh: &Mesh, size: f64, wave: fn(f64) -> f64) -> Vec<f64> {
+    let factors: [f64; MODES] = std::array::from_fn(|k| random.within([-size, size]) / (1.0 + k as f64));
+    let value = |x: f64| factors.iter().enumerate().map(|(k, c)| c * (wave(k as f64) * PI * x).sin()).sum::<f64>();
+    mesh.nodes().iter().map(|&x| value(x)).collect()
+}
+
+/// A value for each node by itself, zero at the clamped end.
+fn noise(random: &mut SplitMix, mesh: &Mesh, size: f64) -> Vec<f64> {
+    mesh.nodes().iter().map(|&x| if x == 0.0 { 0.0 } else { random.within([-size, size]) }).collect()
+}

@@ -1,0 +1,26 @@
+//! One mesh a case: its discrete frequencies.
+
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::{Case, CaseFailure};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::vibration::discrete_frequencies;
+
+use super::Frequencies;
+
+impl Frequencies {
+    pub(super) fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        Mesh::mapped(elements, |s| self.map.as_ref().map_or(s, |map| map.eval(s)))
+    }
+}
+
+pub(super) fn cases(study: &Frequencies) -> Vec<Case<usize>> {
+    // Bisection to the last bit is some 60 counts for each frequency.
+    let cost = |n: usize| 60.0 * (n * study.count) as f64;
+    study.elements.iter().map(|&n| Case { label: format!("n = {n}"), cost: cost(n), data: n }).collect()
+}
+
+pub(super) fn run(study: &Frequencies, elements: usize) -> Result<Vec<f64>, CaseFailure> {
+    // The solver knows no clock: a time limit is noticed before the mesh is taken up, not within it.
+    Patience::of_long_rounds().check(0, || 0.0)?;
+    Ok(discrete_frequencies(&study.mesh(elements)?, study.count)?)
+}

@@ -1,0 +1,42 @@
+//! The study file: which frequencies, on which meshes.
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::Header;
+use thermobeam::mesh::Mesh;
+
+use super::Frequencies;
+use crate::expression::{Expression, Variable};
+use crate::scene::functions::FunctionField;
+use crate::scene::{limits, tables};
+
+pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Frequencies, InputError> {
+    root.allow(&["study", "frequencies"])?;
+    let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;
+    section.allow(&["count", "elements", "map", "order", "tolerance"])?;
+    let positive = "a finite number > 0";
+    let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
+    let elements = increasing(&section)?;
+    // A mesh has two frequencies an element, of which the upper ones approximate nothing.
+    let count = section.require("count", "a whole number >= 1")?.count(1..=elements[0].min(limits::MODES))?;
+    let map = map(&section, &elements)?;
+    Ok(Frequencies { header, count, map, elements, order: number("order")?, tolerance: number("tolerance")? })
+}
+
+fn increasing(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of increasing whole numbers >= 1";
+    let field = section.require("elements", allowed)?;
+    let items = field.items(allowed)?;
+    let elements = items.iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
+    let increases = elements.windows(2).all(|pair| pair[0] < pair[1]) && !elements.is_empty();
+    if increases { Ok(elements) } else { Err(field.refuse_as_written(allowed)) }
+}
+
+fn map(section: &Section<'_>, elements: &[usize]) -> Result<Option<Expression>, InputError> {
+    let Some(field) = section.get("map") else { return Ok(None) };
+    let map = field.expression(Variable::S)?;
+    field.finite(&map, 1.0, 0)?;
+    for &elements in elements {
+        tables::checked_mesh(Mesh::mapped(elements, |s| map.eval(s)), &field)?;
+    }
+    Ok(Some(map))
+}

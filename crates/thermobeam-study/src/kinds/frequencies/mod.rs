@@ -1,0 +1,65 @@
+//! Frequencies of the beam on P1 elements against the exact ones: order 2, from above.
+//!
+//! Rayleigh and Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
+//! modes' error in the energy, h². For high modes `ω_h - ω` is `ω³h²/24` to leading order.
+
+mod cases;
+mod file;
+mod judge;
+
+use std::path::Path;
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+
+use crate::expression::Expression;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "frequencies",
+    read: reader::<Frequencies>,
+    why: "Linear elements overestimate the eigenfrequencies of the clamped-free beam by O(h^2); the exact ones are roots of a \
+          scalar equation.",
+    judged: "The rate of each of the first frequencies, and that all discrete ones lie above.",
+    failure: "Mass, stiffness or coupling of the discretisation is wrong.",
+};
+
+/// A study of frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frequencies {
+    header: Header,
+    count: usize,
+    elements: Vec<usize>,
+    map: Option<Expression>,
+    order: f64,
+    tolerance: f64,
+}
+
+impl FromFile for Frequencies {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        file::read(header, root)
+    }
+}
+
+impl Kind for Frequencies {
+    /// Number of elements.
+    type Data = usize;
+    /// The first discrete frequencies, ascending.
+    type Found = Vec<f64>;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        cases::cases(self)
+    }
+
+    fn run(&self, elements: &usize) -> Result<Vec<f64>, CaseFailure> {
+        cases::run(self, *elements)
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Vec<f64>>]) -> Outcome {
+        judge::judge(self, ran)
+    }
+}

@@ -1,0 +1,132 @@
+//! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
+
+use crate::run::patience::StepPatience;
+use std::path::Path;
+
+use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
+use thermobeam::error::SetupError;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::simulation::{Simulation, Stepping};
+use thermobeam::solve::Level;
+
+use crate::run::simulate;
+use crate::scene::Scene;
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
+
+/// Reads the scenes of a list of file names, which are relative to the folder of the study file.
+pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
+    let allowed = "a list of at least one scene file";
+    let items = field.items(allowed)?;
+    if items.is_empty() {
+        return Err(field.refuse_as_written(allowed));
+    }
+    items.iter().map(|item| listed_scene(item, folder)).collect()
+}
+
+/// Reads the scene of a file name; as in [`listed_scenes`].
+pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
+    let scene = Scene::read(field.file(folder)?)?;
+    if scene.obstacles.is_none() {
+        return Err(field.refuse(format!("{}, without obstacles", scene.name), "a scene with obstacles"));
+    }
+    Ok(scene)
+}
+
+/// The scene on a uniform mesh and with another time step.
+pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<Scene, MeshError> {
+    let steps = (scene.t_end / dt).round().max(1.0) as usize;
+    Ok(Scene { mesh: Mesh::uniform(elements)?, dt, steps, ..scene.clone() })
+}
+
+/// The scene at t = 0.
+pub(super) fn start(scene: &Scene) -> Result<Simulation, SetupError> {
+    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
+    Simulation::new(simulate::problem(scene), stepping)
+}
+
+/// A beam at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rest {
+    /// The last level.
+    pub(super) level: Level,
+    /// Its time.
+    pub(super) t: f64,
+}
+
+/// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,
+/// and the slowest oscillation of a beam near buckling is told from rest by its speed alone.
+const QUIET: f64 = 5.0;
+
+/// Runs until no node has been faster than `speed`, in u or φ, for a while.
+///
+/// # Errors
+/// A step that cannot be done, or motion that lasts longer than `t_max`.
+pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, CaseFailure> {
+    let mut simulation = start(scene)?;
+    let mut level = simulation.level();
+    let mut moved = 0.0;
+    let mut patience = Patience::of(&simulation);
+    while simulation.t() < t_max {
+        patience.before_step_of(&simulation)?;
+        simulation.advance()?;
+        simulation.observe(&mut level);
+        if !level.is_slow(speed) {
+            moved = simulation.t();
+        } else if simulation.t() - moved >= QUIET {
+            return Ok(Rest { level, t: simulation.t() });
+        }
+    }
+    Err(CaseFailure { reason: format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name) })
+}
+
+/// All exact steady states of the scene.
+pub(super) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
+    equilibria(&scene.beam, scene.obstacles.as_ref())
+}
+
+/// Largest differences over the nodes between a level and a steady state, of u and of φ.
+pub(super) fn distances(mesh: &Mesh, level: &Level, state: &Equilibrium) -> (f64, f64) {
+    let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
+        let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
+        differences.fold(0.0, max_or_nan)
+    };
+    (largest(&level.u, &|x| state.u(x)), largest(&level.phi, &|x| state.phi(x)))
+}
+
+/// The steady state next to a level, with its [`distances`].
+pub(super) fn nearest(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<(Equilibrium, (f64, f64))> {
+    let measured = states.iter().map(|state| (*state, distances(mesh, level, state)));
+    measured.min_by(|a, b| max_or_nan(a.1.0, a.1.1).total_cmp(&max_or_nan(b.1.0, b.1.1)))
+}
+
+/// The positive number of a key that has no default.
+pub(super) fn positive(section: &Section<'_>, key: &str) -> Result<f64, InputError> {
+    let allowed = "a finite number > 0";
+    section.require(key, allowed)?.number_where(allowed, |value| value > 0.0)
+}
+
+/// A contact state in words.
+pub(super) fn name_of(contact: Contact) -> &'static str {
+    match contact {
+        Contact::Free => "free",
+        Contact::Upper => "on the upper obstacle",
+        Contact::Lower => "on the lower obstacle",
+    }
+}
+
+/// The inverse of [`code_of`]; `None` for NaN.
+pub(super) fn contact_of(code: f64) -> Option<Contact> {
+    [Contact::Lower, Contact::Free, Contact::Upper].into_iter().find(|contact| code_of(*contact) == code)
+}
+
+/// A contact state as a number, for a study's results.
+pub(super) fn code_of(contact: Contact) -> f64 {
+    match contact {
+        Contact::Lower => -1.0,
+        Contact::Free => 0.0,
+        Contact::Upper => 1.0,
+    }
+}

@@ -1,0 +1,16 @@
+//! Tables that several kinds of study file have: exact solution, refinement, orders expected, coefficients of a control.
+
+mod control;
+mod expectation;
+mod manufactured;
+mod refine;
+
+pub use crate::exact::norm::Norm;
+pub use crate::exact::solution::{Manufactured, Product};
+pub use control::Control;
+pub(crate) use control::control;
+pub use expectation::Expectation;
+pub(crate) use expectation::expectations;
+pub(crate) use manufactured::manufactured;
+pub(crate) use refine::refine;
+pub use refine::{Perturbation, Refine};

@@ -1,0 +1,185 @@
+//! The table `[refine]`: which meshes and time steps a study runs through.
+
+use crate::scene::functions::FunctionField;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::scheme::Scheme;
+use thermobeam::solve::Settings;
+
+use crate::expression::{Expression, Variable};
+use crate::scene::limits;
+use crate::scene::tables;
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::judge::random::SplitMix;
+use convergence_study::study::Axis;
+
+/// A random displacement of the interior nodes, the same on every machine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Perturbation {
+    /// Each node of the uniform mesh moves by up to `amount * h / 2`; 0 <= amount < 1.
+    pub amount: f64,
+    /// Which displacement.
+    pub seed: u64,
+}
+
+impl Perturbation {
+    /// Where node `i` of `elements` goes, the ends staying where they are.
+    fn displaced(&self, i: usize, elements: usize) -> f64 {
+        let n = elements as f64;
+        if i == 0 || i == elements {
+            return i as f64 / n;
+        }
+        // Every level gets numbers of its own: nested displacements would not be random.
+        let scramble = |state: u64| SplitMix::new(state).next();
+        let seed = scramble(scramble(self.seed ^ scramble(elements as u64)).wrapping_add(i as u64));
+        let unit = SplitMix::new(seed).within([-1.0, 1.0]);
+        (i as f64 + 0.5 * self.amount * unit) / n
+    }
+}
+
+/// What is refined and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refine {
+    /// What is refined.
+    pub axis: Axis,
+    /// Is the error of the other axis removed exactly? Never with [`Axis::Both`].
+    pub isolate: bool,
+    /// Elements, increasing; one number where only time is refined.
+    pub elements: Vec<usize>,
+    /// Time steps, increasing; one number where only space is refined.
+    pub steps: Vec<usize>,
+    /// With [`Axis::Both`]: all combinations of elements and steps, instead of pairs.
+    pub grid: bool,
+    /// Final time.
+    pub t_end: f64,
+    /// Mesh map, a function of s.
+    pub map: Option<Expression>,
+    /// Random displacement of the nodes, before the map.
+    pub perturbation: Option<Perturbation>,
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// How each step is solved.
+    pub settings: Settings,
+}
+
+impl Refine {
+    /// The runs as (elements, steps), coarse to fine.
+    pub fn cases(&self) -> Vec<(usize, usize)> {
+        if self.axis == Axis::Both && !self.grid {
+            return self.elements.iter().copied().zip(self.steps.iter().copied()).collect();
+        }
+        // Where one axis is fixed, its list has one member.
+        self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
+    }
+
+    /// The mesh of that many elements, displaced and mapped as the study says.
+    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        mesh(elements, self.map.as_ref(), self.perturbation)
+    }
+
+    /// The time step, of which there are `steps`.
+    pub fn dt(&self, steps: usize) -> f64 {
+        self.t_end / steps as f64
+    }
+}
+
+fn mesh(elements: usize, map: Option<&Expression>, perturbation: Option<Perturbation>) -> Result<Mesh, MeshError> {
+    Mesh::mapped(elements, |s| {
+        let index = (s * elements as f64).round() as usize;
+        let s = perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
+        map.map_or(s, |map| map.eval(s))
+    })
+}
+
+/// The table `[refine]`.
+pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
+    let section = root.require("refine", "a table with axis, elements, steps and t_end")?.section()?;
+    let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed"];
+    section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
+    let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
+    let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
+    let positive = "a finite number > 0";
+    let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
+    let refine = Refine {
+        axis,
+        isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
+        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
+        grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
+        t_end: section.require("t_end", positive)?.number_where(positive, |t_end| t_end > 0.0)?,
+        perturbation: perturbation(&section)?,
+        map: map(&section, &elements, perturbation(&section)?)?,
+        elements,
+        scheme: tables::scheme(&section)?,
+        settings: tables::settings(&section)?,
+    };
+    if refine.grid {
+        limits::cases(&section.require("elements", "a list")?, &[refine.elements.len(), refine.steps.len()])?;
+    }
+    if axis == Axis::Both && !refine.grid && refine.elements.len() != refine.steps.len() {
+        let found = format!("{} numbers of steps for {} of elements", refine.steps.len(), refine.elements.len());
+        return Err(section.refuse("steps", found, "lists of the same length, or grid = true for all combinations"));
+    }
+    Ok(refine)
+}
+
+/// A key that may be true only where `possible`.
+fn flag(section: &Section<'_>, key: &str, possible: bool, allowed: &str) -> Result<bool, InputError> {
+    let Some(field) = section.get(key) else { return Ok(false) };
+    let value = field.boolean()?;
+    if value && !possible { Err(field.refuse_as_written(allowed)) } else { Ok(value) }
+}
+
+/// An increasing list where the key is refined, else one number.
+fn levels(
+    section: &Section<'_>,
+    key: &str,
+    axis: Axis,
+    refined: bool,
+    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
+    let what = if refined { "a list of increasing whole numbers >= 1" } else { "a single whole number >= 1" };
+    let allowed = format!("{what}, because axis = \"{}\"", axis.name());
+    let field = section.require(key, &allowed)?;
+    if !refined {
+        let single = if field.is_list() { Err(field.refuse_as_written(allowed)) } else { read(&field) };
+        return Ok(vec![single?]);
+    }
+    let mut levels: Vec<usize> = Vec::new();
+    for item in field.items(&allowed)? {
+        let level = read(&item)?;
+        match levels.last() {
+            Some(&before) if level <= before => {
+                return Err(item.refuse_as_written(format!("a whole number > {before}, the level before")));
+            }
+            _ => levels.push(level),
+        }
+    }
+    if levels.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(levels) }
+}
+
+fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {
+    let seed = section.get("seed");
+    let Some(field) = section.get("perturb") else {
+        return match seed {
+            Some(seed) => Err(seed.refuse(format!("{} without perturb", seed.as_written()), "perturb beside it")),
+            None => Ok(None),
+        };
+    };
+    let amount = field.number_where("a number >= 0 and < 1", |amount| (0.0..1.0).contains(&amount))?;
+    let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
+    Ok(Some(Perturbation { amount, seed }))
+}
+
+/// The mesh map, tried out on every level.
+fn map(
+    section: &Section<'_>,
+    elements: &[usize],
+    perturbation: Option<Perturbation>,
+) -> Result<Option<Expression>, InputError> {
+    let Some(field) = section.get("map") else { return Ok(None) };
+    let map = field.expression(Variable::S)?;
+    field.finite(&map, 1.0, 0)?;
+    for &elements in elements {
+        tables::checked_mesh(mesh(elements, Some(&map), perturbation), &field)?;
+    }
+    Ok(Some(map))
+}

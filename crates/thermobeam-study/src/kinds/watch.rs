@@ -1,0 +1,72 @@
+//! The laws of the energy, watched over the steps of a run.
+
+use crate::kinds::untyped::Measured;
+use convergence_study::text::number::max_or_nan;
+use thermobeam::energy::{Balance, Rounding};
+
+/// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
+pub(super) const SOLVED: f64 = 1e-14;
+
+/// Share of the energy within which the balance of a step closes, but for what rounding errors explain.
+pub(super) const CLOSED: f64 = 1e-12;
+
+/// The worst of a run so far; NaN stays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Watch {
+    /// The largest size of the energy.
+    scale: f64,
+    /// Largest residual and largest rise of a step, in units of the energy's size.
+    pub(super) residual: f64,
+    pub(super) rise: f64,
+    /// The same in units of what is allowed: at most 1.
+    pub(super) open: f64,
+    pub(super) risen: f64,
+    /// Sum of all residuals, with their signs, in units of the energy.
+    pub(super) drift: f64,
+}
+
+/// A share of what is allowed, in words.
+pub(super) fn of_allowed(share: f64) -> String {
+    let share = if share < 0.01 && share > 0.0 { format!("{share:.0e}") } else { format!("{share:.2}") };
+    format!("{share} of what is allowed")
+}
+
+impl Watch {
+    /// From a level whose energy has the given size.
+    pub(super) fn new(scale: f64) -> Self {
+        Self { scale, residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0, drift: 0.0 }
+    }
+
+    /// Takes in a step; `rounding` is asked for only where it matters.
+    pub(super) fn step(&mut self, balance: &Balance, scale: f64, rounding: impl FnOnce() -> Rounding) {
+        self.scale = max_or_nan(self.scale, scale);
+        let scale = self.scale.max(f64::MIN_POSITIVE);
+        let (residual, change) = (balance.residual.abs(), balance.change);
+        self.residual = max_or_nan(self.residual, residual / scale);
+        self.rise = max_or_nan(self.rise, change / scale);
+        self.drift += balance.residual / scale;
+        let closed = residual <= CLOSED * scale;
+        let falls = change <= 0.0;
+        if closed {
+            self.open = max_or_nan(self.open, residual / (CLOSED * scale));
+        }
+        if !(closed && falls) {
+            let bound = rounding().total();
+            if !closed {
+                self.open = max_or_nan(self.open, residual / bound.max(CLOSED * scale));
+            }
+            self.risen = max_or_nan(self.risen, change / bound.max(f64::MIN_POSITIVE));
+        }
+    }
+
+    /// Takes the worst of a run into those of the runs before; what a run without a step knows nothing of is left out.
+    pub(super) fn worsen(&self, worst: &mut Measured) {
+        let numbers = [("residual", self.residual), ("rise", self.rise), ("open", self.open), ("risen", self.risen)];
+        for (name, value) in numbers.into_iter().filter(|(_, value)| *value != f64::NEG_INFINITY) {
+            match worst.values.iter_mut().find(|(key, _)| *key == name) {
+                Some((_, worst)) => *worst = max_or_nan(*worst, value),
+                None => worst.push(name, value),
+            }
+        }
+    }
+}

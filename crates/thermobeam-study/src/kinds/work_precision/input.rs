@@ -1,0 +1,156 @@
+//! Reading a work-precision study.
+
+use super::method::{METHODS, Method};
+use super::{Advantage, WORK_PRECISION, WorkPrecision};
+use crate::error::free_vibration;
+use crate::error::yardstick::Quantity;
+use crate::kinds::FromFile;
+use crate::kinds::convergence::file::ConvergenceSpec;
+use crate::run::march::Family;
+use crate::scene::Scene;
+use crate::scene::limits;
+use convergence_study::input::{self, InputError, Section};
+use convergence_study::study::Header;
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// Tolerance of the solver that leaves no trace in the errors measured.
+const TOLERANCE: f64 = 1e-11;
+/// Misfit of the law that is allowed where a file does not say.
+const MISFIT: f64 = 0.15;
+
+const POSITIVE: &str = "a finite number > 0";
+
+impl FromFile for WorkPrecision {
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, Self::from_document)
+    }
+}
+
+impl WorkPrecision {
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", WORK_PRECISION, "advantage"])?;
+        let section = root.require(WORK_PRECISION, "a table with elements, steps and a problem")?.section()?;
+        let keys = ["solution", "scene", "vibration", "zeta", "t_end", "reference", "elements", "steps"];
+        section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
+        let steps = levels(&section, "steps")?;
+        if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
+            return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
+        }
+        let elements = levels(&section, "elements")?;
+        let number = |key: &str, default: f64| {
+            section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
+        };
+        let (family, reference) = problem(&section, folder, &elements, &steps)?;
+        Ok(Self {
+            header: Header::from_document(root)?,
+            family,
+            reference,
+            computed: OnceLock::new(),
+            tolerance: number("tolerance", TOLERANCE)?,
+            misfit: number("misfit", MISFIT)?,
+            advantages: advantages(root)?,
+            elements,
+            steps,
+        })
+    }
+}
+
+/// An increasing list of at least two whole numbers.
+fn levels(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of at least two increasing whole numbers >= 1";
+    let field = section.require(key, allowed)?;
+    let items = field.items(allowed)?;
+    let most = if key == "elements" { 1 << 20 } else { limits::STEPS };
+    let levels = items.iter().map(|item| item.count(1..=most)).collect::<Result<Vec<_>, _>>()?;
+    if levels.len() < 2 || levels.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Err(field.refuse_as_written(allowed));
+    }
+    Ok(levels)
+}
+
+/// The problem, and the reference where it has no exact solution.
+fn problem(
+    section: &Section<'_>,
+    folder: &Path,
+    elements: &[usize],
+    steps: &[usize],
+) -> Result<(Family, Option<[usize; 2]>), InputError> {
+    let only_with = |key: &str, owner: &str| match (section.get(key), section.get(owner)) {
+        (Some(field), None) => Err(field.refuse(format!("{key} without {owner}"), format!("{key} beside {owner}"))),
+        _ => Ok(()),
+    };
+    only_with("zeta", "vibration")?;
+    only_with("reference", "scene")?;
+    match (section.get("solution"), section.get("scene"), section.get("vibration")) {
+        (Some(file), None, None) => {
+            if let Some(field) = section.get("t_end") {
+                return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
+            }
+            let spec = ConvergenceSpec::read(file.file(folder)?)?;
+            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
+        }
+        (None, Some(file), None) => {
+            let mut scene = Scene::read(file.file(folder)?)?;
+            scene.t_end = t_end(section)?;
+            Ok((Family::of_scene(&scene), Some(reference(section, elements, steps)?)))
+        }
+        (None, None, Some(_)) => Ok((vibration(section)?, None)),
+        _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
+    }
+}
+
+fn t_end(section: &Section<'_>) -> Result<f64, InputError> {
+    section.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)
+}
+
+/// Elements and steps of the reference: multiples of all elements, and of the observations.
+fn reference(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<[usize; 2], InputError> {
+    let allowed =
+        "[elements, steps], elements being a multiple of every number of elements and steps of the first steps";
+    let field = section.require("reference", allowed)?;
+    let items = field.items(allowed)?;
+    let [n, time_steps] = items.as_slice() else { return Err(field.refuse_as_written(allowed)) };
+    let found = [n.count(1..=1 << 20)?, time_steps.count(1..=limits::STEPS)?];
+    let fits = elements.iter().all(|n| found[0].is_multiple_of(*n)) && found[1].is_multiple_of(steps[0]);
+    if fits { Ok(found) } else { Err(field.refuse_as_written(allowed)) }
+}
+
+/// The lowest modes, each released from a tip displacement of 0.1.
+fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
+    const AMPLITUDE: f64 = 0.1;
+    let allowed = "a list of at least one mode, numbered from 0";
+    let field = section.require("vibration", allowed)?;
+    let items = field.items(allowed)?;
+    let modes = items.iter().map(|item| Ok((item.count(0..=1000)?, AMPLITUDE))).collect::<Result<Vec<_>, InputError>>();
+    let modes = modes?;
+    let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
+    match free_vibration::vibration(&modes, zeta) {
+        Ok(Some(exact)) if !modes.is_empty() => {
+            Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
+        }
+        _ => Err(field.refuse_as_written("a list of modes that ring: zeta times their frequency is below 2")),
+    }
+}
+
+fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
+    let Some(field) = root.get("advantage") else { return Ok(vec![]) };
+    let methods = METHODS.map(|method| (method.name, method));
+    let quantities = Quantity::ALL.map(|quantity| (quantity.name(), quantity));
+    let items = field.items("a list of tables [[advantage]]")?;
+    let advantage = |section: Section<'_>| {
+        section.allow(&["norm", "error", "of", "over", "times"])?;
+        let method = |key: &str| -> Result<Method, InputError> {
+            section.require(key, "the name of a method")?.choice(&methods)
+        };
+        let number = |key: &str| section.require(key, POSITIVE)?.number_where(POSITIVE, |value| value > 0.0);
+        Ok(Advantage {
+            quantity: section.require("norm", "the name of a norm")?.choice(&quantities)?,
+            error: number("error")?,
+            of: method("of")?,
+            over: method("over")?,
+            times: number("times")?,
+        })
+    };
+    items.iter().map(|item| advantage(item.section()?)).collect()
+}

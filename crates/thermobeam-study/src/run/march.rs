@@ -1,0 +1,235 @@
+//! One problem on any mesh and with any step: what everything that trades cost against error runs.
+//!
+//! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
+//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::march`] gives it a scheme and a step. A [`March`] is advanced
+//! from outside, so that several can go side by side and be compared at the times they share. It counts its cost as it
+//! goes: [`Spent`].
+
+use crate::error::design;
+use crate::exact::factors::Factors;
+use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::kinds::tables::Manufactured;
+use crate::run::patience::StepPatience;
+use crate::run::simulate;
+use crate::scene::Scene;
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::CaseFailure;
+use std::time::{Duration, Instant};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::Scheme;
+use thermobeam::simulation::{Problem, Simulation, Stepping};
+use thermobeam::solve::{Level, Settings};
+
+/// What a computation has cost. The first two are the same on every machine, the third never is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spent {
+    /// Elements times time steps.
+    pub node_steps: f64,
+    /// Elements times solves of a step's linear system.
+    pub node_solves: f64,
+    /// Seconds of the solver alone.
+    pub seconds: f64,
+}
+
+impl std::ops::AddAssign for Spent {
+    fn add_assign(&mut self, other: Self) {
+        self.node_steps += other.node_steps;
+        self.node_solves += other.node_solves;
+        self.seconds += other.seconds;
+    }
+}
+
+/// Where the initial data come from.
+#[derive(Debug, Clone)]
+enum Start {
+    Scene(Box<Scene>),
+    Exact(Manufactured),
+}
+
+/// A problem on [0, `t_end`], still without mesh and time step.
+#[derive(Debug, Clone)]
+pub struct Family {
+    /// Coefficients of (1.1).
+    pub beam: Beam,
+    /// The obstacles of (1.3), if any.
+    pub obstacles: Option<Obstacles>,
+    /// Final time.
+    pub t_end: f64,
+    start: Start,
+    /// Whether the exact solution needs loads; a free vibration needs none.
+    loaded: bool,
+    /// Nodes whose piecewise linear map gives the nodes of any other number of elements; empty for uniform meshes.
+    grading: Vec<f64>,
+}
+
+impl Family {
+    /// The problem of a scene; its own dt and number of elements do not matter, the grading of its mesh is kept.
+    pub fn of_scene(scene: &Scene) -> Self {
+        let nodes = scene.mesh.nodes();
+        let n = scene.mesh.elements() as f64;
+        let is_uniform = nodes.iter().enumerate().all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON);
+        Self {
+            beam: scene.beam,
+            obstacles: scene.obstacles,
+            t_end: scene.t_end,
+            start: Start::Scene(Box::new(scene.clone())),
+            loaded: false,
+            grading: if is_uniform { vec![] } else { nodes.to_vec() },
+        }
+    }
+
+    /// The problem that `exact` solves with the loads derived from it.
+    pub fn of_solution(exact: Manufactured, beam: Beam, obstacles: Option<Obstacles>, t_end: f64) -> Self {
+        Self { beam, obstacles, t_end, start: Start::Exact(exact), loaded: true, grading: vec![] }
+    }
+
+    /// The problem that `exact` solves without any load.
+    pub fn of_free_solution(exact: Manufactured, beam: Beam, t_end: f64) -> Self {
+        Self { loaded: false, ..Self::of_solution(exact, beam, None, t_end) }
+    }
+
+    /// The exact solution, where there is one.
+    pub fn exact(&self) -> Option<&Manufactured> {
+        match &self.start {
+            Start::Exact(exact) => Some(exact),
+            Start::Scene(_) => None,
+        }
+    }
+
+    /// The mesh of so many elements, graded as the family is.
+    ///
+    /// # Errors
+    /// [`MeshError`] for no elements.
+    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        if self.grading.is_empty() {
+            return Mesh::uniform(elements);
+        }
+        let last = self.grading.len() - 1;
+        Mesh::mapped(elements, |s| {
+            let place = s * last as f64;
+            let left = (place as usize).min(last - 1);
+            let fraction = place - left as f64;
+            (1.0 - fraction) * self.grading[left] + fraction * self.grading[left + 1]
+        })
+    }
+
+    /// The problem on a mesh.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where there is no such mesh.
+    pub fn on(&self, elements: usize) -> Result<OnMesh<'_>, CaseFailure> {
+        let mesh = self.mesh(elements)?;
+        let (initial, sources) = match &self.start {
+            Start::Scene(scene) => (simulate::initial(scene, &mesh), None),
+            Start::Exact(exact) => {
+                let mut factors = Factors::default();
+                factors.at(exact, 0.0);
+                let nodal = Nodal::of(exact, &mesh);
+                let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.beam.theta_a);
+                (initial, self.loaded.then(|| Sources::strong(exact, &self.beam, &mesh)))
+            }
+        };
+        let problem = Problem { beam: self.beam, obstacles: self.obstacles, mesh, initial };
+        Ok(OnMesh { family: self, problem, sources })
+    }
+}
+
+/// A family on a mesh: what runs with different steps share.
+pub struct OnMesh<'a> {
+    family: &'a Family,
+    problem: Problem,
+    sources: Option<Sources>,
+}
+
+impl OnMesh<'_> {
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.problem.mesh
+    }
+
+    /// The discrete problem, loads left out.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// Writes the loads at time t; does nothing where there are none.
+    pub fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
+        let (Some(sources), Some(exact)) = (&self.sources, self.family.exact()) else { return };
+        factors.at(exact, t);
+        let u = &factors.u.value;
+        let force = self.family.obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
+        sources.fill(factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
+    }
+
+    /// Stands at t = 0 with a scheme and so many steps to go.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the solver refuses the numbers.
+    pub fn march(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<March<'_>, CaseFailure> {
+        let dt = self.family.t_end / steps as f64;
+        let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
+        let simulation = Simulation::new(self.problem.clone(), stepping)?;
+        let level = Level::new(self.problem.mesh.nodes().len());
+        let patience = Patience::of(&simulation);
+        Ok(March { on: self, simulation, level, dt, factors: Factors::default(), wall: Duration::ZERO, patience })
+    }
+}
+
+/// A simulation on its way.
+pub struct March<'a> {
+    on: &'a OnMesh<'a>,
+    simulation: Simulation,
+    level: Level,
+    dt: f64,
+    factors: Factors,
+    wall: Duration,
+    patience: Patience,
+}
+
+impl March<'_> {
+    /// Does `steps` steps. The clock runs while the solver does.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] with the solver's own words.
+    pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
+        for _ in 0..steps {
+            self.patience.before_step_of(&self.simulation)?;
+            let middle = (self.simulation.step() as f64 + 0.5) * self.dt;
+            if let Some(load) = self.simulation.load_mut() {
+                self.on.fill(middle, &mut self.factors, load);
+            }
+            let start = Instant::now();
+            let outcome = self.simulation.advance();
+            self.wall += start.elapsed();
+            outcome?;
+        }
+        Ok(())
+    }
+
+    /// The present level.
+    pub fn level(&mut self) -> &Level {
+        self.simulation.observe(&mut self.level);
+        &self.level
+    }
+
+    /// The present time.
+    pub fn t(&self) -> f64 {
+        self.simulation.t()
+    }
+
+    /// Length of each element.
+    pub fn lengths(&self) -> &[f64] {
+        self.simulation.lengths()
+    }
+
+    /// What it has cost so far.
+    pub fn spent(&self) -> Spent {
+        let elements = self.simulation.lengths().len() as f64;
+        Spent {
+            node_steps: elements * self.simulation.step() as f64,
+            node_solves: elements * self.simulation.work().passes as f64,
+            seconds: self.wall.as_secs_f64(),
+        }
+    }
+}

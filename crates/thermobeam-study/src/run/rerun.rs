@@ -1,0 +1,161 @@
+//! A scene run again: on another mesh, with other time steps, by another scheme or solver.
+
+use crate::expression::Expression;
+use crate::run::patience::StepPatience;
+use crate::scene::Scene;
+use convergence_study::run::time_limit::{Patience, TimeUp};
+use thermobeam::error::{SetupError, StepError};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::scheme::Scheme;
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::{Level, Settings};
+use thiserror::Error;
+
+/// Why a scene could not be run to its end.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunError {
+    /// It could not be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// A step could not be done.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The limit on the time of a case was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
+}
+
+impl From<MeshError> for RunError {
+    fn from(error: MeshError) -> Self {
+        Self::Setup(error.into())
+    }
+}
+
+/// What a scene is run with.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Rerun<'s> {
+    /// Coefficients, obstacles and initial data.
+    pub(crate) scene: &'s Scene,
+    /// The mesh.
+    pub(crate) mesh: Mesh,
+    /// Number of time steps.
+    pub(crate) steps: usize,
+    /// Final time.
+    pub(crate) t_end: f64,
+    /// Time scheme.
+    pub(crate) scheme: Scheme,
+    /// How each step is solved.
+    pub(crate) settings: Settings,
+}
+
+/// What was seen on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trace<S> {
+    /// Smallest and largest u(1) over all time levels, the start included; NaN once a level was.
+    pub(crate) tip: [f64; 2],
+    /// At `t_end k / samples`, k = 1..samples.
+    pub(crate) samples: Vec<S>,
+}
+
+impl<'s> Rerun<'s> {
+    /// The scene as it is.
+    pub(crate) fn of(scene: &'s Scene) -> Self {
+        let Scene { mesh, steps, t_end, scheme, settings, .. } = scene;
+        Self { scene, mesh: mesh.clone(), steps: *steps, t_end: *t_end, scheme: *scheme, settings: *settings }
+    }
+
+    /// Runs it.
+    ///
+    /// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
+    pub(crate) fn run<S>(
+        &self,
+        samples: usize,
+        mut sample: impl FnMut(&Simulation, &Level) -> S,
+    ) -> Result<Trace<S>, RunError> {
+        let Self { scheme, settings, .. } = *self;
+        let dt = self.t_end / self.steps as f64;
+        let mut simulation = Simulation::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
+        let mut level = simulation.level();
+        let mut patience = Patience::of(&simulation);
+        let last = level.u.len() - 1;
+        let mut trace = Trace { tip: [level.u[last]; 2], samples: Vec::with_capacity(samples) };
+        let stride = self.steps / samples;
+        for n in 1..=self.steps {
+            patience.before_step_of(&simulation)?;
+            simulation.advance()?;
+            simulation.observe(&mut level);
+            let tip = level.u[last];
+            trace.tip = [low(trace.tip[0], tip), -low(-trace.tip[1], -tip)];
+            if n % stride == 0 {
+                trace.samples.push(sample(&simulation, &level));
+            }
+        }
+        Ok(trace)
+    }
+
+    fn problem(&self) -> Problem {
+        let at_nodes = |function: &Option<Expression>| {
+            let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
+            self.mesh.nodes().iter().map(value).collect()
+        };
+        let data = &self.scene.initial;
+        let initial = Initial {
+            u: at_nodes(&data.u),
+            u_t: at_nodes(&data.u_t),
+            phi: at_nodes(&data.phi),
+            phi_t: at_nodes(&data.phi_t),
+            theta: at_nodes(&data.theta),
+        };
+        Problem { beam: self.scene.beam, obstacles: self.scene.obstacles, mesh: self.mesh.clone(), initial }
+    }
+}
+
+/// The smaller of both; NaN once one of them was.
+fn low(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a <= b { a } else { b }
+}
+
+/// `elements` elements laid out as those of `mesh`: its nodes x_i as a function of i/n, linear in between, taken at j/m.
+///
+/// Where m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
+pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
+    let (nodes, n) = (mesh.nodes(), mesh.elements());
+    let node = |j: usize| {
+        // In whole numbers: a rounded j/m would put nested nodes a bit beside each other.
+        let (index, rest) = (j * n / elements, j * n % elements);
+        if rest == 0 {
+            return nodes[index];
+        }
+        nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
+    };
+    Mesh::from_nodes((0..=elements).map(node).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resampled_meshes_are_nested_to_the_last_bit() {
+        let mesh = Mesh::mapped(12, |s| 0.3 * s + 0.7 * s * s).expect("a mesh");
+        assert_eq!(resampled(&mesh, 12).expect("a mesh"), mesh);
+        for (coarse, fine) in [(3, 6), (4, 12), (12, 36), (24, 48), (5, 35)] {
+            let [coarse, fine] = [coarse, fine].map(|n| resampled(&mesh, n).expect("a mesh"));
+            let ratio = fine.elements() / coarse.elements();
+            for (i, x) in coarse.nodes().iter().enumerate() {
+                assert_eq!(*x, fine.nodes()[i * ratio]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_keeps_extremes_and_samples() {
+        let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 2.0\n";
+        let scene = Scene::parse(text, "s.toml").expect("a scene");
+        let trace = Rerun::of(&scene).run(4, |simulation, level| (simulation.t(), level.u[4])).expect("a run");
+        let times: Vec<f64> = trace.samples.iter().map(|sample| sample.0).collect();
+        assert_eq!(times, [0.5, 1.0, 1.5, 2.0]);
+        assert_eq!(trace.tip[0].min(0.0), trace.tip[0]);
+        assert!(trace.samples.iter().all(|sample| (trace.tip[0]..=trace.tip[1]).contains(&sample.1)));
+    }
+}

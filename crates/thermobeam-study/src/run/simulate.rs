@@ -1,0 +1,387 @@
+//! A scene, run from its initial state to its end.
+//!
+//! Every step is observed: the energy's balance, its change and the extremes are over all time levels, not over those
+//! that a report happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone;
+//! reading the clock twice a step costs some 50 ns of it.
+//!
+//! A step that cannot be done ends the run, and so does a [limit on its time](convergence_study::run::time_limit). What was computed up to
+//! there is kept: [`Run::failure`] says why it ended.
+//!
+//! ```
+//! use thermobeam_study::scene::Scene;
+//! use thermobeam_study::simulate::{Recording, Simulator};
+//!
+//! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
+//! let scene = Scene::parse(text, "swing.toml")?;
+//! let run = Simulator::new(&scene)?.run(Recording::Summary, &mut |_| ());
+//! assert_eq!((run.steps, run.failure), (100, None));
+//! assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod budget;
+mod figures;
+mod object;
+mod record;
+mod together;
+
+use crate::run::patience::StepPatience;
+use std::time::{Duration, Instant};
+
+use thermobeam::energy::Balance;
+use thermobeam::error::{SetupError, StepError};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::Obstacles;
+use thermobeam::simulation::{self, Problem, Simulation, Stepping};
+use thermobeam::solve::{Level, StepReport, Work};
+use thiserror::Error;
+
+use crate::expression::Expression;
+use crate::scene::Scene;
+use convergence_study::run::time_limit::{Patience, TimeUp};
+use convergence_study::text::number::max_or_nan;
+
+pub use figures::{energy_at_rest, figures};
+pub use object::Object;
+pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
+pub use together::{Together, run_together};
+
+/// Where x = 1/2 lies in a mesh.
+#[derive(Debug, Clone, Copy)]
+struct Middle {
+    /// The node left of it, or at it.
+    node: usize,
+    /// How far on the way to the next node.
+    fraction: f64,
+}
+
+impl Middle {
+    fn of(mesh: &Mesh) -> Self {
+        let nodes = mesh.nodes();
+        // The first node is 0 and the last 1, so that there is always one on either side.
+        let node = nodes.partition_point(|&x| x <= 0.5) - 1;
+        Self { node, fraction: (0.5 - nodes[node]) / (nodes[node + 1] - nodes[node]) }
+    }
+
+    fn value(self, y: &[f64]) -> f64 {
+        (1.0 - self.fraction) * y[self.node] + self.fraction * y[self.node + 1]
+    }
+}
+
+/// What is worth reading off a time level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Time.
+    pub t: f64,
+    /// u(1).
+    pub u_tip: f64,
+    /// φ(1).
+    pub phi_tip: f64,
+    /// û(1).
+    pub u_t_tip: f64,
+    /// φ̂(1).
+    pub phi_t_tip: f64,
+    /// The physical temperature at x = 1/2.
+    pub theta_mid: f64,
+    /// The contact force of the step that led here, positive on the upper obstacle; g(u(1)) at the start.
+    pub contact_force: f64,
+    /// E^n, with the term of θ_A.
+    pub energy: f64,
+}
+
+/// Iterations of all steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Iterations {
+    /// Their sum.
+    pub total: usize,
+    /// Those of the step that took most.
+    pub max: usize,
+}
+
+/// The free end's range over all time levels, the start included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// Smallest u(1).
+    pub u_tip_min: f64,
+    /// Largest u(1).
+    pub u_tip_max: f64,
+}
+
+/// What became of the energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergySummary {
+    /// E^0.
+    pub initial: f64,
+    /// E^n of the last level.
+    pub last: f64,
+    /// Largest `E^n - E^{n-1}`; negative where the energy always falls, NaN where no step was done.
+    pub largest_increase: f64,
+    /// Largest defect of the exact discrete balance, over all steps.
+    pub largest_balance_residual: f64,
+}
+
+/// What to keep beside the summary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Recording {
+    /// Nothing: memory does not grow with the number of steps.
+    #[default]
+    Summary,
+    /// The history and frames for pictures, see [`Record`].
+    History,
+}
+
+/// A finished run, or the part of it that could be done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Steps done.
+    pub steps: usize,
+    /// Iterations that they took.
+    pub iterations: Iterations,
+    /// Time spent stepping, without any observing.
+    pub wall: Duration,
+    /// The start.
+    pub first: Sample,
+    /// The last level.
+    pub last: Sample,
+    /// The free end's range.
+    pub extremes: Extremes,
+    /// Steps that ended with a contact force.
+    pub contact_steps: usize,
+    /// The energy.
+    pub energy: EnergySummary,
+    /// Counts of the solver's work.
+    pub work: Work,
+    /// Whether the temperature was computed: it is left out where nothing heats the beam.
+    pub is_heated: bool,
+    /// Why the run ended early, if it did.
+    pub failure: Option<RunFailure>,
+    /// History and frames, if they were asked for.
+    pub record: Option<Record>,
+}
+
+/// Why a run ended before the scene's end.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunFailure {
+    /// A step that could not be done.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The limit on its time was reached.
+    #[error(transparent)]
+    Time(#[from] TimeUp),
+}
+
+/// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
+///
+/// Boundary values are set exactly. The scene has checked that its functions meet them up to their round-off, which for
+/// a function such as sin(1000πx) is more than the solver would accept unseen.
+pub fn problem(scene: &Scene) -> Problem {
+    Problem {
+        beam: scene.beam,
+        obstacles: scene.obstacles,
+        mesh: scene.mesh.clone(),
+        initial: initial(scene, &scene.mesh),
+    }
+}
+
+/// A scene's initial data on any mesh, boundary values set as in [`problem`].
+pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
+    let nodes = mesh.nodes();
+    let at_nodes = |function: &Option<Expression>, start: f64| -> Vec<f64> {
+        let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
+        let mut values: Vec<f64> = nodes.iter().map(value).collect();
+        values[0] = start;
+        values
+    };
+    let initial = &scene.initial;
+    let mut theta = at_nodes(&initial.theta, scene.beam.theta_a);
+    theta[nodes.len() - 1] = 0.0;
+    simulation::Initial {
+        u: at_nodes(&initial.u, 0.0),
+        u_t: at_nodes(&initial.u_t, 0.0),
+        phi: at_nodes(&initial.phi, 0.0),
+        phi_t: at_nodes(&initial.phi_t, 0.0),
+        theta,
+    }
+}
+
+/// A scene, ready to run.
+pub struct Simulator {
+    simulation: Simulation,
+    middle: Middle,
+    dt: f64,
+    steps: usize,
+}
+
+impl Simulator {
+    /// Sets the scene up at t = 0.
+    ///
+    /// # Errors
+    /// [`SetupError`] where the solver cannot work with the scene's numbers.
+    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
+        let simulation = Simulation::new(problem(scene), stepping)?;
+        Ok(Self { simulation, middle: Middle::of(&scene.mesh), dt: scene.dt, steps: scene.steps })
+    }
+
+    /// Steps to the end; `progress` hears the number of steps done after each of them.
+    pub fn run(mut self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
+        let mut old = self.simulation.level();
+        let mut new = old.clone();
+        let first = self.first_sample(&old);
+        let mut record = (recording == Recording::History)
+            .then(|| Record::new(self.simulation.problem().mesh.nodes(), self.steps, first, &old.u));
+        let mut tally = Tally::new(first.u_tip);
+        let mut wall = Duration::ZERO;
+        let mut failure = None;
+        let mut patience = Patience::of(&self.simulation);
+        while self.simulation.step() < self.steps {
+            if let Err(up) = patience.before_step_of(&self.simulation) {
+                failure = Some(up.into());
+                break;
+            }
+            let start = Instant::now();
+            let outcome = self.simulation.advance();
+            wall += start.elapsed();
+            let report = match outcome {
+                Ok(report) => report,
+                Err(error) => {
+                    failure = Some(error.into());
+                    break;
+                }
+            };
+            self.simulation.observe(&mut new);
+            let balance = self.simulation.balance(&old, &new);
+            tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
+            if let Some(record) = &mut record {
+                record.add(self.simulation.step(), &balance, &new.u, || self.sample(&new));
+            }
+            std::mem::swap(&mut old, &mut new);
+            progress(self.simulation.step());
+        }
+        let last = if self.simulation.step() == 0 { first } else { self.sample(&old) };
+        if let Some(record) = &mut record {
+            record.finish(last, &old.u);
+        }
+        self.summary(tally, wall, [first, last], failure, record)
+    }
+
+    fn summary(
+        self,
+        tally: Tally,
+        wall: Duration,
+        ends: [Sample; 2],
+        failure: Option<RunFailure>,
+        record: Option<Record>,
+    ) -> Run {
+        let (work, is_heated) = (self.simulation.work(), self.simulation.is_heated());
+        Run { failure, record, ..tally.run(self.simulation.step(), ends, wall, work, is_heated) }
+    }
+
+    /// No step has led to the start, so that its contact force is that of the law.
+    fn first_sample(&self, level: &Level) -> Sample {
+        self.sample(level).at_the_start(self.simulation.problem().obstacles)
+    }
+
+    fn sample(&self, level: &Level) -> Sample {
+        let theta_a = self.simulation.problem().beam.theta_a;
+        let t = self.simulation.step() as f64 * self.dt;
+        Sample::of(level, t, self.middle, theta_a, self.simulation.energy(level).total())
+    }
+}
+
+impl Sample {
+    fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
+        let tip = level.u.len() - 1;
+        Self {
+            t,
+            u_tip: level.u[tip],
+            phi_tip: level.phi[tip],
+            u_t_tip: level.v[tip],
+            phi_t_tip: level.w[tip],
+            // The lifting θ_A (1 - x) is linear, so that adding its value in the middle is exact on any mesh.
+            theta_mid: middle.value(&level.theta) + 0.5 * theta_a,
+            // The solver gives a free tip the sign of zero that its displacement has: -0 + 0 is 0.
+            contact_force: level.contact_force + 0.0,
+            energy,
+        }
+    }
+
+    /// The same with the contact force of the law.
+    fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
+        let contact_force = obstacles.map_or(0.0, |obstacles| obstacles.force(self.u_tip) + 0.0);
+        Self { contact_force, ..self }
+    }
+}
+
+/// What is summed up over the steps.
+struct Tally {
+    iterations: Iterations,
+    extremes: Extremes,
+    contact_steps: usize,
+    largest_increase: Option<f64>,
+    largest_residual: f64,
+}
+
+impl Tally {
+    fn new(u_tip: f64) -> Self {
+        Self {
+            iterations: Iterations::default(),
+            extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
+            contact_steps: 0,
+            largest_increase: None,
+            largest_residual: 0.0,
+        }
+    }
+
+    fn add(&mut self, report: &StepReport, balance: &Balance, u_tip: f64, contact_force: f64) {
+        self.iterations.total += report.iterations;
+        self.iterations.max = self.iterations.max.max(report.iterations);
+        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u_tip);
+        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u_tip);
+        self.contact_steps += usize::from(contact_force != 0.0);
+        // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
+        self.largest_increase =
+            Some(self.largest_increase.map_or(balance.change, |most| max_or_nan(most, balance.change)));
+        self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
+    }
+
+    /// The run that it is of, without failure and record.
+    fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
+        let energy = EnergySummary {
+            initial: first.energy,
+            last: last.energy,
+            largest_increase: self.largest_increase.unwrap_or(f64::NAN),
+            largest_balance_residual: self.largest_residual,
+        };
+        Run {
+            steps,
+            iterations: self.iterations,
+            wall,
+            first,
+            last,
+            extremes: self.extremes,
+            contact_steps: self.contact_steps,
+            energy,
+            work,
+            is_heated,
+            failure: None,
+            record: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_is_interpolated_where_it_is_no_node() {
+        let value = |nodes: Vec<f64>| {
+            let y: Vec<f64> = nodes.iter().map(|x| 3.0 * x - 1.0).collect();
+            Middle::of(&Mesh::from_nodes(nodes).unwrap()).value(&y)
+        };
+        for nodes in [vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0, 0.1, 0.7, 1.0], vec![0.0, 0.9, 1.0]] {
+            assert!((value(nodes) - 0.5).abs() < 1e-15);
+        }
+    }
+}

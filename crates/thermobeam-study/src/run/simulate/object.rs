@@ -1,0 +1,169 @@
+//! A run as a JSON object. The order of the keys is the order of the fields; names are a contract, more may be added.
+
+use serde::Serialize;
+use thermobeam::error::StepFailure;
+
+use super::budget::{self, ErrorBudget};
+use super::{Run, RunFailure};
+use crate::predict::estimate::Budget;
+use crate::scene::Scene;
+
+/// The object that `run --format json` prints.
+#[derive(Debug, Serialize)]
+pub struct Object<'a> {
+    scene: &'a str,
+    elements: usize,
+    /// Steps done: fewer than asked for where the run failed.
+    steps: usize,
+    dt: f64,
+    t_end: f64,
+    iterations: Iterations,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_seconds: Option<f64>,
+    #[serde(rename = "final")]
+    last: Final,
+    extremes: Extremes,
+    energy: Energy,
+    scheme: &'static str,
+    solver: &'static str,
+    /// Whether the temperature was computed.
+    heated: bool,
+    contact_steps: usize,
+    work: Work,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_budget: Option<ErrorBudget>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<Failure>,
+}
+
+#[derive(Debug, Serialize)]
+struct Iterations {
+    total: usize,
+    max: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Final {
+    t: f64,
+    u_tip: f64,
+    phi_tip: f64,
+    u_t_tip: f64,
+    phi_t_tip: f64,
+    theta_mid: f64,
+    energy: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Extremes {
+    u_tip_min: f64,
+    u_tip_max: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Energy {
+    initial: f64,
+    #[serde(rename = "final")]
+    last: f64,
+    largest_increase: f64,
+    largest_balance_residual: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Work {
+    passes: usize,
+    factorizations: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Failure {
+    kind: &'static str,
+    step: usize,
+    t: f64,
+    message: String,
+    #[serde(flatten)]
+    numbers: Numbers,
+}
+
+/// The numbers of a failure, by its kind.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Numbers {
+    Iteration { iterations: usize, increment: f64, contraction: f64 },
+    NonFinite { iterations: usize, increment: f64 },
+    Indefinite { node: usize, pivot: f64, n_value: f64 },
+    Limit { limit_seconds: f64 },
+}
+
+impl<'a> Object<'a> {
+    /// Everything there is to say about a run.
+    pub fn new(scene: &'a Scene, run: &Run) -> Self {
+        Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
+    }
+
+    /// The same with an error budget.
+    pub fn with_budget(self, budget: Option<&Budget>) -> Self {
+        Self { error_budget: budget.map(budget::object), ..self }
+    }
+
+    /// The same without the time on the clock: the same run gives the same bytes.
+    pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
+        let last = &run.last;
+        Self {
+            scene: &scene.name,
+            elements: scene.mesh.elements(),
+            steps: run.steps,
+            dt: scene.dt,
+            t_end: scene.t_end,
+            iterations: Iterations { total: run.iterations.total, max: run.iterations.max },
+            wall_seconds: None,
+            last: Final {
+                t: last.t,
+                u_tip: last.u_tip,
+                phi_tip: last.phi_tip,
+                u_t_tip: last.u_t_tip,
+                phi_t_tip: last.phi_t_tip,
+                theta_mid: last.theta_mid,
+                energy: last.energy,
+            },
+            extremes: Extremes { u_tip_min: run.extremes.u_tip_min, u_tip_max: run.extremes.u_tip_max },
+            energy: Energy {
+                initial: run.energy.initial,
+                last: run.energy.last,
+                largest_increase: run.energy.largest_increase,
+                largest_balance_residual: run.energy.largest_balance_residual,
+            },
+            scheme: scene.scheme.name,
+            solver: scene.settings.solver.name(),
+            heated: run.is_heated,
+            contact_steps: run.contact_steps,
+            work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
+            error_budget: None,
+            failure: run.failure.as_ref().map(failure),
+        }
+    }
+}
+
+fn failure(ended: &RunFailure) -> Failure {
+    let error = match ended {
+        RunFailure::Step(error) => error,
+        RunFailure::Time(up) => {
+            let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
+            return Failure { kind: "time-limit", step: up.step, t: up.t, message: up.to_string(), numbers };
+        }
+    };
+    let (kind, numbers) = match error.failure {
+        StepFailure::Diverged { iterations, increment, contraction } => {
+            ("diverged", Numbers::Iteration { iterations, increment, contraction })
+        }
+        StepFailure::IterationLimit { iterations, increment, contraction } => {
+            ("iteration-limit", Numbers::Iteration { iterations, increment, contraction })
+        }
+        StepFailure::NonFinite { iterations, increment } => {
+            ("non-finite", Numbers::NonFinite { iterations, increment })
+        }
+        StepFailure::Indefinite { node, pivot, n_value } => {
+            ("indefinite", Numbers::Indefinite { node, pivot, n_value })
+        }
+    };
+    Failure { kind, step: error.step, t: error.t, message: error.failure.to_string(), numbers }
+}

@@ -63,7 +63,7 @@ fn run(spec: ConvergenceSpec) -> Outcome {
 fn main() -> Result<(), Box<dyn Error>> {
     let (rust, toml) = (run(in_rust()?), run(ConvergenceSpec::parse(TOML, "my-own.toml")?));
     for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
-        println!("n = {:3}   superclose {error:.4e}", level.elements);
+        println!("n = {:3}   superclose {error:.4e}", level.parameter("elements").unwrap_or(f64::NAN));
     }
     println!("{}: {}", rust.verdict, rust.rates[0].1.reason);
     assert_eq!(rust.levels, toml.levels);

@@ -1,11 +1,11 @@
 //! The studies of the paper's experiments, of steady states and of rigid obstacles: they pass, and they can fail.
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{self, Study};
 
 type Results = Vec<Result<Measured, CaseFailure>>;

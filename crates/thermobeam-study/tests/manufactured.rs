@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
@@ -12,6 +11,7 @@ use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 use thermobeam_study::kinds::energy::EnergyDecay;
 use thermobeam_study::kinds::fixed_point::FixedPoint;
 use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{FromFile, Study};
 
 fn file(name: &str) -> std::path::PathBuf {

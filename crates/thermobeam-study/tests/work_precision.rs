@@ -1,10 +1,10 @@
 //! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
+use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::{FromFile, Study};
 

@@ -33,3 +33,15 @@ pub mod work_precision;
 pub use table::KINDS;
 pub use terms::TERMS;
 pub use untyped::{FromFile, Study};
+
+use convergence_study::input::InputError;
+use convergence_study::study::{self as harness, StudyFile};
+use std::path::Path;
+
+/// Reads a study file of any of the beam's kinds.
+///
+/// # Errors
+/// [`InputError`] with file, line, field, the value found and the values allowed.
+pub fn read(path: &Path) -> Result<Box<dyn harness::Study>, InputError> {
+    StudyFile::read(&KINDS, path).map(|file| file.study)
+}

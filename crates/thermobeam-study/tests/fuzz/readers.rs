@@ -152,8 +152,7 @@ impl Bench {
                 drop(run);
             }
             Reading::Study => {
-                study::headers(std::slice::from_ref(&path)).map_err(|error| said(&error))?;
-                drop(study::read(&path).map_err(|error| said(&error))?.cases());
+                drop(kinds::read(&path).map_err(|error| said(&error))?.plan().cases());
             }
             Reading::Sweep => {
                 let sweep = Sweep::read(&path).map_err(|error| said(&error))?;

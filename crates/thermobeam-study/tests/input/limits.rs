@@ -29,7 +29,7 @@ fn refusal(name: &str, changes: &[(&str, &str)]) -> String {
     }
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    study::read(&file).err().unwrap_or_else(|| panic!("{name} with {changes:?} is not refused")).to_string()
+    kinds::read(&file).err().unwrap_or_else(|| panic!("{name} with {changes:?} is not refused")).to_string()
 }
 
 #[test]

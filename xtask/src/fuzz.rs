@@ -120,7 +120,7 @@ fn sentence(all: &Tally) -> String {
 
 fn page(arguments: &Arguments, all: &Tally, table: &Table) -> String {
     format!(
-        "# Damaged files\n\nWritten by `cargo xtask fuzz --inputs {} --first {}`. Files of the project are damaged as \
+        "# Damaged files\n\nWritten by `cargo xtask dev fuzz --inputs {} --first {}`. Files of the project are damaged as \
          programs, editors and people do it: bits flipped, the end lost, lines lost, doubled and mixed, pieces put in, ten \
          thousand brackets, words exchanged, numbers made huge, negative, infinite or NaN. Each goes to the reader that is \
          for it, and is read or refused by a message that begins with the file's name and says where.\n\n{}.\n\n{}",

@@ -63,14 +63,11 @@ const TARGETS: [Target; 8] = [
         tests: ("thermobeam-study", &["--test=manufactured", "--test=input"]),
     },
     Target {
-        package: "thermobeam-study",
-        paths: &["crates/thermobeam-study/src/fit", "crates/thermobeam-study/src/verdict"],
+        package: "convergence-study",
+        paths: &["crates/convergence-study/src/judge/fit", "crates/convergence-study/src/judge/verdict"],
         first: &["--test=fit", "--test=verdict_laws"],
         slow: &["the_joint_region_holds_the_orders_95_times_in_100"],
-        tests: (
-            "thermobeam-study",
-            &["--lib", "--test=fit", "--test=verdict_laws", "--test=manufactured", "--test=calibration"],
-        ),
+        tests: ("convergence-study", &["--lib", "--test=fit", "--test=verdict_laws", "--test=calibration"]),
     },
 ];
 
@@ -81,7 +78,7 @@ impl Target {
 }
 
 /// The packages of the targets.
-pub(super) const PACKAGES: [&str; 3] = ["thermobeam", "thermobeam-exact", "thermobeam-study"];
+pub(super) const PACKAGES: [&str; 3] = ["thermobeam", "thermobeam-exact", "convergence-study"];
 
 /// One mistake.
 #[derive(Debug, Clone, PartialEq)]

@@ -24,7 +24,7 @@ fn fuzz(root: &Path, prints: &str, ends: i32, arguments: &[&str]) -> Ended {
     fs::write(root.join("prints"), prints).expect("a file");
     fs::write(root.join("ends"), ends.to_string()).expect("a file");
     let mut command = xtask();
-    command.arg("fuzz").args(arguments).current_dir(root).env("CARGO", root.join("cargo"));
+    command.args(["dev", "fuzz"]).args(arguments).current_dir(root).env("CARGO", root.join("cargo"));
     ended(command.env_remove("CARGO_MANIFEST_DIR"))
 }
 
@@ -47,7 +47,7 @@ fn the_counts_of_the_test_become_a_report() {
         assert!(text.contains(sentence), "{text}");
     }
     assert!(page.contains("| all   |    200 |   21 |     179 |      0 |          7.2 |"), "{page}");
-    assert!(page.contains("cargo xtask fuzz --inputs 200 --first 7"), "{page}");
+    assert!(page.contains("cargo xtask dev fuzz --inputs 200 --first 7"), "{page}");
 }
 
 #[test]

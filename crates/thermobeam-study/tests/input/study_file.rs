@@ -150,7 +150,7 @@ fn a_wrong_header_is_named() {
     for (text, pieces) in [
         ("", &["s.toml:1:1: study: missing; allowed is a table with id, claim and tier"][..]),
         ("[study]", &["1:1: study.id: missing; allowed is 1 to 100 lowercase letters, digits, `.` or `-`"]),
-        ("[study]\nid = \"A b\"", &["2:6: study.id: found the text \"A b\"; allowed is a text of small letters"]),
+        ("[study]\nid = \"A b\"", &["2:6: study.id: found the text \"A b\"; allowed is 1 to 100 lowercase letters"]),
         ("[study]\nid = \"\"", &["2:6: study.id: found the text \"\""]),
         ("[study]\nid = 3", &["2:6: study.id: found 3; allowed is a text"]),
         ("[study]\nid = \"a\"", &["1:1: study.claim: missing; allowed is a text that says"]),

@@ -9,6 +9,18 @@ pub(crate) const PROJECT: Project = Project {
     command: "cargo xtask",
     about: "Simulate the beam between its obstacles, and verify the scheme that does",
     kinds: &KINDS,
+    groups: &[
+        "space",
+        "time",
+        "coupled",
+        "contact",
+        "energy",
+        "steady states",
+        "vibrations",
+        "robustness",
+        "cost",
+        "the harness",
+    ],
     terms: &TERMS,
     // Others show this picture, and need a name that studies do not change.
     front_pictures: &[("section-5-beam.svg", "beam.svg")],

@@ -13,6 +13,8 @@ pub struct Project {
     pub about: &'static str,
     /// The kinds of study that it knows.
     pub kinds: &'static Kinds,
+    /// What studies may name as their group, in the order of reports: what is claimed, such as `space`.
+    pub groups: &'static [&'static str],
     /// Its own words that `explain` knows beside kinds and reasons, such as norms.
     pub terms: &'static [Term],
     /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.

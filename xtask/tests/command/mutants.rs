@@ -50,7 +50,12 @@ fn workspace(folder: &Folder) -> PathBuf {
 fn mutants(root: &Path, arguments: &[&str]) -> Ended {
     let path = format!("{}:{}", root.join("bin").display(), std::env::var("PATH").unwrap_or_default());
     let mut command = xtask();
-    command.args(["dev", "mutants"]).args(arguments).current_dir(root).env("PATH", path).env_remove("CARGO_MANIFEST_DIR");
+    command
+        .args(["dev", "mutants"])
+        .args(arguments)
+        .current_dir(root)
+        .env("PATH", path)
+        .env_remove("CARGO_MANIFEST_DIR");
     ended(&mut command)
 }
 

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{can_be_blessed, key_numbers, sentence};
+use crate::report::{can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
 use crate::study::{Study, StudyFile, Tier};
 use crate::verify::{self, Request, Scope, Verification};
@@ -26,7 +25,7 @@ pub struct Arguments {
     /// Take the new numbers for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
-    /// No progress bar, and of the table only what does not pass
+    /// No progress bar, no table: what did not pass and why, and the verdict
     #[arg(long)]
     quiet: bool,
     /// Every number that is not what it was, not only the worst of each study
@@ -69,16 +68,10 @@ fn scope(arguments: &Arguments, all: &[StudyFile]) -> Scope {
     }
 }
 
-/// The table, what moved, what became of the blessing, where the reports are, and the verdict last.
+/// What did not pass, what moved, what became of the blessing, the table, where the reports are, and the verdict last.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
     let quiet = arguments.quiet;
-    let shown = found.finished.iter().filter(|finished| !quiet || finished.outcome.verdict != Verdict::Pass);
-    let rows: Vec<Vec<String>> = shown.map(row).collect();
-    let mut text = String::new();
-    if !rows.is_empty() {
-        text += &screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
-        text += "\n";
-    }
+    let mut text = text_of_failures(&found.finished);
     text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
@@ -89,6 +82,10 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
         None => {}
     }
     if !quiet {
+        let rows: Vec<Vec<String>> = found.finished.iter().map(row).collect();
+        let table = screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
+        let gap = if text.is_empty() { "" } else { "\n" };
+        text += &format!("{gap}{table}\n");
         let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
         text += &format!("report: {page}, {readme}\n");
         if matches!(request.scope, Scope::Selection(_)) {

@@ -12,6 +12,7 @@
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
 //! | [`parameter_map`] | a value and a category over two parameters, with boundary curves |
+//! | [`forest`] | all judged rates relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
 //! What is drawn can be read back: `readable` writes names and values into the picture, for a page that shows them.
@@ -33,6 +34,7 @@ mod colour;
 mod contour;
 mod convergence;
 mod decimate;
+mod forest;
 pub mod heat;
 mod history;
 pub mod legend;
@@ -51,6 +53,7 @@ mod work_precision;
 pub mod xy;
 
 pub use convergence::{Convergence, ErrorSeries, PowerLaw, convergence};
+pub use forest::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
 pub use history::{History, Iterations, history, iterations};
 pub use parameter_map::{ParameterMap, parameter_map};
 pub use space_time::{SpaceTime, space_time};

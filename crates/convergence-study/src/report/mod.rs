@@ -2,6 +2,8 @@
 //!
 //! The same outcomes give the same bytes. Nothing here knows of times or machines.
 
+mod failures;
+mod forest;
 mod html;
 mod markdown;
 mod page;
@@ -22,6 +24,7 @@ use crate::study::outcome::Figure;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
+pub use failures::{NotPassed, not_passed, text_of_failures};
 pub use section::markdown;
 pub use tables::tables;
 pub use words::{can_be_blessed, key_numbers, sentence};
@@ -64,6 +67,9 @@ impl Findings<'_> {
                 set.add(*name, figure.svg.as_str())?;
             }
         }
+        if let Some(figure) = forest::figure(self.project, self.finished) {
+            set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
+        }
         for figure in self.figures() {
             set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
         }
@@ -82,7 +88,11 @@ impl Findings<'_> {
         if let Some((title, folder)) = self.see_also {
             page += &format!(" See also [{}]({folder}/README.md).", text(title));
         }
-        page += &format!("\n\n{}{}", self.overview(link), self.moved());
+        page += &format!("\n\n{}{}", failures::markdown(self.finished, true), self.moved());
+        if let Some(figure) = forest::figure(self.project, self.finished) {
+            page += &section::figure(&figure);
+        }
+        page += &format!("\n## All studies\n{}", self.overview(link));
         page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
         page
     }
@@ -95,19 +105,28 @@ impl Findings<'_> {
     /// What of the report fits on one page of a continuous integration: no links, no sections.
     pub fn digest(&self) -> String {
         let title = format!("## Verification, {}\n\n", self.scope);
-        title + &self.verdict_line() + &self.overview(cell) + &self.moved()
+        let passes = self.finished.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
+        let folded =
+            section::folded(&format!("{passes} of {} studies pass", self.finished.len()), &self.overview(cell), false);
+        title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
     }
 
     fn verdict_line(&self) -> String {
         format!("**{}**: {}\n\n", self.verdict, text(&sentence(self.finished, self.changes)))
     }
 
+    /// A table for each group of studies.
     fn overview(&self, id: impl Fn(&str) -> String) -> String {
         let row = |Finished { header, outcome, .. }: &Finished| {
             let verdict = section::marked(outcome.verdict);
             vec![id(&header.id), cell(&header.claim), verdict, cell(&key_numbers(outcome))]
         };
-        markdown::table(&["study", "claim", "verdict", "key numbers"], self.finished.iter().map(row).collect())
+        let table = |(group, studies): (&str, Vec<&Finished>)| {
+            let rows = studies.into_iter().map(row).collect();
+            let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
+            format!("\n**{}**\n\n{table}", text(group))
+        };
+        forest::grouped(self.project, self.finished).into_iter().map(table).collect()
     }
 
     /// What moved away from the baseline; nothing where nothing did.

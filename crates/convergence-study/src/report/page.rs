@@ -4,8 +4,8 @@
 
 use super::Findings;
 use super::html::{escape, html, phrase};
-use super::section;
 use super::words::{key_numbers, sentence};
+use super::{failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
@@ -28,8 +28,8 @@ pub(super) fn page(findings: &Findings<'_>) -> String {
          </head>\n<body>\n{}<main>\n{}{}{studies}</main>\n{}</body>\n</html>\n",
         findings.verdict,
         head(findings),
-        overview(findings.finished),
-        html(&findings.moved(), &[]),
+        front(findings),
+        overview(findings),
         SCRIPTS.map(|script| format!("<script>\n{script}</script>\n")).concat(),
     )
 }
@@ -48,12 +48,20 @@ fn head(findings: &Findings<'_>) -> String {
     head + "</p>\n</header>\n"
 }
 
-fn badge(verdict: Verdict) -> String {
+/// What did not pass, what moved, and all rates in one picture.
+fn front(findings: &Findings<'_>) -> String {
+    let figure = forest::figure(findings.project, findings.finished);
+    let picture = figure.as_ref().map(section::figure).unwrap_or_default();
+    let markdown = format!("{}\n{picture}", findings.moved());
+    failures::html(findings.finished) + &html(&markdown, figure.as_slice())
+}
+
+pub(super) fn badge(verdict: Verdict) -> String {
     format!("<span class=\"badge {0}\">{0}</span>", verdict.name())
 }
 
 /// All verdicts in one table, below the controls, which scripts bring to life.
-fn overview(finished: &[Finished]) -> String {
+fn overview(findings: &Findings<'_>) -> String {
     let row = |Finished { header, outcome, .. }: &Finished| {
         format!(
             "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -63,7 +71,10 @@ fn overview(finished: &[Finished]) -> String {
             id = escape(&header.id),
         )
     };
-    let rows: String = finished.iter().map(row).collect();
+    let rows: String = forest::grouped(findings.project, findings.finished)
+        .into_iter()
+        .flat_map(|(_, studies)| studies.into_iter().map(row))
+        .collect();
     let options: String = [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail]
         .map(|verdict| format!("<option>{}</option>", verdict.name()))
         .concat();

@@ -49,7 +49,7 @@ fn titled(whole: &Table, passes: bool) -> String {
 }
 
 /// What can be unfolded under a summary, which is HTML.
-fn folded(summary: &str, lines: &str, open: bool) -> String {
+pub(super) fn folded(summary: &str, lines: &str, open: bool) -> String {
     let open = if open { " open=\"\"" } else { "" };
     format!("<details{open}>\n<summary>{summary}</summary>\n\n{lines}\n</details>\n")
 }
@@ -66,7 +66,7 @@ fn cells(row: &[String]) -> Vec<String> {
 }
 
 /// The picture with its caption, which is also what is read where it cannot be seen.
-fn figure(figure: &Figure) -> String {
+pub(super) fn figure(figure: &Figure) -> String {
     let alternative = figure.caption.replace(['[', ']', '\n', '`', '\\'], " ");
     format!("![{alternative}](figures/{})\n\n*{}*\n", figure.file, text(&figure.caption))
 }

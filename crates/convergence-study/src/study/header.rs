@@ -43,6 +43,8 @@ pub struct Header {
     pub tier: Tier,
     /// Which reader the rest of the file is for.
     pub kind: String,
+    /// What sort of thing is claimed, under which reports list the study; the kind where the file does not say.
+    pub group: String,
 }
 
 impl Header {
@@ -69,13 +71,15 @@ impl Header {
     /// As [`Header::parse`].
     pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         let study = root.require("study", "a table with id, claim and tier")?.section()?;
-        study.allow(&["id", "claim", "tier", "kind"])?;
+        study.allow(&["id", "claim", "tier", "kind", "group"])?;
         let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
+        let kind = if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() };
         Ok(Self {
             id: name(&study, "id")?,
-            claim: claim(&study)?,
+            claim: line(&study, "claim")?,
             tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
-            kind: if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() },
+            group: if study.get("group").is_some() { line(&study, "group")? } else { kind.clone() },
+            kind,
         })
     }
 }
@@ -93,13 +97,11 @@ fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     Ok(text.to_owned())
 }
 
-fn claim(study: &Section<'_>) -> Result<String, InputError> {
-    let allowed = "one line of text that says what the study claims";
-    let field = study.require("claim", allowed)?;
+/// One line of text, without control characters: it is printed to terminals and logs.
+fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let allowed = "one line of text without control characters";
+    let field = study.require(key, allowed)?;
     let text = field.text()?;
-    if text.trim().is_empty() || text.contains(char::is_control) {
-        Err(field.refuse_as_written(allowed))
-    } else {
-        Ok(text.to_owned())
-    }
+    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
+    if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
 }

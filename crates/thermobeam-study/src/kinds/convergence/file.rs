@@ -48,6 +48,8 @@ pub struct ConvergenceSpec {
     pub claim: String,
     /// When it is run.
     pub tier: Tier,
+    /// What sort of thing is claimed.
+    pub group: String,
     /// Coefficients from which the sources are derived.
     pub beam: Beam,
     /// Obstacles from which the boundary load is derived.
@@ -80,7 +82,7 @@ impl ConvergenceSpec {
     }
 
     fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let Header { id, claim, tier, kind } = Header::from_document(root)?;
+        let Header { id, claim, tier, kind, group } = Header::from_document(root)?;
         if kind != CONVERGENCE {
             let study = root.require("study", "a table")?.section()?;
             return Err(study.refuse("kind", format!("\"{kind}\""), format!("\"{CONVERGENCE}\" for this reader")));
@@ -92,6 +94,6 @@ impl ConvergenceSpec {
         let exact = manufactured(root, &beam, refine.t_end)?;
         let control = control(root, beam, obstacles)?;
         let expect = expectations(root)?;
-        Ok(Self { id, claim, tier, beam, obstacles, exact, refine, control, expect })
+        Ok(Self { id, claim, tier, group, beam, obstacles, exact, refine, control, expect })
     }
 }

@@ -38,8 +38,13 @@ impl FromFile for Convergence {
 impl Convergence {
     /// The study of a specification.
     pub fn new(spec: ConvergenceSpec) -> Self {
-        let header =
-            Header { id: spec.id.clone(), claim: spec.claim.clone(), tier: spec.tier, kind: CONVERGENCE.to_owned() };
+        let header = Header {
+            id: spec.id.clone(),
+            claim: spec.claim.clone(),
+            tier: spec.tier,
+            kind: CONVERGENCE.to_owned(),
+            group: spec.group.clone(),
+        };
         Self { header, spec }
     }
 

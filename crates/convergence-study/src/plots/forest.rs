@@ -1,0 +1,231 @@
+//! All judged rates of a run in one picture: each with its interval, relative to its claim (a forest plot).
+
+use super::canvas::{Anchor, Canvas, Layer, Pen};
+use super::rect::Rect;
+use super::style::{self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, text_width};
+use plotters::style::RGBColor;
+
+/// Colours of what passes, is inconclusive, fails (Okabe and Ito).
+const PASS: RGBColor = RGBColor(0, 114, 178);
+const INCONCLUSIVE: RGBColor = RGBColor(230, 159, 0);
+const FAIL: RGBColor = RGBColor(213, 94, 0);
+
+/// Half the width of the plot in tolerances: the band of a claim is [-1, 1].
+const REACH: f64 = 2.0;
+
+/// Height of one rate, and the least height of one study, in px.
+const PITCH: f64 = 5.0;
+const ROW: f64 = 19.0;
+/// Height of a group's heading, in px.
+const HEADING: f64 = 30.0;
+/// Room above and below the rows, in px.
+const TOP: f64 = 96.0;
+const BOTTOM: f64 = 66.0;
+/// Widest label, in px; a longer one is cut.
+const LABELS: f64 = 300.0;
+
+/// How a rate was judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// The interval lies within the tolerance.
+    Pass,
+    /// The data do not decide.
+    Inconclusive,
+    /// The claim is refuted.
+    Fail,
+}
+
+/// A judged rate in units of its claim's tolerance: (rate - order) / tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForestRate {
+    /// Of the rate; `None` where there is none.
+    pub rate: Option<f64>,
+    /// Of the ends of its interval.
+    pub interval: Option<[f64; 2]>,
+    /// The verdict.
+    pub judged: Judged,
+}
+
+/// A study with its rates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForestRow {
+    /// The study's id.
+    pub label: String,
+    /// Its rates.
+    pub rates: Vec<ForestRate>,
+}
+
+/// Studies that claim the same sort of thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForestGroup {
+    /// What they claim, such as `space`.
+    pub label: String,
+    /// The studies.
+    pub rows: Vec<ForestRow>,
+}
+
+/// A forest plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Forest {
+    /// Above the plot.
+    pub title: String,
+    /// From top to bottom.
+    pub groups: Vec<ForestGroup>,
+}
+
+/// Draws every rate as a point with its interval, in units of its tolerance, studies under the headings of their groups.
+pub fn forest(figure: &Forest) -> String {
+    let rows = figure.groups.iter().flat_map(|group| group.rows.iter());
+    let labels = rows.clone().map(|row| text_width(&row.label, NOTE_SIZE)).fold(80.0, f64::max).min(LABELS);
+    let height: f64 = rows.map(row_height).sum::<f64>() + HEADING * figure.groups.len() as f64;
+    let plot = Rect { left: labels + 28.0, top: TOP, right: style::WIDTH - 24.0, bottom: TOP + height };
+    let mut canvas = Canvas::new(style::WIDTH, plot.bottom + BOTTOM);
+    canvas.draw(Layer::plain(), |pen| {
+        pen.text(&figure.title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Middle, INK);
+        legend(pen);
+        scale(pen, &plot);
+        let mut top = plot.top;
+        for group in &figure.groups {
+            pen.text(&group.label, (12.0, top + 0.6 * HEADING), TICK_SIZE, Anchor::Start, INK);
+            pen.line(&[(12.0, top + HEADING), (plot.right, top + HEADING)], GRID, style::THIN);
+            top += HEADING;
+            for row in &group.rows {
+                draw_row(pen, row, &plot, top);
+                top += row_height(row);
+            }
+        }
+    });
+    canvas.finish(&figure.title, "")
+}
+
+fn row_height(row: &ForestRow) -> f64 {
+    (PITCH * row.rates.len() as f64 + 6.0).max(ROW)
+}
+
+/// The px of a value in tolerances; beyond the plot, its rim.
+fn px(plot: &Rect, value: f64) -> f64 {
+    let fraction = (value.clamp(-REACH, REACH) + REACH) / (2.0 * REACH);
+    plot.left + fraction * plot.width()
+}
+
+fn legend(pen: &Pen<'_>) {
+    let mut x = 12.0;
+    for (judged, label) in [
+        (Judged::Pass, "pass"),
+        (Judged::Inconclusive, "inconclusive"),
+        (Judged::Fail, "fail"),
+        (Judged::Fail, "beyond the plot"),
+    ] {
+        let beyond = label.starts_with("beyond");
+        if beyond {
+            arrow(pen, (x + 12.0, 56.0), 1.0, colour(judged));
+        } else {
+            pen.line(&[(x, 56.0), (x + 24.0, 56.0)], colour(judged), 2.4);
+            pen.disc((x + 12.0, 56.0), 4.0, colour(judged));
+        }
+        pen.text(label, (x + 32.0, 56.0), NOTE_SIZE, Anchor::Start, INK);
+        x += 32.0 + text_width(label, NOTE_SIZE) + 18.0;
+    }
+}
+
+fn scale(pen: &Pen<'_>, plot: &Rect) {
+    pen.rect(Rect { left: px(plot, -1.0), right: px(plot, 1.0), ..*plot }, SHADE);
+    for (value, label) in
+        [(-2.0, "-2"), (-1.0, "order - tolerance"), (0.0, "order claimed"), (1.0, "order + tolerance"), (2.0, "+2")]
+    {
+        let x = px(plot, value);
+        pen.line(&[(x, plot.top), (x, plot.bottom)], if value == 0.0 { MUTED } else { GRID }, style::THIN);
+        pen.text(label, (x, plot.bottom + 16.0), NOTE_SIZE, Anchor::Middle, INK);
+    }
+    let axis = "observed rate relative to its claim, in tolerances";
+    pen.text(axis, (plot.centre().0, plot.bottom + 44.0), TICK_SIZE, Anchor::Middle, INK);
+}
+
+fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
+    let height = row_height(row);
+    let worst = row.rates.iter().map(|rate| rate.judged).max_by_key(|judged| *judged as u8).unwrap_or(Judged::Pass);
+    let ink = if worst == Judged::Pass { INK } else { colour(worst) };
+    pen.text(&shortened(&row.label), (plot.left - 12.0, top + 0.5 * height), NOTE_SIZE, Anchor::End, ink);
+    let first = top + 0.5 * (height - PITCH * (row.rates.len() as f64 - 1.0));
+    for (k, rate) in row.rates.iter().enumerate() {
+        draw_rate(pen, rate, plot, first + PITCH * k as f64);
+    }
+}
+
+fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
+    let colour = colour(rate.judged);
+    let finite = |value: &f64| value.is_finite();
+    if let Some([low, high]) = rate.interval.filter(|ends| ends.iter().all(finite)) {
+        pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
+    }
+    match rate.rate.filter(finite) {
+        Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 2.4, colour),
+        Some(value) => arrow(pen, (px(plot, value) - 8.0 * value.signum(), y), value.signum(), colour),
+        None => pen.text("no rate", (plot.right - 4.0, y), 0.75 * NOTE_SIZE, Anchor::End, colour),
+    }
+}
+
+/// A triangle that points beyond the plot.
+fn arrow(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
+    pen.polygon(&[(x + 7.0 * direction, y), (x - 3.0 * direction, y - 4.0), (x - 3.0 * direction, y + 4.0)], colour);
+}
+
+fn colour(judged: Judged) -> RGBColor {
+    match judged {
+        Judged::Pass => PASS,
+        Judged::Inconclusive => INCONCLUSIVE,
+        Judged::Fail => FAIL,
+    }
+}
+
+fn shortened(label: &str) -> String {
+    let mut kept = label.to_owned();
+    while text_width(&kept, NOTE_SIZE) > LABELS && kept.pop().is_some() {}
+    if kept.len() < label.len() {
+        kept.pop();
+        kept.push('…');
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(label: &str, rates: &[(f64, f64, Judged)]) -> ForestRow {
+        let rate = |&(rate, half, judged): &(f64, f64, Judged)| ForestRate {
+            rate: Some(rate),
+            interval: Some([rate - half, rate + half]),
+            judged,
+        };
+        ForestRow { label: label.into(), rates: rates.iter().map(rate).collect() }
+    }
+
+    #[test]
+    fn every_study_is_named_and_a_rate_beyond_the_plot_is_an_arrow() {
+        let none = ForestRate { rate: None, interval: None, judged: Judged::Inconclusive };
+        let rows = vec![
+            row("sound", &[(0.1, 0.2, Judged::Pass), (0.0, 0.1, Judged::Pass)]),
+            row("lost-order", &[(-20.0, 0.1, Judged::Fail)]),
+            ForestRow { label: "none".into(), rates: vec![none] },
+        ];
+        let figure = Forest { title: "All rates".into(), groups: vec![ForestGroup { label: "space".into(), rows }] };
+        let svg = forest(&figure);
+        for text in ["sound", "lost-order", "none", "no rate", "space", "All rates"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        // Two sound rates and three entries of the legend; the lost order is no disc.
+        assert_eq!(svg.matches("<circle").count(), 5, "{svg}");
+        assert_eq!(svg.matches("<polygon").count(), 2);
+    }
+
+    #[test]
+    fn a_long_label_is_cut_and_nan_draws_nothing() {
+        let figure = |rate: f64, label: String| Forest {
+            title: String::new(),
+            groups: vec![ForestGroup { label: "g".into(), rows: vec![row(&label, &[(rate, f64::NAN, Judged::Fail)])] }],
+        };
+        let svg = forest(&figure(f64::NAN, "x".repeat(200)));
+        assert!(svg.contains('…') && svg.contains("no rate") && !svg.contains("NaN"));
+    }
+}

@@ -1,0 +1,65 @@
+//! The picture of all judged rates at the head of a report.
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::plots::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
+use crate::project::Project;
+use crate::run::Finished;
+use crate::study::Figure;
+
+/// The name of its file.
+pub(super) const FILE: &str = "all-rates.svg";
+
+/// Every judged rate relative to its claim, studies in groups; `None` where no rate was judged.
+pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
+    let mut groups: Vec<ForestGroup> = vec![];
+    for (label, studies) in grouped(project, finished) {
+        let rows: Vec<ForestRow> = studies.iter().filter_map(|study| row(study)).collect();
+        if !rows.is_empty() {
+            groups.push(ForestGroup { label: label.to_owned(), rows });
+        }
+    }
+    let rates: usize = groups.iter().flat_map(|group| &group.rows).map(|row| row.rates.len()).sum();
+    if rates == 0 {
+        return None;
+    }
+    let title = format!("All {rates} judged rates, relative to their claims");
+    let caption = format!(
+        "All {rates} judged rates with their intervals: 0 is the order claimed, the shaded band its tolerance. A rate passes \
+         where its whole interval lies in the band."
+    );
+    Some(Figure { file: FILE.to_owned(), caption, svg: forest(&Forest { title, groups }) })
+}
+
+/// Studies by what they claim, in the project's order of groups; those of no known group last.
+pub(super) fn grouped<'f>(project: &Project, finished: &'f [Finished]) -> Vec<(&'f str, Vec<&'f Finished>)> {
+    let mut groups: Vec<(&str, Vec<&Finished>)> = vec![];
+    for study in finished {
+        let label = study.header.group.as_str();
+        match groups.iter_mut().find(|(known, _)| *known == label) {
+            Some((_, studies)) => studies.push(study),
+            None => groups.push((label, vec![study])),
+        }
+    }
+    let place = |label: &str| project.groups.iter().position(|group| *group == label).unwrap_or(usize::MAX);
+    groups.sort_by_key(|(label, _)| place(label));
+    groups
+}
+
+fn row(study: &Finished) -> Option<ForestRow> {
+    let rates: Vec<ForestRate> = study.outcome.rates.iter().map(|(_, rate)| relative(rate)).collect();
+    (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates })
+}
+
+/// A rate in units of its tolerance.
+fn relative(rate: &RateVerdict) -> ForestRate {
+    let scaled = |value: f64| (value - rate.order) / rate.tolerance;
+    ForestRate {
+        rate: rate.fitted.map(scaled),
+        interval: rate.interval.map(|ends| ends.map(scaled)),
+        judged: match rate.verdict {
+            Verdict::Pass => Judged::Pass,
+            Verdict::Inconclusive => Judged::Inconclusive,
+            Verdict::Fail => Judged::Fail,
+        },
+    }
+}

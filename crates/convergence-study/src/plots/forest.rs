@@ -86,8 +86,8 @@ pub fn forest(figure: &Forest) -> String {
         scale(pen, &plot);
         let mut top = plot.top;
         for group in &figure.groups {
-            pen.text(&group.label, (12.0, top + 0.6 * HEADING), TICK_SIZE, Anchor::Start, INK);
-            pen.line(&[(12.0, top + HEADING), (plot.right, top + HEADING)], GRID, style::THIN);
+            pen.text(&group.label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Start, INK);
+            pen.line(&[(12.0, top + HEADING - 5.0), (plot.right, top + HEADING - 5.0)], GRID, style::THIN);
             top += HEADING;
             for row in &group.rows {
                 draw_row(pen, row, &plot, top);

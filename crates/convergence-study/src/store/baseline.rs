@@ -159,7 +159,7 @@ impl Baseline {
         changes
     }
 
-    /// Takes the numbers of these studies for the new baseline; those of all others are kept.
+    /// Takes the numbers of these studies that have moved, or are new, for the baseline; all others keep their digits.
     ///
     /// * `known`: as for [`Baseline::compare`]; studies that have vanished are forgotten.
     ///
@@ -168,8 +168,12 @@ impl Baseline {
     pub fn bless(&mut self, finished: &[Finished], known: Option<&BTreeSet<String>>) -> Result<(), Refusal> {
         finished.iter().try_for_each(acceptable)?;
         for Finished { header, outcome, .. } in finished {
+            let former = self.studies.remove(&header.id).unwrap_or_default();
+            // A number that has not moved keeps its digits: a blessing changes what it is asked to change.
             let guarded = outcome.quantities.iter().map(|quantity| {
-                (quantity.name.clone(), Guarded { value: quantity.value, tolerance: quantity.tolerance })
+                let kept = former.get(&quantity.name).filter(|former| change::holds(former, quantity)).copied();
+                let new = Guarded { value: quantity.value, tolerance: quantity.tolerance };
+                (quantity.name.clone(), kept.unwrap_or(new))
             });
             self.studies.insert(header.id.clone(), guarded.collect());
         }

@@ -1,0 +1,79 @@
+//! Lengths of steps: a fixed geometric ladder, climbed from the bottom after every contact event.
+
+/// `min(restart_dt growth^k, dt)` for k = 0, 1, ...
+///
+/// An event leaves an acceleration like t^(1/2), for which the steps have to be small at first. The lengths are few and
+/// always the same, so that factorisations serve again.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lengths {
+    rungs: Vec<f64>,
+    next: usize,
+}
+
+/// Rungs of a ladder at most: a growth that would need more is as good as none.
+pub(super) const MAX_RUNGS: usize = 1000;
+
+impl Lengths {
+    /// From `restart_dt` to `dt`.
+    pub(super) fn new(restart_dt: f64, growth: f64, dt: f64) -> Self {
+        let mut rungs = vec![restart_dt];
+        while let Some(&last) = rungs.last().filter(|last| **last < dt && rungs.len() < MAX_RUNGS) {
+            // The last rung is dt itself; one just below it would only cost a factorisation.
+            let next = last * growth;
+            rungs.push(if next * growth.sqrt() < dt && growth > 1.0 { next } else { dt });
+        }
+        Self { rungs, next: 0 }
+    }
+
+    /// The length of the next step.
+    pub(super) fn get(&self) -> f64 {
+        self.rungs[self.next]
+    }
+
+    /// The lengths there are.
+    pub(super) fn count(&self) -> usize {
+        self.rungs.len()
+    }
+
+    /// Where the ladder stands.
+    pub(super) fn rung(&self) -> usize {
+        self.next
+    }
+
+    /// Goes back to where it stood.
+    pub(super) fn set_rung(&mut self, rung: usize) {
+        self.next = rung;
+    }
+
+    /// After a whole step.
+    pub(super) fn climb(&mut self) {
+        self.next = (self.next + 1).min(self.rungs.len() - 1);
+    }
+
+    /// After an event.
+    pub(super) fn restart(&mut self) {
+        self.next = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ladder_leads_from_the_first_length_to_the_largest() {
+        let mut lengths = Lengths::new(1e-3, 1.5, 0.02);
+        let mut found = vec![];
+        for _ in 0..lengths.count() + 2 {
+            found.push(lengths.get());
+            lengths.climb();
+        }
+        assert_eq!((found[0], found[found.len() - 1], found[found.len() - 3]), (1e-3, 0.02, 0.02));
+        assert!(found.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] <= 1.84 * pair[0]), "{found:?}");
+        lengths.restart();
+        assert_eq!(lengths.get(), 1e-3);
+        assert_eq!(Lengths::new(0.02, 1.5, 0.02).count(), 1);
+        // Growth 1 leads to dt at once.
+        assert_eq!(Lengths::new(0.01, 1.0, 0.02).count(), 2);
+    }
+}

@@ -27,7 +27,10 @@ const ATTEMPTS: usize = 100;
 const CROWD: usize = 64;
 
 /// Times that one step may be cut: at a crossing, at an earlier one that the shorter step shows, and so on.
-const CUTS: usize = 32;
+const CUTS: usize = 64;
+
+/// The part of a step for which the free end has to stay in a phase that it enters at an obstacle without being cut.
+const STAY: f64 = 0.125;
 
 /// Contact events that the list of them holds without growing.
 const EVENTS: usize = 1024;
@@ -92,7 +95,7 @@ pub struct Stepping {
 impl Default for Stepping {
     /// For the paper's beam: an impact takes (ε √ζ)^(2/3) = 5e-3.
     fn default() -> Self {
-        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-12, max_iterations: 100 }
+        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
     }
 }
 
@@ -217,8 +220,7 @@ impl Simulation {
         } else {
             self.stages.guess_constant(&self.level);
         }
-        let first_event = self.events.len();
-        let (mut flips, mut event) = (0, None);
+        let mut event = None;
         let mut iterations = self.attempt(h)?;
         for _ in 0..CUTS {
             let Some((fall, next)) = self.first_fall() else {
@@ -229,20 +231,32 @@ impl Simulation {
                 continue;
             }
             // The free end leaves its phase from the first moment.
-            if flips == 2 {
-                // It leaves either phase: it grazes the obstacle, by less than a step can tell.
-                self.events.truncate(first_event);
+            event = None;
+            self.stages.guess_constant(&self.level);
+            if self.stays(next, h)? {
+                self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
+            } else if self.lengths.descend() {
+                // It leaves the other phase as well: a step is too long to tell on which side it is.
+                h = self.propose(remaining);
+            } else {
+                // It grazes the obstacle, by less than the shortest step can tell.
+                iterations = self.attempt(h)?;
                 return self.finish(h, limit, iterations, None).map(Some);
             }
-            flips += 1;
-            self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
-            self.lengths.restart();
-            (h, event) = (self.propose(remaining), None);
             self.stages.guess_constant(&self.level);
             iterations = self.attempt(h)?;
         }
         let miss = self.first_fall().map_or(0.0, |(_, next)| self.distance(next).0.at(1.0));
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
+    }
+
+    /// Would the free end stay in another phase for a good part of a step of length h?
+    fn stays(&mut self, phase: Phase, h: f64) -> Result<bool, StepError> {
+        let present = std::mem::replace(&mut self.phase, phase);
+        let outcome = self.attempt(h);
+        let fall = self.first_fall();
+        self.phase = present;
+        outcome.map(|_| fall.is_none_or(|(fall, _)| fall.crossing >= STAY))
     }
 
     /// Takes the step just found: the new level is its end.

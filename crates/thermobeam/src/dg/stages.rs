@@ -25,6 +25,9 @@ const FLOOR: f64 = 16.0 * f64::EPSILON;
 /// Memory that factorisations may take together, in bytes, two of them apart.
 const FACTOR_BYTES: usize = 64 << 20;
 
+/// Factorisations for steps that are cut.
+const SPARE: usize = 3;
+
 /// One step to be done.
 pub(super) struct Task<'a> {
     pub(super) space: &'a Space,
@@ -95,7 +98,7 @@ pub(super) struct Stepper<const S: usize> {
 }
 
 impl<const S: usize> Stepper<S> {
-    /// With room for a factorisation for each of `lengths` lengths, and one more.
+    /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more.
     pub(super) fn new(space: &Space, lengths: usize, load: Option<&(dyn Load + 'static)>) -> Self {
         let blocks = space.blocks();
         let motion = || Motion { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
@@ -108,7 +111,7 @@ impl<const S: usize> Stepper<S> {
             accepted: motion(),
             residual: vec![[[0.0; S]; 3]; blocks],
             weights: space.diagonal_mass(),
-            slots: (0..affordable.min(lengths + 1)).map(|_| slot()).collect(),
+            slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
             forcing: load.map(|load| Forcing::new(blocks, load.points())),
             work: Work::default(),
             clock: 0,

@@ -186,7 +186,8 @@ mod tests {
         // From zero: rising first, or falling from the first moment.
         falls_at(with_roots(-1.0, &[0.0, 0.6]), Some(0.6));
         falls_at(with_roots(1.0, &[0.0, 0.6]), Some(0.0));
-        falls_at(with_roots(1.0, &[0.0, 0.0, 0.9, 1.5, 2.0, 3.0]), None);
+        falls_at(with_roots(1.0, &[0.0, 0.0, 0.9, 1.5, 2.0, 3.0]), Some(0.9));
+        falls_at(with_roots(1.0, &[0.0, 0.0, 1.1, 1.5, 2.0, 3.0]), None);
         falls_at(with_roots(1.0, &[0.5, 0.5]), None);
     }
 

@@ -78,3 +78,64 @@ impl Space {
         integrals
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::{self, Tridiagonal};
+    use crate::mesh::Mesh;
+
+    /// Every entry of a form on hats is that of a matrix, to the last bits.
+    fn are_the_same(form: impl Fn(usize, usize) -> f64, matrix: &Tridiagonal) {
+        let last = matrix.diagonal.len() - 1;
+        for i in 0..=last {
+            for j in 0..=last {
+                let expected = match j as isize - i as isize {
+                    -1 => matrix.lower[i],
+                    0 => matrix.diagonal[i],
+                    1 => matrix.upper[i],
+                    _ => 0.0,
+                };
+                let found = form(i, j);
+                assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(), "{i} {j}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn elements_of_degree_one_have_the_p1_matrices() {
+        let mesh = Mesh::mapped(7, |s| 0.3 * s + 0.7 * s * s).unwrap();
+        let space = Space::new(mesh.clone(), 1);
+        assert_eq!(space.blocks(), 8);
+        let unit = |i: usize| move |block: usize| f64::from(block == i);
+        let only = |field: usize, i: usize| {
+            move |block: usize| {
+                let mut values = [0.0; 3];
+                values[field] = f64::from(block == i);
+                values
+            }
+        };
+        let pair = |field: usize, i: usize| {
+            move |block: usize| {
+                let mut values = [0.0; 2];
+                values[field] = f64::from(block == i);
+                values
+            }
+        };
+        for field in 0..3 {
+            are_the_same(|i, j| space.mass(only(field, i), only(field, j)), &assembly::mass(&mesh));
+        }
+        are_the_same(|i, j| space.stiffness(unit(i), unit(j)), &assembly::stiffness(&mesh));
+        are_the_same(|i, j| space.bending(unit(i), unit(j)), &assembly::stiffness(&mesh));
+        are_the_same(|i, j| -space.shear(pair(0, i), pair(1, j)), &assembly::coupling(&mesh));
+        are_the_same(|i, j| -space.shear(pair(1, i), pair(0, j)), &assembly::coupling(&mesh).transpose());
+        let diagonal = assembly::mass(&mesh).diagonal;
+        for (found, expected) in space.diagonal_mass().iter().zip(&diagonal) {
+            assert!(found.iter().all(|found| (found - expected).abs() <= f64::EPSILON * expected), "{found:?}");
+        }
+        let sums: Vec<f64> = assembly::mass(&mesh).multiply(&[1.0; 8]);
+        for (found, expected) in space.rotation_integrals().iter().zip(sums) {
+            assert!((found - expected).abs() <= f64::EPSILON, "{found} {expected}");
+        }
+    }
+}

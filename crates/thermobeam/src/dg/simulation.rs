@@ -339,11 +339,13 @@ impl Simulation {
     /// Returns length, iterations, and the phase beyond; `None` in its place where a shorter step does not reach the obstacle.
     fn meet(&mut self, whole: f64, fall: Fall, next: Phase) -> Result<(f64, usize, Option<Phase>), StepError> {
         let (mut low, mut high, mut beyond) = (0.0, fall.below * whole, false);
-        let (mut h, mut before) = (fall.crossing * whole, whole);
+        let (mut h, mut solved) = (fall.crossing * whole, whole);
+        // The attempt before: length and miss.
+        let mut before: Option<(f64, f64)> = None;
         let mut miss = f64::NAN;
-        for _ in 0..ATTEMPTS {
-            self.stages.restrict(h / before);
-            before = h;
+        for attempt in 1..=ATTEMPTS {
+            self.stages.restrict(h / solved);
+            solved = h;
             let iterations = self.attempt(h)?;
             let (distance, slack) = self.distance(next);
             miss = distance.at(1.0);
@@ -358,19 +360,24 @@ impl Simulation {
                     return Ok((h, iterations, None));
                 }
             }
-            // The rate at which the end moves is that of the free end, but for the error of the step.
-            let rate = distance.derivative().at(1.0) / h;
-            let newton = h - miss / rate;
-            h = if newton > low && newton < high {
-                newton
-            } else if newton >= high && !beyond {
+            if !(high - low > self.shortest()) {
+                return Ok((h, iterations, Some(next)));
+            }
+            // First the velocity of the free end, which is the rate but for the error of the step; then secants.
+            let rate = match before {
+                Some((other, its_miss)) => (miss - its_miss) / (h - other),
+                None => distance.derivative().at(1.0) / h,
+            };
+            before = Some((h, miss));
+            let guess = h - miss / rate;
+            // A bisection now and then, so that the bracket shrinks whatever the guesses do.
+            h = if attempt % 4 != 0 && guess > low && guess < high {
+                guess
+            } else if guess >= high && !beyond {
                 high
             } else {
                 0.5 * (low + high)
             };
-            if !(high - low > self.shortest()) {
-                return Ok((before, iterations, Some(next)));
-            }
         }
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
@@ -443,7 +450,7 @@ impl Simulation {
     /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
     pub fn value(&self, field: Field, x: f64, t: f64) -> Option<f64> {
         let s = self.within(t)?;
-        if self.last_dt == 0.0 {
+        if t == self.level.t {
             return Some(self.level.value_and_slope(&self.space, field, x).0);
         }
         let at = |block, place| self.stages.coefficient(field, block, place).at(s);
@@ -550,7 +557,11 @@ fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level,
             let nodes = space.mesh().nodes();
             return Err(SetupError::NotFinite { field: name, found, from: nodes[element], to: nodes[element + 1] });
         }
-        let slack = BOUNDARY_SLACK * scale.max(f64::from(u8::from(field == Field::Theta)) * theta_a.abs());
+        if field == Field::Theta {
+            scale = scale.max(theta_a.abs());
+        }
+        // A bubble on a single linear element has no coefficient at all.
+        let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
         let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
         for &(x, allowed) in ends {
             // What is not a number is no boundary value either.

@@ -2,13 +2,16 @@
 
 mod scenes;
 
-//mod allocation;
+#[path = "../p1_matrices/mod.rs"]
+mod p1_matrices;
+
+mod allocation;
 mod balance;
-//mod contact;
-//mod experiment;
-//mod failure;
-//mod first_member;
-//mod linear;
-//mod manufactured;
-//mod order_in_time;
-//mod steady;
+mod contact;
+mod experiment;
+mod failure;
+mod first_member;
+mod linear;
+mod manufactured;
+mod order_in_time;
+mod steady;

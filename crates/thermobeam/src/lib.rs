@@ -64,6 +64,7 @@ mod block_tridiagonal;
 mod bracket;
 pub mod contact;
 pub mod contraction;
+pub mod dg;
 pub mod energy;
 pub mod ensemble;
 pub mod equilibrium;

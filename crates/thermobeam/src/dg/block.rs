@@ -1,0 +1,105 @@
+//! Blocks of a step's linear system: three fields times q + 1 coefficients in time, and dense matrices between them.
+
+/// Coefficients in time of (v, w, θ~) at one block of the space.
+pub(super) type Block<const S: usize> = [[f64; S]; 3];
+
+/// A matrix from blocks to blocks, column by column: `matrix[field][stage]` is a column.
+pub(super) type Matrix<const S: usize> = [[Block<S>; S]; 3];
+
+/// The zero matrix.
+pub(super) const fn zero<const S: usize>() -> Matrix<S> {
+    [[[[0.0; S]; 3]; S]; 3]
+}
+
+/// `y - A x`.
+pub(super) fn minus_product<const S: usize>(y: &Block<S>, matrix: &Matrix<S>, x: &Block<S>) -> Block<S> {
+    let mut sum = *y;
+    for (columns, x) in matrix.iter().zip(x) {
+        for (column, x) in columns.iter().zip(x) {
+            add_multiple(&mut sum, column, -x);
+        }
+    }
+    sum
+}
+
+/// `A x`.
+pub(super) fn product<const S: usize>(matrix: &Matrix<S>, x: &Block<S>) -> Block<S> {
+    let mut sum = [[0.0; S]; 3];
+    for (columns, x) in matrix.iter().zip(x) {
+        for (column, x) in columns.iter().zip(x) {
+            add_multiple(&mut sum, column, *x);
+        }
+    }
+    sum
+}
+
+/// `A B`.
+pub(super) fn matrix_product<const S: usize>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
+    std::array::from_fn(|field| std::array::from_fn(|stage| product(a, &b[field][stage])))
+}
+
+/// `C -= A B`.
+pub(super) fn subtract_product<const S: usize>(c: &mut Matrix<S>, a: &Matrix<S>, b: &Matrix<S>) {
+    for (c, b) in c.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        *c = minus_product(c, a, b);
+    }
+}
+
+/// `y += factor x`.
+#[inline(always)]
+fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
+    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *y = factor.mul_add(*x, *y);
+    }
+}
+
+/// Replaces a matrix by its inverse, by Gauss-Jordan elimination without pivoting.
+///
+/// The matrices here have a positive definite symmetric part, so that every pivot is positive.
+///
+/// # Errors
+/// The first pivot that is not.
+pub(super) fn invert<const S: usize>(matrix: &mut Matrix<S>) -> Result<(), f64> {
+    let columns = matrix.as_flattened_mut();
+    for k in 0..3 * S {
+        let (field, stage) = (k / S, k % S);
+        let pivot_column = columns[k];
+        let pivot = pivot_column[field][stage];
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return Err(pivot);
+        }
+        let inverse = 1.0 / pivot;
+        for (j, column) in columns.iter_mut().enumerate() {
+            if j == k {
+                column.as_flattened_mut().iter_mut().for_each(|entry| *entry *= -inverse);
+                column[field][stage] = inverse;
+            } else {
+                let factor = column[field][stage] * inverse;
+                add_multiple(column, &pivot_column, -factor);
+                column[field][stage] = factor;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Makes a coefficient that does not exist, or is prescribed, an equation of its own: `x = 0`.
+pub(super) fn isolate<const S: usize>(matrix: &mut Matrix<S>, field: usize) {
+    clear_column(matrix, field);
+    clear_row(matrix, field);
+    for stage in 0..S {
+        matrix[field][stage][field][stage] = 1.0;
+    }
+}
+
+/// Sets the columns of a field to zero.
+pub(super) fn clear_column<const S: usize>(matrix: &mut Matrix<S>, field: usize) {
+    matrix[field] = [[[0.0; S]; 3]; S];
+}
+
+/// Sets the rows of a field to zero.
+pub(super) fn clear_row<const S: usize>(matrix: &mut Matrix<S>, field: usize) {
+    for column in matrix.as_flattened_mut() {
+        column[field] = [0.0; S];
+    }
+}

@@ -1,0 +1,215 @@
+//! What the free end touches, and where in a step that ceases to be true.
+//!
+//! Between events the contact force is linear in u(1) or zero. u(1, t) is a polynomial of degree q + 1 in a step, so that
+//! its first crossing of an obstacle, extrema included, is found exactly: between two neighbouring zeros of its
+//! derivative it is monotone.
+
+use super::legendre;
+use super::time::MAX_STAGES;
+use crate::bracket::bisect;
+use crate::parameters::Obstacles;
+
+/// What the free end touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Nothing: `g_1 <= u(1) <= g_2`.
+    Free,
+    /// The lower obstacle: `u(1) <= g_1`.
+    Lower,
+    /// The upper obstacle: `u(1) >= g_2`.
+    Upper,
+}
+
+impl Phase {
+    /// The phase of a free end at u, taken as free where it just touches; with `g_1 = g_2` there is no free phase.
+    pub(super) fn of(u: f64, obstacles: Option<&Obstacles>) -> Self {
+        match obstacles {
+            Some(obstacles) if u > obstacles.g2 => Phase::Upper,
+            Some(obstacles) if u < obstacles.g1 => Phase::Lower,
+            Some(obstacles) if obstacles.g1 == obstacles.g2 => Phase::Upper,
+            _ => Phase::Free,
+        }
+    }
+
+    /// Position of the obstacle that is touched.
+    pub(super) fn obstacle(self, obstacles: Option<&Obstacles>) -> Option<f64> {
+        match self {
+            Phase::Free => None,
+            Phase::Lower => obstacles.map(|obstacles| obstacles.g1),
+            Phase::Upper => obstacles.map(|obstacles| obstacles.g2),
+        }
+    }
+}
+
+/// A change of phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactEvent {
+    /// When.
+    pub t: f64,
+    /// What the free end touched before.
+    pub from: Phase,
+    /// What it touches from now on.
+    pub to: Phase,
+}
+
+/// A polynomial of degree q + 1 <= 6 on [0, 1] by its Legendre coefficients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Polynomial {
+    pub(super) coefficients: [f64; MAX_STAGES + 1],
+    pub(super) degree: usize,
+}
+
+impl Polynomial {
+    pub(super) fn at(&self, s: f64) -> f64 {
+        legendre::sum(&self.coefficients[..=self.degree], s)
+    }
+
+    /// `L_j' = 2 Σ (2k + 1) L_k` over k = j - 1, j - 3, ...
+    pub(super) fn derivative(&self) -> Self {
+        let mut coefficients = [0.0; MAX_STAGES + 1];
+        for j in 1..=self.degree {
+            for k in (0..j).rev().step_by(2) {
+                coefficients[k] += 2.0 * (2 * k + 1) as f64 * self.coefficients[j];
+            }
+        }
+        Self { coefficients, degree: self.degree.saturating_sub(1) }
+    }
+
+    /// The zeros in (0, 1) at which the sign changes, in increasing order, and how many.
+    fn sign_changes(&self) -> ([f64; MAX_STAGES + 1], usize) {
+        let (mut zeros, mut count) = ([0.0; MAX_STAGES + 1], 0);
+        if self.degree == 0 {
+            return (zeros, count);
+        }
+        let (extrema, extremum_count) = self.derivative().sign_changes();
+        let mut left = 0.0;
+        for right in extrema[..extremum_count].iter().copied().chain([1.0]) {
+            let (at_left, at_right) = (self.at(left), self.at(right));
+            if (at_left < 0.0) != (at_right < 0.0) {
+                zeros[count] = bisect(|s| self.at(s), left, right);
+                count += 1;
+            }
+            left = right;
+        }
+        (zeros, count)
+    }
+
+    /// Where a polynomial that should stay above zero first falls below `-slack`.
+    pub(super) fn first_fall(&self, slack: f64) -> Option<Fall> {
+        let spread: f64 = self.coefficients[1..=self.degree].iter().map(|c| c.abs()).sum();
+        // |L_j| <= 1 on [0, 1].
+        if self.coefficients[0] - spread >= -slack {
+            return None;
+        }
+        let (extrema, count) = self.derivative().sign_changes();
+        let mut left = 0.0;
+        for right in extrema[..count].iter().copied().chain([1.0]) {
+            if self.at(right) < -slack {
+                let crossing = if self.at(left) > slack { bisect(|s| self.at(s), left, right) } else { left };
+                return Some(Fall { crossing, below: right });
+            }
+            left = right;
+        }
+        None
+    }
+}
+
+/// Where in a step, from 0 to 1, an obstacle is crossed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fall {
+    /// The crossing; 0 if the polynomial falls from the first moment.
+    pub(super) crossing: f64,
+    /// A later place at which it is clearly below.
+    pub(super) below: f64,
+}
+
+/// How far the free end is on the right side of what bounds its phase, as a polynomial in time, for each bound; and the
+/// phase beyond that bound.
+pub(super) fn bounds(phase: Phase, tip: &Polynomial, obstacles: &Obstacles) -> [Option<(Polynomial, Phase)>; 2] {
+    let Obstacles { g1, g2, .. } = *obstacles;
+    let above = |g: f64| {
+        let mut distance = *tip;
+        distance.coefficients[0] -= g;
+        distance
+    };
+    let below = |g: f64| {
+        let mut distance = above(g);
+        distance.coefficients.iter_mut().for_each(|c| *c = -*c);
+        distance
+    };
+    let narrow = g1 == g2;
+    match phase {
+        Phase::Free => [Some((below(g2), Phase::Upper)), Some((above(g1), Phase::Lower))],
+        Phase::Upper => [Some((above(g2), if narrow { Phase::Lower } else { Phase::Free })), None],
+        Phase::Lower => [Some((below(g1), if narrow { Phase::Upper } else { Phase::Free })), None],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The Legendre coefficients of a product of (s - root) and a sign.
+    fn with_roots(sign: f64, roots: &[f64]) -> Polynomial {
+        let value = |s: f64| sign * roots.iter().map(|root| s - root).product::<f64>();
+        let mut coefficients = [0.0; MAX_STAGES + 1];
+        for (xi, weight) in legendre::gauss(8) {
+            let mut legendre = [0.0; MAX_STAGES + 1];
+            legendre::values_into(xi, &mut legendre);
+            for (j, coefficient) in coefficients.iter_mut().enumerate().take(roots.len() + 1) {
+                *coefficient += 0.5 * (2 * j + 1) as f64 * weight * value(0.5 * (1.0 + xi)) * legendre[j];
+            }
+        }
+        Polynomial { coefficients, degree: roots.len() }
+    }
+
+    #[track_caller]
+    fn falls_at(polynomial: Polynomial, expected: Option<f64>) {
+        let fall = polynomial.first_fall(1e-14);
+        match (fall, expected) {
+            (Some(fall), Some(at)) => {
+                assert!((fall.crossing - at).abs() < 1e-10, "{fall:?}, not {at}");
+                assert!(fall.below > at && polynomial.at(fall.below) < 0.0);
+            }
+            (fall, expected) => assert_eq!(fall.is_some(), expected.is_some(), "{fall:?}"),
+        }
+    }
+
+    #[test]
+    fn the_first_crossing_is_found_between_extrema_too() {
+        falls_at(with_roots(-1.0, &[0.3]), Some(0.3));
+        falls_at(with_roots(1.0, &[-0.3]), None);
+        // Down and up again, within the step.
+        falls_at(with_roots(1.0, &[0.4, 0.401]), Some(0.4));
+        falls_at(with_roots(1.0, &[0.2, 0.5, 0.7, 0.9]), Some(0.2));
+        falls_at(with_roots(-1.0, &[-0.1, 1.2]), None);
+        // From zero: rising first, or falling from the first moment.
+        falls_at(with_roots(-1.0, &[0.0, 0.6]), Some(0.6));
+        falls_at(with_roots(1.0, &[0.0, 0.6]), Some(0.0));
+        falls_at(with_roots(1.0, &[0.0, 0.0, 0.9, 1.5, 2.0, 3.0]), Some(0.9));
+        falls_at(with_roots(1.0, &[0.0, 0.0, 1.1, 1.5, 2.0, 3.0]), None);
+        falls_at(with_roots(1.0, &[0.5, 0.5]), None);
+    }
+
+    #[test]
+    fn the_derivative_is_the_slope() {
+        let polynomial = with_roots(2.0, &[0.1, 0.7, 1.3, -0.4, 0.2, 0.9]);
+        let (derivative, step) = (polynomial.derivative(), 1e-6);
+        for s in [0.0, 0.3, 0.8, 1.0] {
+            let quotient = (polynomial.at(s + step) - polynomial.at(s - step)) / (2.0 * step);
+            assert!((derivative.at(s) - quotient).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn between_obstacles_at_one_place_there_is_no_free_phase() {
+        let obstacles = Obstacles { epsilon: 1e-3, g1: 0.0, g2: 0.0 };
+        assert_eq!(
+            [-1.0, 0.0, 1.0].map(|u| Phase::of(u, Some(&obstacles))),
+            [Phase::Lower, Phase::Upper, Phase::Upper]
+        );
+        let tip = with_roots(-1.0, &[0.5]);
+        let [Some((_, next)), None] = bounds(Phase::Upper, &tip, &obstacles) else { panic!("one bound") };
+        assert_eq!(next, Phase::Lower);
+    }
+}

@@ -1,0 +1,124 @@
+//! The reference element [-1, 1]: hat functions and integrated Legendre polynomials.
+//!
+//! ```text
+//! N_0 = (1 - ξ)/2,   N_1 = (1 + ξ)/2,   N_m = (P_m - P_{m-2})/√(2(2m - 1)) for m >= 2,
+//! ```
+//!
+//! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the identity, their mass couples m
+//! with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The hats meet N_2 and N_3 only.
+//! Source: Szabó and Babuška, *Finite Element Analysis*, section 6.2.
+
+use super::legendre;
+
+/// The highest degree: beyond it round-off of the quadrature costs more than a degree gains.
+pub const MAX_DEGREE: usize = 40;
+
+/// `∫ P_i P_j = 2/(2i + 1)` for i = j.
+fn product(i: usize, j: usize) -> f64 {
+    if i == j { 2.0 / (2 * i + 1) as f64 } else { 0.0 }
+}
+
+/// N_m as a sum of at most two Legendre polynomials: degrees and factors.
+fn expansion(m: usize) -> [(usize, f64); 2] {
+    match m {
+        0 => [(0, 0.5), (1, -0.5)],
+        1 => [(0, 0.5), (1, 0.5)],
+        _ => {
+            let factor = 1.0 / (2.0 * (2 * m - 1) as f64).sqrt();
+            [(m, factor), (m - 2, -factor)]
+        }
+    }
+}
+
+/// N_m' as a multiple of one Legendre polynomial.
+fn slope(m: usize) -> (usize, f64) {
+    match m {
+        0 => (0, -0.5),
+        1 => (0, 0.5),
+        _ => (m - 1, (0.5 * (2 * m - 1) as f64).sqrt()),
+    }
+}
+
+/// `∫ N_i N_j dξ`.
+pub(super) fn mass(i: usize, j: usize) -> f64 {
+    expansion(i).iter().flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l))).sum()
+}
+
+/// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
+pub(super) fn stiffness(i: usize, j: usize) -> f64 {
+    if i >= 2 || j >= 2 {
+        return if i == j { 1.0 } else { 0.0 };
+    }
+    if i == j { 0.5 } else { -0.5 }
+}
+
+/// `∫ N_j N_i' dξ`, the same on every element.
+pub(super) fn coupling(i: usize, j: usize) -> f64 {
+    let (k, a) = slope(i);
+    expansion(j).iter().map(|(l, b)| a * b * product(k, *l)).sum()
+}
+
+/// `∫ N_i dξ`.
+pub(super) fn integral(i: usize) -> f64 {
+    expansion(i).iter().map(|(k, a)| a * product(*k, 0)).sum()
+}
+
+/// N_0(ξ), ..., N_p(ξ), and their derivatives by ξ.
+pub(super) struct Basis {
+    /// N_m(ξ).
+    pub(super) values: [f64; MAX_DEGREE + 1],
+    /// N_m'(ξ).
+    pub(super) slopes: [f64; MAX_DEGREE + 1],
+}
+
+impl Basis {
+    /// Of degree p, at ξ.
+    pub(super) fn at(xi: f64, degree: usize) -> Self {
+        let mut legendre = [0.0; MAX_DEGREE + 1];
+        legendre::values_into(xi, &mut legendre[..=degree]);
+        let (mut values, mut slopes) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+        for m in 0..=degree {
+            values[m] = expansion(m).iter().map(|(k, a)| a * legendre[*k]).sum();
+            let (k, a) = slope(m);
+            slopes[m] = a * legendre[k];
+        }
+        Self { values, slopes }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_entry_is_its_integral() {
+        let degree = 12;
+        let points: Vec<_> =
+            legendre::gauss(degree + 1).into_iter().map(|(xi, weight)| (Basis::at(xi, degree), weight)).collect();
+        let integrate = |f: &dyn Fn(&Basis) -> f64| points.iter().map(|(basis, weight)| weight * f(basis)).sum::<f64>();
+        for i in 0..=degree {
+            assert!((integral(i) - integrate(&|b| b.values[i])).abs() < 1e-15, "{i}");
+            for j in 0..=degree {
+                let exact = integrate(&|b| b.values[i] * b.values[j]);
+                assert!((mass(i, j) - exact).abs() < 2e-15, "mass {i} {j}");
+                let exact = integrate(&|b| b.slopes[i] * b.slopes[j]);
+                assert!((stiffness(i, j) - exact).abs() < 1e-14, "stiffness {i} {j}: {exact}");
+                let exact = integrate(&|b| b.slopes[i] * b.values[j]);
+                assert!((coupling(i, j) - exact).abs() < 2e-15, "coupling {i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_the_derivatives_and_only_hats_reach_the_ends() {
+        let step = 1e-6;
+        let [left, middle, right] = [0.4 - step, 0.4, 0.4 + step].map(|xi| Basis::at(xi, 9));
+        for m in 0..=9 {
+            let quotient = (right.values[m] - left.values[m]) / (2.0 * step);
+            assert!((middle.slopes[m] - quotient).abs() < 1e-8, "{m}");
+            let ends = [-1.0, 1.0].map(|xi| Basis::at(xi, 9).values[m]);
+            let expected = [f64::from(m == 0), f64::from(m == 1)];
+            assert!(ends.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{m}: {ends:?}");
+        }
+    }
+}

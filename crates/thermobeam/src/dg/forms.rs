@@ -1,0 +1,141 @@
+//! The bilinear forms of the weak form on a space, for coefficients that a closure gives block by block.
+
+use super::space::{Coupling, Space, degrees};
+use super::{element, space::Field};
+
+impl Space {
+    /// Adds up `entry(coupling, length, row block, column block)` over all couplings of all elements.
+    fn sum(&self, entry: impl Fn(&Coupling, f64, usize, usize) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for (element, &length) in self.lengths().iter().enumerate() {
+            for c in self.couplings() {
+                sum += entry(c, length, self.block(element, c.row), self.block(element, c.column));
+            }
+        }
+        sum
+    }
+
+    /// `(y, z)` of three fields each.
+    pub(super) fn mass(&self, y: impl Fn(usize) -> [f64; 3], z: impl Fn(usize) -> [f64; 3]) -> f64 {
+        self.sum(|c, length, row, column| {
+            let ([u, phi, theta], [u_z, phi_z, theta_z]) = (y(row), z(column));
+            0.5 * length * (c.mass_u * (u * u_z + theta * theta_z) + c.mass_phi * phi * phi_z)
+        })
+    }
+
+    /// `(u_x - φ, y_x - χ) + (φ_x, χ_x)` of the pairs (u, φ) and (y, χ).
+    pub(super) fn strain(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
+        self.sum(|c, length, row, column| {
+            let ([u, phi], [u_z, phi_z]) = (y(row), z(column));
+            self.shear_entry(c, length, [u, phi], [u_z, phi_z]) + 2.0 / length * c.stiff_phi * phi * phi_z
+        })
+    }
+
+    /// `(u_x - φ, y_x - χ)`.
+    pub(super) fn shear(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
+        self.sum(|c, length, row, column| self.shear_entry(c, length, y(row), z(column)))
+    }
+
+    fn shear_entry(&self, c: &Coupling, length: f64, [u, phi]: [f64; 2], [u_z, phi_z]: [f64; 2]) -> f64 {
+        2.0 / length * c.stiff_u * u * u_z - c.u_phi * u * phi_z - c.phi_u * phi * u_z
+            + 0.5 * length * c.mass_phi * phi * phi_z
+    }
+
+    /// `(y_x, z_x)` of coefficients of u or θ.
+    pub(super) fn stiffness(&self, y: impl Fn(usize) -> f64, z: impl Fn(usize) -> f64) -> f64 {
+        self.sum(|c, length, row, column| 2.0 / length * c.stiff_u * y(row) * z(column))
+    }
+
+    /// `(φ_x, χ_x)` of coefficients of φ.
+    pub(super) fn bending(&self, y: impl Fn(usize) -> f64, z: impl Fn(usize) -> f64) -> f64 {
+        self.sum(|c, length, row, column| 2.0 / length * c.stiff_phi * y(row) * z(column))
+    }
+
+    /// The diagonal of M.
+    pub(super) fn diagonal_mass(&self) -> Vec<[f64; 3]> {
+        let mut diagonal = vec![[0.0; 3]; self.blocks()];
+        for (element, &length) in self.lengths().iter().enumerate() {
+            for c in self.couplings().iter().filter(|c| c.row == c.column) {
+                let place = &mut diagonal[self.block(element, c.row)];
+                place[0] += 0.5 * length * c.mass_u;
+                place[1] += 0.5 * length * c.mass_phi;
+                place[2] += 0.5 * length * c.mass_u;
+            }
+        }
+        diagonal
+    }
+
+    /// `∫ χ` of the basis functions of φ.
+    pub(super) fn integrals_of_rotations(&self) -> Vec<f64> {
+        let mut integrals = vec![0.0; self.blocks()];
+        for (element, &length) in self.lengths().iter().enumerate() {
+            for local in 0..2 + self.inner() {
+                if let [_, Some(m)] = degrees(local, self.degree()) {
+                    integrals[self.place(Field::Phi, element, m).0] += 0.5 * length * element::integral(m);
+                }
+            }
+        }
+        integrals
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::{self, Tridiagonal};
+    use crate::mesh::Mesh;
+
+    /// Every entry of a form on hats is that of a matrix, to the last bits.
+    fn are_the_same(form: impl Fn(usize, usize) -> f64, matrix: &Tridiagonal) {
+        let last = matrix.diagonal.len() - 1;
+        for i in 0..=last {
+            for j in 0..=last {
+                let expected = match j as isize - i as isize {
+                    -1 => matrix.lower[i],
+                    0 => matrix.diagonal[i],
+                    1 => matrix.upper[i],
+                    _ => 0.0,
+                };
+                let found = form(i, j);
+                assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(), "{i} {j}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn elements_of_degree_one_have_the_p1_matrices() {
+        let mesh = Mesh::mapped(7, |s| 0.3 * s + 0.7 * s * s).unwrap();
+        let space = Space::new(mesh.clone(), 1);
+        assert_eq!(space.blocks(), 8);
+        let unit = |i: usize| move |block: usize| f64::from(block == i);
+        let only = |field: usize, i: usize| {
+            move |block: usize| {
+                let mut values = [0.0; 3];
+                values[field] = f64::from(block == i);
+                values
+            }
+        };
+        let pair = |field: usize, i: usize| {
+            move |block: usize| {
+                let mut values = [0.0; 2];
+                values[field] = f64::from(block == i);
+                values
+            }
+        };
+        for field in 0..3 {
+            are_the_same(|i, j| space.mass(only(field, i), only(field, j)), &assembly::mass(&mesh));
+        }
+        are_the_same(|i, j| space.stiffness(unit(i), unit(j)), &assembly::stiffness(&mesh));
+        are_the_same(|i, j| space.bending(unit(i), unit(j)), &assembly::stiffness(&mesh));
+        are_the_same(|i, j| -space.shear(pair(0, i), pair(1, j)), &assembly::coupling(&mesh));
+        are_the_same(|i, j| -space.shear(pair(1, i), pair(0, j)), &assembly::coupling(&mesh).transpose());
+        let diagonal = assembly::mass(&mesh).diagonal;
+        for (found, expected) in space.diagonal_mass().iter().zip(&diagonal) {
+            assert!(found.iter().all(|found| (found - expected).abs() <= f64::EPSILON * expected), "{found:?}");
+        }
+        let sums: Vec<f64> = assembly::mass(&mesh).multiply(&[1.0; 8]);
+        for (found, expected) in space.rotation_integrals().iter().zip(sums) {
+            assert!((found - expected).abs() <= f64::EPSILON, "{found} {expected}");
+        }
+    }
+}

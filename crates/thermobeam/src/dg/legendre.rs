@@ -1,0 +1,95 @@
+//! Legendre polynomials: values, Gauss points, and polynomials in time on the unit interval.
+
+/// P_0(x), P_1(x), ... into as many places as `values` has, for x in [-1, 1].
+pub(super) fn values_into(x: f64, values: &mut [f64]) {
+    let (mut previous, mut value) = (0.0, 1.0);
+    for (n, place) in values.iter_mut().enumerate() {
+        *place = value;
+        let n = n as f64;
+        (previous, value) = (value, ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0));
+    }
+}
+
+/// P_0'(x), P_1'(x), ... from the values: `P_{n+1}' = P_{n-1}' + (2n + 1) P_n`.
+pub(super) fn derivatives_into(values: &[f64], derivatives: &mut [f64]) {
+    for n in 0..derivatives.len() {
+        derivatives[n] = match n {
+            0 => 0.0,
+            1 => 1.0,
+            _ => derivatives[n - 2] + (2 * n - 1) as f64 * values[n - 1],
+        };
+    }
+}
+
+/// Points and weights on [-1, 1] that integrate polynomials of degree 2 `count` - 1 exactly.
+pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
+    let mut values = vec![0.0; count + 1];
+    let mut derivatives = vec![0.0; count + 1];
+    let half = (1..=count / 2).map(|i| {
+        // Newton from Tricomi's estimate is at round-off after four steps for every count.
+        let mut x = (std::f64::consts::PI * (i as f64 - 0.25) / (count as f64 + 0.5)).cos();
+        for _ in 0..6 {
+            values_into(x, &mut values);
+            derivatives_into(&values, &mut derivatives);
+            x -= values[count] / derivatives[count];
+        }
+        x
+    });
+    let mut points: Vec<f64> = half.flat_map(|x| [x, -x]).collect();
+    if count % 2 == 1 {
+        points.push(0.0);
+    }
+    points.sort_by(f64::total_cmp);
+    let weight = |x: f64| {
+        let (mut values, mut derivatives) = (vec![0.0; count + 1], vec![0.0; count + 1]);
+        values_into(x, &mut values);
+        derivatives_into(&values, &mut derivatives);
+        2.0 / ((1.0 - x * x) * derivatives[count] * derivatives[count])
+    };
+    points.into_iter().map(|x| (x, weight(x))).collect()
+}
+
+/// `Σ_j c_j L_j(s)`, with `L_j(s) = P_j(2s - 1)` the Legendre polynomials of [0, 1].
+pub(super) fn sum(coefficients: &[f64], s: f64) -> f64 {
+    let x = 2.0 * s - 1.0;
+    let (mut previous, mut value, mut sum) = (0.0, 1.0, 0.0);
+    for (n, coefficient) in coefficients.iter().enumerate() {
+        sum += coefficient * value;
+        let n = n as f64;
+        (previous, value) = (value, ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0));
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gauss_points_integrate_powers_exactly() {
+        for count in 1..=60 {
+            let points = gauss(count);
+            for power in 0..(2 * count).min(90) {
+                let integral: f64 = points.iter().map(|(x, weight)| weight * x.powi(power as i32)).sum();
+                let exact = if power % 2 == 0 { 2.0 / (power + 1) as f64 } else { 0.0 };
+                assert!((integral - exact).abs() < 4e-15, "{count} points, x^{power}: {integral}");
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_values() {
+        let (x, step) = (0.3, 1e-5);
+        let mut values = [[0.0; 12]; 3];
+        for (values, x) in values.iter_mut().zip([x - step, x, x + step]) {
+            values_into(x, values);
+        }
+        let mut derivatives = [0.0; 12];
+        derivatives_into(&values[1], &mut derivatives);
+        for n in 0..12 {
+            let quotient = (values[2][n] - values[0][n]) / (2.0 * step);
+            assert!((derivatives[n] - quotient).abs() < 1e-6, "{n}");
+        }
+        assert!((sum(&[1.0, 2.0, 3.0], 0.65) - (values[1][0] + 2.0 * values[1][1] + 3.0 * values[1][2])).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,63 @@
+//! Loads: what a manufactured solution, or anything else, adds to the right-hand sides.
+
+use super::time::{GaussPoint, MAX_STAGES, gauss_points};
+
+/// Loads F_u, F_φ, F_θ on the right of the three equations, tested with the basis functions.
+///
+/// [`Space::add_load`](super::Space::add_load) fills such a vector from functions of x.
+pub trait Load {
+    /// Fills `load` with the load at time t: `(F_u, χ), (F_φ, ψ), (F_θ, η)` block by block; it comes in as zeros.
+    fn at(&mut self, t: f64, load: &mut [[f64; 3]]);
+
+    /// Gauss points a step that integrate the load in time; `None` leaves the choice, q + 9, to the stepper.
+    fn points(&self) -> Option<usize> {
+        None
+    }
+
+    /// `∫ F(t) L_i((t - from)/dt) dt` over a step for each i, where that is known better than by Gauss points.
+    ///
+    /// * `moments`: one vector for each L_i, i = 0..=q, L_i the Legendre polynomials of [0, 1]; they come in as zeros.
+    /// * Returns whether they were filled.
+    fn moments(&mut self, from: f64, dt: f64, moments: &mut [Vec<[f64; 3]>]) -> bool {
+        let _ = (from, dt, moments);
+        false
+    }
+}
+
+/// The loads of a step, integrated: `moments[i]` is that with L_i.
+pub(super) struct Forcing<const S: usize> {
+    pub(super) moments: Vec<Vec<[f64; 3]>>,
+    load: Vec<[f64; 3]>,
+    points: Vec<GaussPoint>,
+}
+
+impl<const S: usize> Forcing<S> {
+    /// For so many blocks; `points` Gauss points, or q + 9.
+    pub(super) fn new(blocks: usize, points: Option<usize>) -> Self {
+        let zeros = vec![[0.0; 3]; blocks];
+        let points = gauss_points(points.unwrap_or(S + 8).max(1));
+        Self { moments: vec![zeros.clone(); S], load: zeros, points }
+    }
+
+    /// Integrates a load over the step of length h from t.
+    pub(super) fn integrate(&mut self, load: &mut dyn Load, t: f64, h: f64) {
+        self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
+        if load.moments(t, h, &mut self.moments) {
+            return;
+        }
+        self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
+        for point in &self.points {
+            self.load.fill([0.0; 3]);
+            load.at(t + h * point.s, &mut self.load);
+            let legendre: &[f64; MAX_STAGES + 1] = &point.legendre;
+            for (moments, legendre) in self.moments.iter_mut().zip(legendre) {
+                let weight = h * point.weight * legendre;
+                for (moment, load) in moments.iter_mut().zip(&self.load) {
+                    for field in 0..3 {
+                        moment[field] = weight.mul_add(load[field], moment[field]);
+                    }
+                }
+            }
+        }
+    }
+}

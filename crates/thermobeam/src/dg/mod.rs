@@ -1,0 +1,119 @@
+//! Any order: elements of degree p in space, discontinuous Galerkin of degree q in time.
+//!
+//! # The scheme
+//!
+//! On a step of length h the velocities v, w and the lifted temperature θ~ are polynomials of degree q in time,
+//! discontinuous between steps; the displacements are their integrals, `u = u_0 + ∫ v`, `φ = φ_0 + ∫ w`. For all polynomials of
+//! degree q in time with values in the finite element spaces
+//!
+//! ```text
+//! ∫ [(v_t, χ) + (u_x - φ + ζ (v_x - w), χ_x) + N(u)(u_x, χ_x) + g(u(1)) χ(1)] + (v(0+) - v_0, χ(0)) = 0
+//! ∫ [(w_t, ψ) + (φ_x + ζ w_x, ψ_x) - (u_x - φ + ζ (v_x - w), ψ) - a (θ~, ψ_x) - a θ_A (1, ψ)] + (w(0+) - w_0, ψ(0)) = 0
+//! ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η)] + (θ~(0+) - θ~_0, η(0)) = 0
+//! ```
+//!
+//! The new level is the value at the end. For q = 0 and p = 1 these are (3.7)-(3.8) up to three rules: contact and N are
+//! integrated over the step, and θ~ is taken by backward Euler. The order is 2q + 1 at the ends of steps and p + 1 in space
+//! (p in the energy's norm), the energy's balance is exact for every q, and steps end where contact begins or ends. See
+//! "Any order" in [`crate::theory`].
+//!
+//! # Where to find what
+//!
+//! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
+//! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
+//! `energy`: the balance. [`Simulation`]: all of it.
+//!
+//! ```
+//! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+//! use thermobeam::mesh::Mesh;
+//! use thermobeam::parameters::{Beam, Obstacles};
+//!
+//! // The paper's first experiment on a single element.
+//! let initial = Initial {
+//!     u: Box::new(|x| 0.01 * x * (x - 2.0)),
+//!     u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
+//!     theta: Box::new(|x| (std::f64::consts::PI * x).sin()),
+//!     ..Initial::at_rest(0.0)
+//! };
+//! let problem =
+//!     Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh: Mesh::uniform(1)?, degree: 14, initial };
+//! let mut simulation = Simulation::new(problem, Stepping::default())?;
+//! simulation.advance(1.0)?;
+//! let u = simulation.value(Field::U, 1.0, 1.0).expect("a time in the last step");
+//! assert!((u - -0.011764243810).abs() < 1e-8);
+//! assert_eq!(simulation.events().len(), 3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod block;
+mod contact_event;
+mod element;
+mod energy;
+mod error;
+mod factor;
+mod forms;
+mod legendre;
+mod lengths;
+mod load;
+mod operator;
+mod residual;
+mod simulation;
+mod space;
+mod stages;
+mod time;
+
+pub use contact_event::{ContactEvent, Phase};
+pub use element::MAX_DEGREE;
+pub use energy::Balance;
+pub use error::{SetupError, StepError, StepFailure};
+pub use load::Load;
+pub use simulation::{Function, Initial, Problem, Simulation, StepReport, Stepping};
+pub use space::{Field, Space};
+
+/// The highest degree in time.
+pub const MAX_TIME_DEGREE: usize = time::MAX_STAGES - 1;
+
+/// The discrete solution at one time: coefficients, block by block, in the numbering of [`Space::place`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// The time t.
+    pub t: f64,
+    /// u and φ.
+    pub places: Vec<[f64; 2]>,
+    /// v = u_t, w = φ_t, and the lifted temperature θ~.
+    pub rates: Vec<[f64; 3]>,
+}
+
+impl Level {
+    /// A level of zeros for a space.
+    pub fn new(space: &Space) -> Self {
+        Self { t: 0.0, places: vec![[0.0; 2]; space.blocks()], rates: vec![[0.0; 3]; space.blocks()] }
+    }
+
+    /// Value and slope of a field at x.
+    pub fn value_and_slope(&self, space: &Space, field: Field, x: f64) -> (f64, f64) {
+        match field {
+            Field::U | Field::Phi => space.evaluate(field, x, |block, place| self.places[block][place]),
+            Field::V | Field::W | Field::Theta => space.evaluate(field, x, |block, place| self.rates[block][place]),
+        }
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        self.t = other.t;
+        self.places.copy_from_slice(&other.places);
+        self.rates.copy_from_slice(&other.rates);
+    }
+}
+
+/// Counts of the work done: exact where times are noisy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Steps taken.
+    pub steps: usize,
+    /// Solves of a step's linear system.
+    pub solves: usize,
+    /// Factorisations of it.
+    pub factorizations: usize,
+    /// Contact events.
+    pub events: usize,
+}

@@ -1,0 +1,575 @@
+//! A simulation that stands at one level and takes steps: their lengths, and where contact cuts them.
+
+use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
+use super::element::MAX_DEGREE;
+use super::energy::{Balance, Scene};
+use super::error::{SetupError, StepError, StepFailure};
+use super::lengths::{Lengths, MAX_RUNGS};
+use super::load::Load;
+use super::space::{Field, Space};
+use super::stages::{Stages, Task, stepper};
+use super::{Level, MAX_TIME_DEGREE, Work};
+use crate::energy::Energy;
+use crate::mesh::Mesh;
+use crate::parameters::{Beam, Obstacles};
+
+/// Rounding errors that an initial value may carry where the boundary condition asks for a number, in units of the
+/// field's largest coefficient.
+const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
+
+/// Rounding errors of the free end's position, in units of the numbers that it is computed from.
+const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
+
+/// Attempts to end a step on an obstacle: safeguarded by bisection, they are never all needed.
+const ATTEMPTS: usize = 100;
+
+/// Contact events within the smallest step after which a simulation is given up.
+const CROWD: usize = 64;
+
+/// Times that one step may be cut: at a crossing, at an earlier one that the shorter step shows, and so on.
+const CUTS: usize = 64;
+
+/// The part of a step for which the free end has to stay in a phase that it enters at an obstacle without being cut.
+const STAY: f64 = 0.125;
+
+/// Contact events that the list of them holds without growing.
+const EVENTS: usize = 1024;
+
+/// A function of x.
+pub type Function = Box<dyn Fn(f64) -> f64>;
+
+/// The initial data (1.2) as functions of x.
+pub struct Initial {
+    /// u_0, zero at x = 0.
+    pub u: Function,
+    /// u_1, zero at x = 0.
+    pub u_t: Function,
+    /// φ_0, zero at x = 0.
+    pub phi: Function,
+    /// φ_1, zero at x = 0.
+    pub phi_t: Function,
+    /// The physical temperature θ_0: θ_A at x = 0 and zero at x = 1.
+    pub theta: Function,
+}
+
+impl Initial {
+    /// A straight beam at rest, its temperature the steady θ_A (1 - x).
+    pub fn at_rest(theta_a: f64) -> Self {
+        let zero = || Box::new(|_: f64| 0.0);
+        Self { u: zero(), u_t: zero(), phi: zero(), phi_t: zero(), theta: Box::new(move |x| theta_a * (1.0 - x)) }
+    }
+}
+
+/// A beam, its obstacles, its elements and its initial data.
+pub struct Problem {
+    /// Coefficients of (1.1).
+    pub beam: Beam,
+    /// The obstacles of (1.3), if any.
+    pub obstacles: Option<Obstacles>,
+    /// The triangulation.
+    pub mesh: Mesh,
+    /// The degree p of the elements, 1..=[`MAX_DEGREE`].
+    pub degree: usize,
+    /// The initial data.
+    pub initial: Initial,
+}
+
+/// How to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepping {
+    /// The degree q in time, 0..=[`MAX_TIME_DEGREE`].
+    pub degree: usize,
+    /// The largest step.
+    pub dt: f64,
+    /// The first step, at the start and after a contact event; at most `dt`.
+    pub restart_dt: f64,
+    /// Ratio of a step to the one before while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has length
+    /// `dt`.
+    pub growth: f64,
+    /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the temperature.
+    pub tolerance: f64,
+    /// Iterations after which a step is given up.
+    pub max_iterations: usize,
+}
+
+impl Default for Stepping {
+    /// For the paper's beam: an impact takes (ε √ζ)^(2/3) = 5e-3.
+    fn default() -> Self {
+        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
+    }
+}
+
+/// What a step took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport {
+    /// Its length.
+    pub dt: f64,
+    /// Iterations of the last attempt.
+    pub iterations: usize,
+    /// The contact event at its end, if any.
+    pub event: Option<ContactEvent>,
+}
+
+/// A running simulation, standing at one level, with the step that led there.
+pub struct Simulation {
+    beam: Beam,
+    obstacles: Option<Obstacles>,
+    space: Space,
+    stepping: Stepping,
+    lengths: Lengths,
+    stages: Box<dyn Stages>,
+    load: Option<Box<dyn Load>>,
+    level: Level,
+    /// The level before the last step.
+    old: Level,
+    /// The length of the last step, 0 at the start.
+    last_dt: f64,
+    /// What the free end touched during the last step.
+    last_phase: Phase,
+    phase: Phase,
+    /// Whether the last step's polynomials tell something about the next one.
+    smooth: bool,
+    events: Vec<ContactEvent>,
+    /// Events since the time given, all within `restart_dt`.
+    crowd: (f64, usize),
+}
+
+impl Simulation {
+    /// Checks everything once and stands at t = 0.
+    ///
+    /// # Errors
+    /// [`SetupError`] for coefficients, degrees or settings out of range, and initial data that are not finite or break a
+    /// boundary condition.
+    pub fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
+        Self::build(problem, stepping, None)
+    }
+
+    /// The same with loads on the right of the equations.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_load(problem: Problem, stepping: Stepping, load: Box<dyn Load>) -> Result<Self, SetupError> {
+        Self::build(problem, stepping, Some(load))
+    }
+
+    fn build(problem: Problem, stepping: Stepping, load: Option<Box<dyn Load>>) -> Result<Self, SetupError> {
+        let Problem { beam, obstacles, mesh, degree, initial } = problem;
+        check(&beam, obstacles.as_ref(), degree, &stepping)?;
+        let space = Space::new(mesh, degree);
+        let level = initial_level(&space, &beam, &initial)?;
+        let lengths = Lengths::new(stepping.restart_dt, stepping.growth, stepping.dt);
+        let stages = stepper(stepping.degree, &space, lengths.count(), load.as_deref());
+        let phase = Phase::of(level.places[space.tip()][0], obstacles.as_ref());
+        let old = level.clone();
+        Ok(Self {
+            beam,
+            obstacles,
+            space,
+            stepping,
+            lengths,
+            stages,
+            load,
+            level,
+            old,
+            last_dt: 0.0,
+            last_phase: phase,
+            phase,
+            smooth: false,
+            events: Vec::with_capacity(EVENTS),
+            crowd: (0.0, 0),
+        })
+    }
+
+    /// Steps until t_end, which the last step meets exactly.
+    ///
+    /// # Errors
+    /// [`StepError`] with step, time and numbers; the simulation then stands where that step would have started.
+    pub fn advance(&mut self, t_end: f64) -> Result<(), StepError> {
+        while self.step(t_end)?.is_some() {}
+        Ok(())
+    }
+
+    /// Does one step that does not go beyond `limit`; allocates nothing, but for more than 1024 contact events.
+    ///
+    /// Returns `None` where the simulation stands at the limit, or beyond it.
+    ///
+    /// # Errors
+    /// [`StepError`] with step, time and numbers; the simulation then stands where it stood.
+    pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
+        let (phase, events, crowd) = (self.phase, self.events.len(), self.crowd);
+        let rung = self.lengths.rung();
+        let outcome = self.try_step(limit);
+        if outcome.is_err() {
+            self.phase = phase;
+            self.events.truncate(events);
+            self.crowd = crowd;
+            self.lengths.set_rung(rung);
+            self.smooth = false;
+        }
+        outcome
+    }
+
+    fn try_step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
+        let remaining = limit - self.level.t;
+        if !(remaining > 0.0) {
+            return Ok(None);
+        }
+        let mut h = self.propose(remaining);
+        if self.smooth {
+            self.stages.guess_continued(h / self.last_dt);
+        } else {
+            self.stages.guess_constant(&self.level);
+        }
+        let mut event = None;
+        let mut iterations = self.attempt(h)?;
+        for _ in 0..CUTS {
+            let Some((fall, next)) = self.first_fall() else {
+                return self.finish(h, limit, iterations, event).map(Some);
+            };
+            if fall.crossing * h > self.shortest() {
+                (h, iterations, event) = self.meet(h, fall, next)?;
+                continue;
+            }
+            // The free end leaves its phase from the first moment.
+            event = None;
+            self.stages.guess_constant(&self.level);
+            if self.stays(next, h)? {
+                self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
+            } else if self.lengths.descend() {
+                // It leaves the other phase as well: a step is too long to tell on which side it is.
+                h = self.propose(remaining);
+            } else {
+                // It grazes the obstacle, by less than the shortest step can tell.
+                iterations = self.attempt(h)?;
+                return self.finish(h, limit, iterations, None).map(Some);
+            }
+            self.stages.guess_constant(&self.level);
+            iterations = self.attempt(h)?;
+        }
+        let miss = self.first_fall().map_or(0.0, |(_, next)| self.distance(next).0.at(1.0));
+        Err(self.failed(h, StepFailure::EventNotFound { miss }))
+    }
+
+    /// Would the free end stay in another phase for a good part of a step of length h?
+    fn stays(&mut self, phase: Phase, h: f64) -> Result<bool, StepError> {
+        let present = std::mem::replace(&mut self.phase, phase);
+        let outcome = self.attempt(h);
+        let fall = self.first_fall();
+        self.phase = present;
+        outcome.map(|_| fall.is_none_or(|(fall, _)| fall.crossing >= STAY))
+    }
+
+    /// Takes the step just found: the new level is its end.
+    fn finish(&mut self, h: f64, limit: f64, iterations: usize, next: Option<Phase>) -> Result<StepReport, StepError> {
+        let start = self.level.t;
+        let t = if h == limit - start { limit } else { start + h };
+        let (phase, rung) = (self.phase, self.lengths.get());
+        if let Some(next) = next {
+            self.change_phase(next, t).map_err(|failure| self.failed(h, failure))?;
+        }
+        self.stages.accept();
+        std::mem::swap(&mut self.level, &mut self.old);
+        self.stages.level_into(1.0, &self.old, h, &mut self.level);
+        self.level.t = t;
+        if let Some(next) = next {
+            // The free end stands on the obstacle but for round-off; now without.
+            let touched = if phase == Phase::Free { next } else { phase };
+            if let Some(g) = touched.obstacle(self.obstacles.as_ref()) {
+                self.level.places[self.space.tip()][0] = g;
+            }
+            self.lengths.restart();
+        } else if h >= rung {
+            self.lengths.climb();
+        }
+        (self.last_dt, self.last_phase, self.smooth) = (h, phase, next.is_none());
+        let event = next.and(self.events.last().copied());
+        Ok(StepReport { dt: h, iterations, event })
+    }
+
+    /// The length of the next step, cut or stretched by a rounding error to end at the limit.
+    fn propose(&self, remaining: f64) -> f64 {
+        let h = self.lengths.get();
+        if h * (1.0 + 1e-9) >= remaining { remaining } else { h }
+    }
+
+    /// The shortest step there can be: a few units of round-off of the time.
+    fn shortest(&self) -> f64 {
+        16.0 * f64::EPSILON * (self.level.t + self.stepping.restart_dt)
+    }
+
+    fn failed(&self, dt: f64, failure: StepFailure) -> StepError {
+        StepError { step: self.stages.work().steps + 1, t: self.level.t, dt, failure }
+    }
+
+    /// Finds the polynomials of a step of length h in the present phase.
+    fn attempt(&mut self, h: f64) -> Result<usize, StepError> {
+        let task = Task {
+            space: &self.space,
+            beam: &self.beam,
+            obstacles: self.obstacles.as_ref(),
+            level: &self.level,
+            h,
+            phase: self.phase,
+            tolerance: self.stepping.tolerance,
+            max_iterations: self.stepping.max_iterations,
+        };
+        self.stages.solve(&task, self.load.as_deref_mut()).map_err(|failure| self.failed(h, failure))
+    }
+
+    /// Rounding errors of the free end's position in the step just found.
+    fn slack(&self, tip: &Polynomial) -> f64 {
+        let obstacles = self.obstacles.map_or(0.0, |obstacles| obstacles.g1.abs().max(obstacles.g2));
+        let size: f64 = tip.coefficients.iter().map(|c| c.abs()).sum();
+        TIP_SLACK * (obstacles + size)
+    }
+
+    /// Where the step just found first leaves its phase, and for which one.
+    fn first_fall(&self) -> Option<(Fall, Phase)> {
+        let obstacles = self.obstacles.as_ref()?;
+        let tip = self.stages.tip(&self.space);
+        let slack = self.slack(&tip);
+        let falls = bounds(self.phase, &tip, obstacles).into_iter().flatten();
+        let falls = falls.filter_map(|(distance, next)| distance.first_fall(slack).map(|fall| (fall, next)));
+        falls.min_by(|(one, _), (other, _)| one.crossing.total_cmp(&other.crossing))
+    }
+
+    /// Finds the length of a step that ends on the obstacle, between 0 and where the polynomial of a longer one was
+    /// clearly beyond it.
+    ///
+    /// Returns length, iterations, and the phase beyond; `None` in its place where a shorter step does not reach the obstacle.
+    fn meet(&mut self, whole: f64, fall: Fall, next: Phase) -> Result<(f64, usize, Option<Phase>), StepError> {
+        let (mut low, mut high, mut beyond) = (0.0, fall.below * whole, false);
+        let (mut h, mut solved) = (fall.crossing * whole, whole);
+        // The attempt before: length and miss.
+        let mut before: Option<(f64, f64)> = None;
+        let mut miss = f64::NAN;
+        for attempt in 1..=ATTEMPTS {
+            self.stages.restrict(h / solved);
+            solved = h;
+            let iterations = self.attempt(h)?;
+            let (distance, slack) = self.distance(next);
+            miss = distance.at(1.0);
+            if miss.abs() <= slack {
+                return Ok((h, iterations, Some(next)));
+            }
+            if miss < 0.0 {
+                (high, beyond) = (h, true);
+            } else {
+                low = h;
+                if h == high {
+                    return Ok((h, iterations, None));
+                }
+            }
+            if !(high - low > self.shortest()) {
+                return Ok((h, iterations, Some(next)));
+            }
+            // First the velocity of the free end, which is the rate but for the error of the step; then secants.
+            let rate = match before {
+                Some((other, its_miss)) => (miss - its_miss) / (h - other),
+                None => distance.derivative().at(1.0) / h,
+            };
+            before = Some((h, miss));
+            let guess = h - miss / rate;
+            // A bisection now and then, so that the bracket shrinks whatever the guesses do.
+            h = if attempt % 4 != 0 && guess > low && guess < high {
+                guess
+            } else if guess >= high && !beyond {
+                high
+            } else {
+                0.5 * (low + high)
+            };
+        }
+        Err(self.failed(h, StepFailure::EventNotFound { miss }))
+    }
+
+    /// The distance from the bound beyond which `next` begins, and its rounding errors.
+    fn distance(&self, next: Phase) -> (Polynomial, f64) {
+        let tip = self.stages.tip(&self.space);
+        let obstacles = self.obstacles.unwrap_or_default();
+        let bound = bounds(self.phase, &tip, &obstacles).into_iter().flatten().find(|(_, to)| *to == next);
+        (bound.map_or(tip, |(distance, _)| distance), self.slack(&tip))
+    }
+
+    /// Enters another phase at time t.
+    fn change_phase(&mut self, to: Phase, t: f64) -> Result<(), StepFailure> {
+        if t - self.crowd.0 > self.stepping.restart_dt {
+            self.crowd = (t, 0);
+        }
+        self.crowd.1 += 1;
+        if self.crowd.1 > CROWD {
+            return Err(StepFailure::EventsTooClose { events: self.crowd.1, within: t - self.crowd.0 });
+        }
+        self.events.push(ContactEvent { t, from: self.phase, to });
+        self.phase = to;
+        Ok(())
+    }
+
+    /// The present time.
+    pub fn t(&self) -> f64 {
+        self.level.t
+    }
+
+    /// The present level.
+    pub fn level(&self) -> &Level {
+        &self.level
+    }
+
+    /// The level at the start of the last step.
+    pub fn old_level(&self) -> &Level {
+        &self.old
+    }
+
+    /// The elements.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// What the free end touches now.
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    /// All contact events so far.
+    pub fn events(&self) -> &[ContactEvent] {
+        &self.events
+    }
+
+    /// Counts of the work done so far.
+    pub fn work(&self) -> Work {
+        Work { events: self.events.len(), ..self.stages.work() }
+    }
+
+    /// s of a time in the last step; `None` outside.
+    fn within(&self, t: f64) -> Option<f64> {
+        if !(t >= self.old.t && t <= self.level.t) {
+            return None;
+        }
+        Some(if self.last_dt > 0.0 { ((t - self.old.t) / self.last_dt).min(1.0) } else { 1.0 })
+    }
+
+    /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
+    pub fn value(&self, field: Field, x: f64, t: f64) -> Option<f64> {
+        let s = self.within(t)?;
+        if t == self.level.t {
+            return Some(self.level.value_and_slope(&self.space, field, x).0);
+        }
+        let at = |block, place| self.stages.coefficient(field, block, place).at(s);
+        Some(self.space.evaluate(field, x, at).0)
+    }
+
+    /// The physical temperature, lifting included, at x and at a time in the last step; `None` for other times.
+    pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
+        self.value(Field::Theta, x, t).map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
+    }
+
+    /// Copies the state at a time in the last step into `level`; tells whether there is one.
+    pub fn level_into(&self, t: f64, level: &mut Level) -> bool {
+        match self.within(t) {
+            Some(s) if self.last_dt > 0.0 && t < self.level.t => {
+                self.stages.level_into(s, &self.old, self.last_dt, level);
+                level.t = t;
+                true
+            }
+            Some(_) => {
+                level.copy_from(&self.level);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// The energy of a level, term by term.
+    pub fn energy(&self, level: &Level) -> Energy {
+        self.scene().energy(level)
+    }
+
+    /// The balance of the last step; that of no step at the start.
+    pub fn balance(&self) -> Balance {
+        let losses = self.stages.losses(&self.space, &self.beam, &self.old, self.last_dt);
+        self.scene().balance(&self.old, &self.level, self.last_phase, losses)
+    }
+
+    fn scene(&self) -> Scene<'_> {
+        Scene { space: &self.space, beam: &self.beam, obstacles: self.obstacles.as_ref() }
+    }
+}
+
+fn check(beam: &Beam, obstacles: Option<&Obstacles>, degree: usize, stepping: &Stepping) -> Result<(), SetupError> {
+    beam.validate()?;
+    if let Some(obstacles) = obstacles {
+        obstacles.validate()?;
+    }
+    let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
+    let refuse = |name, found, allowed: String| Err(SetupError::Setting { name, found, allowed });
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    if !(1..=MAX_DEGREE).contains(&degree) {
+        return refuse("degree of the elements", degree as f64, format!("an integer from 1 to {MAX_DEGREE}"));
+    }
+    if q > MAX_TIME_DEGREE {
+        return refuse("degree in time", q as f64, format!("an integer from 0 to {MAX_TIME_DEGREE}"));
+    }
+    if !positive(dt) {
+        return refuse("dt", dt, "a finite number > 0".into());
+    }
+    if !(positive(restart_dt) && restart_dt <= dt) {
+        return refuse("restart_dt", restart_dt, format!("a number > 0 and at most dt = {dt}"));
+    }
+    if !(growth >= 1.0 && growth.is_finite()) {
+        return refuse("growth", growth, "a finite number >= 1".into());
+    }
+    if growth > 1.0 && (dt / restart_dt).ln() / growth.ln() > MAX_RUNGS as f64 {
+        return refuse("growth", growth, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"));
+    }
+    if !positive(tolerance) {
+        return refuse("tolerance", tolerance, "a finite number > 0".into());
+    }
+    if max_iterations == 0 {
+        return refuse("max_iterations", 0.0, "an integer >= 1".into());
+    }
+    Ok(())
+}
+
+/// (3.6): the projections of the initial data, the temperature lifted.
+fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level, SetupError> {
+    let mut level = Level::new(space);
+    let theta_a = beam.theta_a;
+    let lifted = |x: f64| (initial.theta)(x) - theta_a * (1.0 - x);
+    let fields: [(_, _, &dyn Fn(f64) -> f64); 5] = [
+        ("u", Field::U, &initial.u),
+        ("u_t", Field::V, &initial.u_t),
+        ("phi", Field::Phi, &initial.phi),
+        ("phi_t", Field::W, &initial.phi_t),
+        ("theta", Field::Theta, &lifted),
+    ];
+    for (name, field, f) in fields {
+        let (mut bad, mut scale) = (None, 0.0_f64);
+        space.project(field, f, |element, block, place, value| {
+            if !value.is_finite() {
+                bad.get_or_insert((element, value));
+            }
+            scale = scale.max(value.abs());
+            match field {
+                Field::U | Field::Phi => level.places[block][place] = value,
+                Field::V | Field::W | Field::Theta => level.rates[block][place] = value,
+            }
+        });
+        if let Some((element, found)) = bad {
+            let nodes = space.mesh().nodes();
+            return Err(SetupError::NotFinite { field: name, found, from: nodes[element], to: nodes[element + 1] });
+        }
+        if field == Field::Theta {
+            scale = scale.max(theta_a.abs());
+        }
+        // A bubble on a single linear element has no coefficient at all.
+        let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
+        let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
+        for &(x, allowed) in ends {
+            // What is not a number is no boundary value either.
+            if !(f(x).abs() <= slack) {
+                let found = f(x) + allowed;
+                return Err(SetupError::Boundary { field: name, x, found, allowed });
+            }
+        }
+    }
+    Ok(level)
+}

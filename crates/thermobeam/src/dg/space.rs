@@ -1,0 +1,302 @@
+//! Elements of degree p on a mesh: where each coefficient is stored, and what it is coupled with.
+//!
+//! # Blocks
+//!
+//! A *block* holds one coefficient of u, one of φ and one of θ. Blocks 0..=n are those of the nodes' hats. The rest of the
+//! basis falls into two chains an element: M couples degree m of a field with m ± 2 of the same field, C couples m of u
+//! or θ with m ± 1 of φ. So the even degrees of u and θ meet the odd degrees of φ only, and the other way round. Block k of chain
+//! c holds `u_{2k+c}, φ_{2k+1-c}, θ_{2k+c}`, k = 1..⌊p/2⌋; it is coupled with blocks k ± 1 of its chain, and for k = 1 with the
+//! two hats. That halves the band of an ordering by degree.
+
+use super::element::{self, Basis};
+use super::legendre;
+use crate::mesh::Mesh;
+
+/// One of the unknown functions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Field {
+    /// The displacement u.
+    U,
+    /// The rotation φ.
+    Phi,
+    /// The velocity u_t.
+    V,
+    /// The velocity φ_t.
+    W,
+    /// The lifted temperature θ~ = θ - θ_A (1 - x).
+    Theta,
+}
+
+/// The matrices M, K and C between two blocks of the reference element, rows first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Coupling {
+    /// The block of the row: 0 and 1 for the hats, 2 + 2(k - 1) + c for block k of chain c.
+    pub(super) row: usize,
+    /// The block of the column.
+    pub(super) column: usize,
+    /// M between coefficients of u, and of θ.
+    pub(super) mass_u: f64,
+    /// M between coefficients of φ.
+    pub(super) mass_phi: f64,
+    /// K between coefficients of u, and of θ.
+    pub(super) stiff_u: f64,
+    /// K between coefficients of φ.
+    pub(super) stiff_phi: f64,
+    /// C, row of u (or of θ, as Cᵀ then), column of φ: `(N_φ, N_u')`.
+    pub(super) u_phi: f64,
+    /// Cᵀ, row of φ, column of u: `(N_u', N_φ)`.
+    pub(super) phi_u: f64,
+    /// C, row of φ, column of θ: `(N_θ, N_φ')`.
+    pub(super) phi_theta: f64,
+    /// Cᵀ, row of θ, column of φ: `(N_φ', N_θ)`.
+    pub(super) theta_phi: f64,
+}
+
+/// The degrees of u (and θ) and of φ in a block of an element; `None` where the degree exceeds p.
+pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
+    if block < 2 {
+        return [Some(block), Some(block)];
+    }
+    let (k, chain) = (block / 2, block % 2);
+    [2 * k + chain, 2 * k + 1 - chain].map(|m| (m <= degree).then_some(m))
+}
+
+/// The space S_h of (3.2), for any degree, with u, φ and θ in one numbering.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Space {
+    mesh: Mesh,
+    degree: usize,
+    lengths: Vec<f64>,
+    couplings: Vec<Coupling>,
+    rotation_integrals: Vec<f64>,
+}
+
+impl Space {
+    /// Elements of the given degree, 1..=[`MAX_DEGREE`](super::MAX_DEGREE), on a mesh.
+    pub(super) fn new(mesh: Mesh, degree: usize) -> Self {
+        let lengths = mesh.lengths().collect();
+        let blocks = 2 + 2 * (degree / 2);
+        let mut couplings = vec![];
+        for row in 0..blocks {
+            for column in 0..blocks {
+                couplings.extend(coupling(row, column, degree));
+            }
+        }
+        let mut space = Self { mesh, degree, lengths, couplings, rotation_integrals: vec![] };
+        space.rotation_integrals = space.integrals_of_rotations();
+        space
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The degree p.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Blocks of three coefficients, those that are always zero included.
+    pub fn blocks(&self) -> usize {
+        self.lengths.len() + 1 + self.lengths.len() * self.inner()
+    }
+
+    /// Lengths of the elements.
+    pub(super) fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// Couplings within an element.
+    pub(super) fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    /// `∫ χ` of each block's basis function of φ.
+    pub(super) fn rotation_integrals(&self) -> &[f64] {
+        &self.rotation_integrals
+    }
+
+    /// The block of the free end.
+    pub(super) fn tip(&self) -> usize {
+        self.lengths.len()
+    }
+
+    /// Blocks of an element without its hats.
+    pub(super) fn inner(&self) -> usize {
+        2 * (self.degree / 2)
+    }
+
+    /// Where block `local` of an element is stored.
+    pub(super) fn block(&self, element: usize, local: usize) -> usize {
+        if local < 2 { element + local } else { self.tip() + 1 + element * self.inner() + local - 2 }
+    }
+
+    /// Block and place in it of the coefficient that a field has in degree m of an element (0 and 1: the hats).
+    pub fn place(&self, field: Field, element: usize, m: usize) -> (usize, usize) {
+        let phi = matches!(field, Field::Phi | Field::W);
+        let place = match field {
+            Field::U | Field::V => 0,
+            Field::Phi | Field::W => 1,
+            Field::Theta => 2,
+        };
+        let chain = if phi { 1 - m % 2 } else { m % 2 };
+        let local = if m < 2 { m } else { 2 * (m / 2) + chain };
+        (self.block(element, local), place)
+    }
+
+    /// Does the coefficient exist, and is it free? Hats of clamped ends are not.
+    fn is_free(&self, field: Field, element: usize, m: usize) -> bool {
+        let last = self.lengths.len() - 1;
+        !(element == 0 && m == 0 || field == Field::Theta && element == last && m == 1)
+    }
+
+    /// Adds (f, χ) for every basis function χ of a field to a load, by Gauss quadrature with so many points an element.
+    ///
+    /// * `field`: which equation's test functions; V and W stand for those of u and φ.
+    /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs into block n, the number of elements.
+    pub fn add_load(&self, field: Field, points: &[(f64, f64)], f: impl Fn(f64) -> f64, load: &mut [[f64; 3]]) {
+        for (element, x) in self.mesh.nodes().windows(2).enumerate() {
+            let half = 0.5 * (x[1] - x[0]);
+            for &(xi, weight) in points {
+                let basis = Basis::at(xi, self.degree);
+                let value = half * weight * f(x[0] + half * (1.0 + xi));
+                for m in (0..=self.degree).filter(|&m| self.is_free(field, element, m)) {
+                    let (block, place) = self.place(field, element, m);
+                    load[block][place] += value * basis.values[m];
+                }
+            }
+        }
+    }
+
+    /// Gauss points and weights on [-1, 1], for [`Self::add_load`].
+    pub fn gauss(count: usize) -> Vec<(f64, f64)> {
+        legendre::gauss(count)
+    }
+
+    /// (3.6): the projection of f in the H¹ product, handed to `put` with element, block and place.
+    ///
+    /// It meets f in the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the product of derivatives, I the
+    /// interpolation in the nodes, which after integration by parts need no derivative of f:
+    /// `c_m = -√((2m - 1)/2) ∫ (f - I f) P_{m-1}' dξ`.
+    pub(super) fn project(&self, field: Field, f: impl Fn(f64) -> f64, mut put: impl FnMut(usize, usize, usize, f64)) {
+        let points = legendre::gauss(2 * self.degree + 16);
+        for (element, x) in self.mesh.nodes().windows(2).enumerate() {
+            let ends = [f(x[0]), f(x[1])];
+            let mut coefficients = [0.0; element::MAX_DEGREE + 1];
+            for &(xi, weight) in &points {
+                let value = f(0.5 * ((1.0 - xi) * x[0] + (1.0 + xi) * x[1]));
+                let rest = value - 0.5 * ((1.0 - xi) * ends[0] + (1.0 + xi) * ends[1]);
+                let (mut values, mut slopes) = ([0.0; element::MAX_DEGREE + 1], [0.0; element::MAX_DEGREE + 1]);
+                legendre::values_into(xi, &mut values[..=self.degree]);
+                legendre::derivatives_into(&values[..=self.degree], &mut slopes[..=self.degree]);
+                for m in 2..=self.degree {
+                    coefficients[m] -= weight * (0.5 * (2 * m - 1) as f64).sqrt() * rest * slopes[m - 1];
+                }
+            }
+            coefficients[..2].copy_from_slice(&ends);
+            for m in 0..=self.degree {
+                let (block, place) = self.place(field, element, m);
+                put(element, block, place, if self.is_free(field, element, m) { coefficients[m] } else { 0.0 });
+            }
+        }
+    }
+
+    /// The element that holds x, and its ξ. Points beyond the ends belong to the outermost elements.
+    fn locate(&self, x: f64) -> (usize, f64) {
+        let nodes = self.mesh.nodes();
+        let element = nodes.partition_point(|node| *node <= x).clamp(1, self.lengths.len()) - 1;
+        (element, (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element])
+    }
+
+    /// Value and slope at x of the field whose coefficients `coefficient(block, place)` gives.
+    pub(super) fn evaluate(&self, field: Field, x: f64, coefficient: impl Fn(usize, usize) -> f64) -> (f64, f64) {
+        let (element, xi) = self.locate(x);
+        let basis = Basis::at(xi, self.degree);
+        let (mut value, mut slope) = (0.0, 0.0);
+        for m in 0..=self.degree {
+            let (block, place) = self.place(field, element, m);
+            let coefficient = coefficient(block, place);
+            value += coefficient * basis.values[m];
+            slope += coefficient * basis.slopes[m];
+        }
+        (value, slope * 2.0 / self.lengths[element])
+    }
+}
+
+/// What two blocks of the reference element have to do with each other, if anything.
+fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
+    let ([u_row, phi_row], [u_column, phi_column]) = (degrees(row, degree), degrees(column, degree));
+    let of = |matrix: fn(usize, usize) -> f64, i: Option<usize>, j: Option<usize>| match (i, j) {
+        (Some(i), Some(j)) => matrix(i, j),
+        _ => 0.0,
+    };
+    let transposed = |i, j| element::coupling(j, i);
+    let coupling = Coupling {
+        row,
+        column,
+        mass_u: of(element::mass, u_row, u_column),
+        mass_phi: of(element::mass, phi_row, phi_column),
+        stiff_u: of(element::stiffness, u_row, u_column),
+        stiff_phi: of(element::stiffness, phi_row, phi_column),
+        u_phi: of(element::coupling, u_row, phi_column),
+        phi_u: of(transposed, phi_row, u_column),
+        phi_theta: of(element::coupling, phi_row, u_column),
+        theta_phi: of(transposed, u_row, phi_column),
+    };
+    let Coupling { mass_u, mass_phi, stiff_u, stiff_phi, u_phi, phi_u, phi_theta, theta_phi, .. } = coupling;
+    let entries = [mass_u, mass_phi, stiff_u, stiff_phi, u_phi, phi_u, phi_theta, theta_phi];
+    entries.iter().any(|entry| *entry != 0.0).then_some(coupling)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_coefficient_has_its_own_place() {
+        for degree in 1..=9 {
+            let space = Space::new(Mesh::uniform(3).unwrap(), degree);
+            for field in [Field::U, Field::Phi, Field::Theta] {
+                let mut places: Vec<_> = (0..3)
+                    .flat_map(|e| (0..=degree).map(move |m| (e, m)))
+                    .map(|(e, m)| space.place(field, e, m))
+                    .collect();
+                places.sort_unstable();
+                places.dedup();
+                // Inner nodes belong to two elements.
+                assert_eq!(places.len(), 3 * degree + 1, "{field:?} of degree {degree}");
+                assert!(places.iter().all(|(block, _)| *block < space.blocks()));
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_meet_their_neighbours_in_the_chain_and_the_first_ones_the_hats() {
+        for degree in 1..=12 {
+            for coupling in Space::new(Mesh::uniform(1).unwrap(), degree).couplings() {
+                let (row, column) = (coupling.row.min(coupling.column), coupling.row.max(coupling.column));
+                let hats = row < 2 && column < 4;
+                assert!(hats || column - row == 2 || column == row, "{coupling:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn polynomials_are_their_own_projections() {
+        let mesh = Mesh::from_nodes(vec![0.0, 0.2, 0.7, 1.0]).unwrap();
+        let polynomial = |x: f64| x * (x - 0.3) * (1.0 + 2.0 * x * x);
+        let slope = |x: f64| 8.0 * x.powi(3) - 1.8 * x * x + 2.0 * x - 0.3;
+        let space = Space::new(mesh, 4);
+        for field in [Field::U, Field::W] {
+            let mut coefficients = vec![[0.0; 3]; space.blocks()];
+            space.project(field, polynomial, |_, block, place, value| coefficients[block][place] = value);
+            for i in 0..=50 {
+                let x = f64::from(i) / 50.0;
+                let (value, derivative) = space.evaluate(field, x, |block, place| coefficients[block][place]);
+                assert!((value - polynomial(x)).abs() < 4e-15, "{x}: {value}");
+                assert!((derivative - slope(x)).abs() < 4e-13, "{x}: {derivative}");
+            }
+        }
+    }
+}

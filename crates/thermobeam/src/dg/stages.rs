@@ -1,0 +1,377 @@
+//! The polynomials of one step, and how they are found.
+
+use super::block::Block;
+use super::contact_event::{Phase, Polynomial};
+use super::energy::Losses;
+use super::error::StepFailure;
+use super::factor::{Factor, LostPivot};
+use super::load::{Forcing, Load};
+use super::operator::Operator;
+use super::residual::{Equations, Path, Terms, terms};
+use super::space::{Field, Space};
+use super::time::{MAX_STAGES, TimeForms};
+use super::{Level, Work};
+use crate::parameters::{Beam, Obstacles};
+
+/// Two lengths that share a factorisation: the iteration then contracts by about their relative difference.
+const SAME_LENGTH: f64 = 5e-3;
+
+/// A factorisation is replaced where the iteration contracts more slowly than this and a better one is to be had.
+const SLOW: f64 = 0.2;
+
+/// Increments below so many rounding errors of the solution cannot shrink any more.
+const FLOOR: f64 = 16.0 * f64::EPSILON;
+
+/// Memory that factorisations may take together, in bytes, two of them apart.
+const FACTOR_BYTES: usize = 64 << 20;
+
+/// Factorisations for steps that are cut.
+const SPARE: usize = 3;
+
+/// One step to be done.
+pub(super) struct Task<'a> {
+    pub(super) space: &'a Space,
+    pub(super) beam: &'a Beam,
+    pub(super) obstacles: Option<&'a Obstacles>,
+    /// The level at its start.
+    pub(super) level: &'a Level,
+    /// Its length.
+    pub(super) h: f64,
+    /// What the free end touches.
+    pub(super) phase: Phase,
+    /// Bound on the last increment.
+    pub(super) tolerance: f64,
+    pub(super) max_iterations: usize,
+}
+
+/// The step for any degree q in time, q being no parameter of the type.
+pub(super) trait Stages {
+    /// Starts from velocities and a temperature that are constant in time.
+    fn guess_constant(&mut self, level: &Level);
+    /// Starts from the last step's polynomials, continued over a step that is `ratio` times as long.
+    fn guess_continued(&mut self, ratio: f64);
+    /// Restricts what was found last to the first part, from 0 to `ratio`, of its step.
+    fn restrict(&mut self, ratio: f64);
+    /// Finds the polynomials of a step, from the guess; returns the iterations done.
+    fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure>;
+    /// u(1, t).
+    fn tip(&self, space: &Space) -> Polynomial;
+    /// Keeps what was found as the last step.
+    fn accept(&mut self);
+    /// The level at s of the last step, 0 < s <= 1, from the level at its start.
+    fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level);
+    /// One coefficient of the space, as a polynomial over the last step.
+    fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial;
+    /// What the last step lost, apart from contact.
+    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Losses;
+    /// Counts.
+    fn work(&self) -> Work;
+}
+
+/// A factorisation and what it was made for.
+struct Slot<const S: usize> {
+    h: f64,
+    n_value: f64,
+    used: usize,
+    factor: Factor<S>,
+}
+
+/// The polynomials of one step.
+struct Motion<const S: usize> {
+    /// v, w, θ~.
+    x: Vec<Block<S>>,
+    /// u and φ, among others.
+    terms: Vec<Terms<S>>,
+}
+
+/// [`Stages`] for q = S - 1.
+pub(super) struct Stepper<const S: usize> {
+    forms: TimeForms<S>,
+    trial: Motion<S>,
+    accepted: Motion<S>,
+    residual: Vec<Block<S>>,
+    weights: Vec<[f64; 3]>,
+    slots: Vec<Slot<S>>,
+    forcing: Option<Forcing<S>>,
+    work: Work,
+    clock: usize,
+}
+
+impl<const S: usize> Stepper<S> {
+    /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more.
+    pub(super) fn new(space: &Space, lengths: usize, load: Option<&(dyn Load + 'static)>) -> Self {
+        let blocks = space.blocks();
+        let motion = || Motion { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
+        let factor = Factor::new(space);
+        let affordable = (FACTOR_BYTES / factor.bytes()).max(2);
+        let slot = || Slot { h: 0.0, n_value: 0.0, used: 0, factor: factor.clone() };
+        Self {
+            forms: TimeForms::new(),
+            trial: motion(),
+            accepted: motion(),
+            residual: vec![[[0.0; S]; 3]; blocks],
+            weights: space.diagonal_mass(),
+            slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
+            forcing: load.map(|load| Forcing::new(blocks, load.points())),
+            work: Work::default(),
+            clock: 0,
+        }
+    }
+
+    /// The factorisation for a length: one that serves, or a new one in place of the one longest unused.
+    fn slot(&mut self, task: &Task<'_>, n_value: f64) -> Result<usize, StepFailure> {
+        self.clock += 1;
+        let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
+        let best = (0..self.slots.len()).min_by(|&i, &j| near(&self.slots[i]).total_cmp(&near(&self.slots[j])));
+        let index = match best.filter(|&index| near(&self.slots[index]) <= SAME_LENGTH) {
+            Some(index) => index,
+            None => {
+                let index = (0..self.slots.len()).min_by_key(|&index| self.slots[index].used).unwrap_or(0);
+                self.factorize(index, task, n_value)?;
+                index
+            }
+        };
+        self.slots[index].used = self.clock;
+        Ok(index)
+    }
+
+    fn factorize(&mut self, index: usize, task: &Task<'_>, n_value: f64) -> Result<(), StepFailure> {
+        let slot = &mut self.slots[index];
+        let compliance = task.obstacles.map_or(f64::INFINITY, |obstacles| obstacles.epsilon);
+        let operator = Operator::new(&self.forms, task.beam, task.h, n_value, compliance);
+        self.work.factorizations += 1;
+        (slot.h, slot.n_value) = (f64::NAN, n_value);
+        slot.factor.factorize(task.space, &operator).map_err(|LostPivot { node, pivot }| StepFailure::Indefinite {
+            node,
+            pivot,
+            n_value,
+        })?;
+        slot.h = task.h;
+        Ok(())
+    }
+
+    /// Subtracts the correction in `residual` from the polynomials; its size, and theirs, in the norm of the velocities.
+    fn correct(&mut self) -> (f64, f64) {
+        let (mut change, mut size) = (0.0, 0.0);
+        for ((x, correction), weights) in self.trial.x.iter_mut().zip(&self.residual).zip(&self.weights) {
+            for field in 0..3 {
+                let (mut changes, mut sizes) = (0.0, 0.0);
+                for i in 0..S {
+                    x[field][i] -= correction[field][i];
+                    changes += self.forms.product[i] * correction[field][i] * correction[field][i];
+                    sizes += self.forms.product[i] * x[field][i] * x[field][i];
+                }
+                change += weights[field] * changes;
+                size += weights[field] * sizes;
+            }
+        }
+        (change.sqrt(), size.sqrt())
+    }
+
+    /// Re-expands the polynomials of `from` over the interval from `start` to `start + ratio` of their step.
+    fn re_expand(&self, start: f64, ratio: f64) -> [[f64; S]; S] {
+        // The matrix of the change of basis, by Gauss points that are exact to degree 4q + 3.
+        let mut matrix = [[0.0; S]; S];
+        for point in &self.forms.gauss {
+            let mut values = [0.0; S];
+            super::legendre::values_into(2.0 * (start + ratio * point.s) - 1.0, &mut values);
+            for i in 0..S {
+                let weight = point.weight * (2 * i + 1) as f64 * point.legendre[i];
+                for j in 0..S {
+                    matrix[i][j] += weight * values[j];
+                }
+            }
+        }
+        matrix
+    }
+}
+
+fn transform<const S: usize>(matrix: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] {
+    std::array::from_fn(|i| matrix[i].iter().zip(y).map(|(m, y)| m * y).sum())
+}
+
+impl<const S: usize> Stages for Stepper<S> {
+    fn guess_constant(&mut self, level: &Level) {
+        for (x, rates) in self.trial.x.iter_mut().zip(&level.rates) {
+            *x = [[0.0; S]; 3];
+            for field in 0..3 {
+                x[field][0] = rates[field];
+            }
+        }
+    }
+
+    fn guess_continued(&mut self, ratio: f64) {
+        let matrix = self.re_expand(1.0, ratio);
+        for (x, accepted) in self.trial.x.iter_mut().zip(&self.accepted.x) {
+            for field in 0..3 {
+                x[field] = transform(&matrix, &accepted[field]);
+            }
+        }
+    }
+
+    fn restrict(&mut self, ratio: f64) {
+        let matrix = self.re_expand(0.0, ratio);
+        for x in &mut self.trial.x {
+            for field in 0..3 {
+                x[field] = transform(&matrix, &x[field]);
+            }
+        }
+    }
+
+    fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure> {
+        if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
+            forcing.integrate(load, task.level.t, task.h);
+        }
+        let mut index = None;
+        let mut previous = f64::INFINITY;
+        let mut replaced = false;
+        for iteration in 1..=task.max_iterations {
+            let equations = Equations {
+                space: task.space,
+                forms: &self.forms,
+                beam: task.beam,
+                obstacles: task.obstacles,
+                level: task.level,
+                h: task.h,
+                phase: task.phase,
+                forcing: self.forcing.as_ref(),
+            };
+            let axial = equations.displace(&self.trial.x, &mut self.trial.terms);
+            equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
+            let n_value = axial.low[0][0];
+            if !n_value.is_finite() {
+                return Err(StepFailure::NonFinite { iterations: iteration });
+            }
+            let chosen = match index {
+                Some(index) => index,
+                None => self.slot(task, n_value)?,
+            };
+            index = Some(chosen);
+            self.work.solves += 1;
+            let in_contact = task.phase != Phase::Free;
+            self.slots[chosen].factor.solve_in_place(task.space, in_contact, &mut self.residual);
+            let (increment, mut size) = self.correct();
+            if in_contact {
+                // The contact force magnifies rounding errors of the position; over the step they are this velocity.
+                size += task.level.places[task.space.tip()][0].abs() / task.h;
+            }
+            if !increment.is_finite() {
+                return Err(StepFailure::NonFinite { iterations: iteration });
+            }
+            let contraction = increment / previous;
+            // The increments that are still to come add up to at most this, once their ratio is known.
+            let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
+            let known = iteration > 1 && rest <= task.tolerance;
+            if increment <= task.tolerance || known || increment <= FLOOR * size {
+                let equations = Equations {
+                    space: task.space,
+                    forms: &self.forms,
+                    beam: task.beam,
+                    obstacles: task.obstacles,
+                    level: task.level,
+                    h: task.h,
+                    phase: task.phase,
+                    forcing: self.forcing.as_ref(),
+                };
+                equations.displace(&self.trial.x, &mut self.trial.terms);
+                return Ok(iteration);
+            }
+            if contraction > 0.5 && increment <= 64.0 * FLOOR * size {
+                // Round-off: nothing more is to be had.
+                return Ok(iteration);
+            }
+            if contraction > SLOW && iteration > 1 && !replaced {
+                let slot = &self.slots[chosen];
+                let (other_length, other_force) = (slot.h != task.h, slot.n_value != n_value);
+                if other_length || other_force {
+                    self.factorize(chosen, task, n_value)?;
+                }
+                replaced = true;
+            } else if contraction >= 1.0 && iteration > 4 {
+                return Err(StepFailure::Diverged { iterations: iteration, increment, contraction });
+            }
+            previous = increment;
+        }
+        Err(StepFailure::IterationLimit { iterations: task.max_iterations, increment: previous })
+    }
+
+    fn tip(&self, space: &Space) -> Polynomial {
+        polynomial(&self.trial.terms[space.tip()].places[0])
+    }
+
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.trial, &mut self.accepted);
+        self.work.steps += 1;
+    }
+
+    fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level) {
+        level.t = start.t + h * s;
+        let motion = self.accepted.x.iter().zip(&self.accepted.terms);
+        for ((x, terms), (places, rates)) in motion.zip(level.places.iter_mut().zip(&mut level.rates)) {
+            for field in 0..2 {
+                places[field] = polynomial(&terms.places[field]).at(s);
+            }
+            for field in 0..3 {
+                rates[field] = super::legendre::sum(&x[field], s);
+            }
+        }
+    }
+
+    fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial {
+        match field {
+            Field::U | Field::Phi => polynomial(&self.accepted.terms[block].places[place]),
+            Field::V | Field::W | Field::Theta => {
+                let mut coefficients = [0.0; MAX_STAGES + 1];
+                coefficients[..S].copy_from_slice(&self.accepted.x[block][place]);
+                Polynomial { coefficients, degree: S - 1 }
+            }
+        }
+    }
+
+    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Losses {
+        let x = &self.accepted.x;
+        let mut losses = Losses::default();
+        for i in 0..S {
+            let duration = h * self.forms.product[i];
+            losses.viscous +=
+                duration * beam.zeta * space.strain(|b| [x[b][0][i], x[b][1][i]], |b| [x[b][0][i], x[b][1][i]]);
+            losses.thermal += duration * space.stiffness(|b| x[b][2][i], |b| x[b][2][i]);
+        }
+        let jump = |block: usize| -> [f64; 3] {
+            let at_start = |y: &[f64; S]| y.iter().zip(&self.forms.start).map(|(y, sign)| y * sign).sum::<f64>();
+            std::array::from_fn(|field| at_start(&x[block][field]) - start.rates[block][field])
+        };
+        losses.jumps = 0.5 * space.mass(jump, jump);
+        if let Some(forcing) = &self.forcing {
+            for (stage, moments) in forcing.moments.iter().enumerate() {
+                for (moment, x) in moments.iter().zip(x) {
+                    losses.load -= (0..3).map(|field| moment[field] * x[field][stage]).sum::<f64>();
+                }
+            }
+        }
+        losses
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
+
+fn polynomial<const S: usize>(path: &Path<S>) -> Polynomial {
+    let mut coefficients = [0.0; MAX_STAGES + 1];
+    coefficients[..S].copy_from_slice(&path.low);
+    coefficients[S] = path.top;
+    Polynomial { coefficients, degree: S }
+}
+
+/// The stepper of degree q in time.
+pub(super) fn stepper(q: usize, space: &Space, lengths: usize, load: Option<&(dyn Load + 'static)>) -> Box<dyn Stages> {
+    match q {
+        0 => Box::new(Stepper::<1>::new(space, lengths, load)),
+        1 => Box::new(Stepper::<2>::new(space, lengths, load)),
+        2 => Box::new(Stepper::<3>::new(space, lengths, load)),
+        3 => Box::new(Stepper::<4>::new(space, lengths, load)),
+        4 => Box::new(Stepper::<5>::new(space, lengths, load)),
+        _ => Box::new(Stepper::<6>::new(space, lengths, load)),
+    }
+}

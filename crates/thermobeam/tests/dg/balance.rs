@@ -1,0 +1,46 @@
+//! The energy's balance closes to round-off in every step, contact events included.
+
+use crate::scenes::{EXPERIMENTS, experiment, larger, simulate};
+use thermobeam::dg::{Simulation, Stepping};
+
+/// Largest residual of a step, the residuals' sum, and the largest rise of the energy.
+fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
+    let (mut worst, mut sum, mut rise) = (0.0, 0.0, f64::NEG_INFINITY);
+    while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
+        let balance = simulation.balance();
+        let terms = balance.change + balance.viscous + balance.thermal + balance.jumps + balance.load + balance.contact;
+        assert_eq!(terms, balance.residual);
+        assert!(balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.jumps >= 0.0, "{balance:?}");
+        worst = larger(worst, balance.residual.abs());
+        sum += balance.residual;
+        rise = larger(rise, balance.change);
+    }
+    (worst, sum, rise)
+}
+
+#[test]
+fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time() {
+    for (beta, theta_a) in EXPERIMENTS {
+        for q in 0..=5 {
+            let stepping = Stepping { degree: q, ..Stepping::default() };
+            let mut simulation = simulate(experiment(beta, theta_a, 10), stepping);
+            let scale = simulation.energy(simulation.level()).total();
+            let (worst, sum, rise) = residuals(&mut simulation, 2.0);
+            let events = simulation.events().len();
+
+            assert!(simulation.events().len() >= 3, "beta {beta}, theta_a {theta_a}, q = {q}: {events} events");
+            assert!(sum.abs() <= 2e-14 * scale && worst <= 1e-14 * scale, "q = {q}: {worst:e} {sum:e}");
+            assert!(rise <= 1e-13 * scale, "beta {beta}, theta_a {theta_a}, q = {q}: the energy rises by {rise:e}");
+        }
+    }
+}
+
+#[test]
+fn the_change_in_the_balance_is_the_difference_of_the_energies() {
+    let mut simulation = simulate(experiment(-0.5, 20.0, 9), Stepping::default());
+    while simulation.step(0.5).unwrap().is_some() {
+        let [old, new] = [simulation.old_level(), simulation.level()].map(|level| simulation.energy(level).total());
+        let change = simulation.balance().change;
+        assert!((new - old - change).abs() <= 1e-12 * old, "{change:e}");
+    }
+}

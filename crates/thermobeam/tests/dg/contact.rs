@@ -1,0 +1,178 @@
+//! Contact in all its forms: at once, at an obstacle at zero, between two obstacles at one place, and grazing.
+
+use crate::scenes::{advanced, close, experiment, larger, simulate, tip};
+use std::f64::consts::FRAC_PI_2;
+use thermobeam::dg::{ContactEvent, Field, Initial, Phase, Problem, Simulation, Stepping};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::MIDPOINT;
+use thermobeam::simulation as p1;
+use thermobeam::solve::Settings;
+
+/// A straight, cold beam whose free end moves with the given velocity.
+fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> Problem {
+    let initial = Initial { u_t: Box::new(move |x| velocity * (FRAC_PI_2 * x).sin()), ..Initial::at_rest(0.0) };
+    let mesh = Mesh::from_nodes(vec![0.0, 0.6, 0.9, 1.0]).unwrap();
+    Problem { beam: Beam::default(), obstacles: Some(obstacles), mesh, degree, initial }
+}
+
+/// The same by `midpoint` on a fine graded P1 mesh: u(1, t).
+fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
+    let mesh = Mesh::mapped(200, |s| 1.0 - (1.0 - s).powi(3)).unwrap();
+    let mut initial = p1::Initial::at_rest(&mesh, 0.0);
+    initial.u_t = mesh.nodes().iter().map(|x| velocity * (FRAC_PI_2 * x).sin()).collect();
+    let problem = p1::Problem { beam: Beam::default(), obstacles: Some(obstacles), mesh, initial };
+    let steps = 4000;
+    let stepping =
+        p1::Stepping { scheme: MIDPOINT, settings: Settings::default(), dt: t / f64::from(steps), loaded: false };
+    let mut simulation = p1::Simulation::new(problem, stepping).unwrap();
+    for _ in 0..steps {
+        simulation.advance().unwrap();
+    }
+    simulation.level().u[200]
+}
+
+/// Runs to the end; the worst residual of the balance, against the energy at the start, is round-off.
+#[track_caller]
+fn balanced(mut simulation: Simulation, t: f64) -> Simulation {
+    let scale = simulation.energy(simulation.level()).total();
+    let (mut worst, mut contact) = (0.0, 0.0);
+    while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
+        let balance = simulation.balance();
+        worst = larger(worst, balance.residual.abs());
+        contact = larger(contact, balance.contact.abs());
+    }
+    assert!(worst <= 1e-13 * scale, "the balance is open by {worst:e} of {scale}");
+    assert!(contact <= 1e-13 * scale, "contact costs {contact:e} of {scale}");
+    simulation
+}
+
+fn phases(events: &[ContactEvent]) -> Vec<Phase> {
+    events.iter().map(|event| event.to).collect()
+}
+
+fn stepping() -> Stepping {
+    Stepping { degree: 2, dt: 0.01, restart_dt: 2e-4, ..Stepping::default() }
+}
+
+#[test]
+fn an_obstacle_at_zero_is_touched_from_the_first_moment() {
+    for (obstacles, velocity, phase) in [
+        (Obstacles { g2: 0.0, ..Obstacles::default() }, 1.0, Phase::Upper),
+        (Obstacles { g1: 0.0, ..Obstacles::default() }, -1.0, Phase::Lower),
+    ] {
+        let simulation = balanced(simulate(thrown(velocity, obstacles, 10), stepping()), 0.01);
+        assert_eq!(phases(simulation.events()), [phase]);
+        assert_eq!(simulation.events()[0].t, 0.0);
+        let expected = by_linear_elements(velocity, obstacles, 0.01);
+        close(tip(&simulation, Field::U), expected, 2e-3 * expected.abs());
+        assert!(expected.abs() > 1e-3);
+    }
+}
+
+#[test]
+fn two_obstacles_at_one_place_are_touched_in_turn() {
+    let obstacles = Obstacles { epsilon: 1e-2, g1: 0.0, g2: 0.0 };
+    let simulation = balanced(simulate(thrown(1.0, obstacles, 10), stepping()), 3.0);
+    let events = simulation.events();
+    assert!(events.len() >= 3, "{events:?}");
+    assert!(events.iter().all(|event| event.from != Phase::Free && event.to != Phase::Free && event.from != event.to));
+    let early = advanced(thrown(1.0, obstacles, 10), stepping(), 0.2);
+    close(tip(&early, Field::U), by_linear_elements(1.0, obstacles, 0.2), 2e-4);
+    // With g_1 = g_2 = 0 the obstacle is a spring of both signs: from the other side everything is mirrored.
+    let mirrored = advanced(thrown(-1.0, obstacles, 10), stepping(), 3.0);
+    close(tip(&mirrored, Field::U), -tip(&simulation, Field::U), 1e-10);
+}
+
+#[test]
+fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
+    for (sign, phase) in [(1.0, Phase::Upper), (-1.0, Phase::Lower)] {
+        let initial = Initial { u: Box::new(move |x| sign * 0.15 * x * x), ..Initial::at_rest(0.0) };
+        let problem = Problem { initial, ..experiment(0.0, 0.0, 12) };
+        let simulation = simulate(problem, stepping());
+        assert_eq!(simulation.phase(), phase);
+        assert!(simulation.energy(simulation.level()).contact > 1.0);
+        let simulation = balanced(simulation, 0.5);
+        assert_eq!(simulation.events()[0].from, phase);
+        assert_eq!(simulation.events()[0].to, Phase::Free);
+    }
+}
+
+#[test]
+fn narrow_gaps_are_crossed() {
+    for gap in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+        let obstacles = Obstacles { epsilon: 1e-2, g1: -gap, g2: gap };
+        let simulation = balanced(simulate(thrown(1.0, obstacles, 8), stepping()), 1.0);
+        assert!(simulation.events().len() >= 3, "gap {gap}: {:?}", simulation.events());
+    }
+}
+
+/// The first maximum of u(1, t) of the first experiment without obstacles, to round-off.
+fn highest(stepping: Stepping) -> f64 {
+    let mut simulation = simulate(Problem { obstacles: None, ..experiment(0.0, 0.0, 8) }, stepping);
+    let mut top = f64::NEG_INFINITY;
+    while simulation.step(1.0).unwrap().is_some() {
+        let (start, end) = (simulation.old_level().t, simulation.t());
+        let at = |s: f64| simulation.value(Field::U, 1.0, start + s * (end - start)).unwrap();
+        for i in 0..=1000 {
+            top = top.max(at(f64::from(i) / 1000.0));
+        }
+    }
+    top
+}
+
+#[test]
+fn a_free_end_may_graze_an_obstacle() {
+    let stepping = Stepping::default();
+    let top = highest(stepping);
+    let mut touched = 0;
+    for exponent in 3..=17 {
+        for sign in [-1.0, 0.0, 1.0] {
+            let g2 = top + sign * 10.0_f64.powi(-exponent);
+            let obstacles = Obstacles { g1: -1.0, g2, ..Obstacles::default() };
+            let problem = Problem { obstacles: Some(obstacles), ..experiment(0.0, 0.0, 8) };
+            let simulation = balanced(simulate(problem, stepping), 1.2);
+            let found = phases(simulation.events());
+            assert!(found.chunks(2).all(|pair| pair == [Phase::Upper, Phase::Free]), "{exponent} {sign}: {found:?}");
+            touched += usize::from(!found.is_empty());
+            assert!(simulation.work().steps < 150, "{exponent} {sign}: {:?}", simulation.work());
+        }
+    }
+    assert!(touched >= 5, "{touched} of them touch");
+}
+
+#[test]
+fn every_compliance_is_solved() {
+    for epsilon in [1e-8, 1e-6, 1e-4, 1e-2, 1.0] {
+        let obstacles = Obstacles { epsilon, ..Obstacles::default() };
+        let problem = Problem { obstacles: Some(obstacles), ..experiment(0.0, 0.0, 8) };
+        let restart_dt = 0.2 * (epsilon * 0.1_f64.sqrt()).powf(2.0 / 3.0).min(5e-3);
+        let mut simulation = simulate(problem, Stepping { restart_dt, ..Stepping::default() });
+        simulation.advance(0.7).unwrap_or_else(|error| panic!("epsilon {epsilon}: {error}"));
+        assert!(
+            !simulation.events().is_empty() && simulation.work().steps < 10_000,
+            "epsilon {epsilon}: {:?}",
+            simulation.work()
+        );
+    }
+}
+
+#[test]
+fn an_event_ends_its_step_on_the_obstacle_exactly() {
+    let mut simulation = simulate(experiment(5.0, 0.0, 10), Stepping::default());
+    let mut events = 0;
+    while let Some(report) = simulation.step(3.0).unwrap() {
+        if let Some(event) = report.event {
+            let expected = if [event.from, event.to].contains(&Phase::Upper) { 0.1 } else { -0.01 };
+            assert_eq!(tip(&simulation, Field::U), expected);
+            let end = simulation.value(Field::U, 1.0, simulation.t()).unwrap();
+            close(end, expected, 1e-16);
+            assert_eq!((event.t, event.to), (simulation.t(), simulation.phase()));
+            events += 1;
+        }
+        let [start, end] = [simulation.old_level().t, simulation.t()];
+        assert!(end > start);
+    }
+    assert_eq!(events, simulation.events().len());
+    assert!(events > 8);
+}

@@ -1,0 +1,113 @@
+//! Bad input and steps that cannot be done are errors with names and numbers.
+
+use crate::scenes::{experiment, simulate};
+use thermobeam::dg::{Initial, Problem, SetupError, Simulation, StepError, StepFailure, Stepping};
+use thermobeam::parameters::{Beam, Obstacles};
+
+#[track_caller]
+fn refused(problem: Problem, stepping: Stepping) -> String {
+    match Simulation::new(problem, stepping) {
+        Ok(_) => panic!("it was taken"),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn good() -> Stepping {
+    Stepping::default()
+}
+
+#[test]
+fn settings_out_of_range_are_refused_by_name() {
+    for degree in [0, 41, 100] {
+        let message = refused(experiment(0.0, 0.0, degree), good());
+        assert_eq!(message, format!("degree of the elements = {degree}: allowed is an integer from 1 to 40"));
+    }
+    let cases = [
+        (Stepping { degree: 6, ..good() }, "degree in time = 6: allowed is an integer from 0 to 5"),
+        (Stepping { dt: 0.0, ..good() }, "dt = 0: allowed is a finite number > 0"),
+        (Stepping { dt: f64::NAN, ..good() }, "dt = NaN: allowed is a finite number > 0"),
+        (Stepping { dt: f64::INFINITY, ..good() }, "dt = inf: allowed is a finite number > 0"),
+        (Stepping { restart_dt: 0.03, ..good() }, "restart_dt = 0.03: allowed is a number > 0 and at most dt = 0.02"),
+        (Stepping { restart_dt: -1.0, ..good() }, "restart_dt = -1: allowed is a number > 0 and at most dt = 0.02"),
+        (Stepping { growth: 0.9, ..good() }, "growth = 0.9: allowed is a finite number >= 1"),
+        (Stepping { growth: f64::NAN, ..good() }, "growth = NaN: allowed is a finite number >= 1"),
+        (
+            Stepping { growth: 1.0001, ..good() },
+            "growth = 1.0001: allowed is a ratio that leads from restart_dt to dt in 1000 steps",
+        ),
+        (Stepping { tolerance: 0.0, ..good() }, "tolerance = 0: allowed is a finite number > 0"),
+        (Stepping { max_iterations: 0, ..good() }, "max_iterations = 0: allowed is an integer >= 1"),
+    ];
+    for (stepping, message) in cases {
+        assert_eq!(refused(experiment(0.0, 0.0, 4), stepping), message);
+    }
+    for degree in [1, 40] {
+        for q in [0, 5] {
+            assert!(Simulation::new(experiment(0.0, 0.0, degree), Stepping { degree: q, ..good() }).is_ok());
+        }
+    }
+}
+
+#[test]
+fn coefficients_and_initial_data_are_checked() {
+    let base = || experiment(0.0, 0.0, 4);
+    let beam = Problem { beam: Beam { rho: -1.0, ..Beam::default() }, ..base() };
+    assert_eq!(refused(beam, good()), "rho = -1: allowed is a finite number >= 0");
+    let obstacles = Problem { obstacles: Some(Obstacles { epsilon: 0.0, ..Obstacles::default() }), ..base() };
+    assert_eq!(refused(obstacles, good()), "epsilon = 0: allowed is a finite number > 0");
+    let with = |initial: Initial| Problem { initial, ..base() };
+    let lifted = Initial { u: Box::new(|x| 0.5 + x), ..Initial::at_rest(0.0) };
+    assert_eq!(refused(with(lifted), good()), "initial u at x = 0 is 0.5: allowed is 0");
+    let hot = Initial { theta: Box::new(|x| 2.0 * (1.0 - x)), ..Initial::at_rest(0.0) };
+    assert_eq!(refused(with(hot), good()), "initial theta at x = 0 is 2: allowed is 0");
+    let wild = Initial { phi_t: Box::new(|x| 1.0 / (x - x)), ..Initial::at_rest(0.0) };
+    let found = Simulation::new(with(wild), good()).err();
+    assert!(matches!(found, Some(SetupError::NotFinite { field: "phi_t", .. })), "{found:?}");
+}
+
+/// The error of a step that must fail, after which the simulation stands where it stood.
+#[track_caller]
+fn failed(mut simulation: Simulation) -> StepError {
+    let (level, events) = (simulation.level().clone(), simulation.events().to_vec());
+    let error = simulation.step(1e6).expect_err("a step that cannot be done");
+    assert_eq!((simulation.level(), simulation.events()), (&level, &events[..]));
+    assert_eq!((error.step, error.t), (1, 0.0));
+    error
+}
+
+#[test]
+fn a_beam_loaded_beyond_its_buckling_force_needs_small_steps() {
+    let beam = Beam { beta: -3.0, rho: 0.0, ..Beam::default() };
+    let problem = || Problem { beam, ..experiment(0.0, 0.0, 6) };
+    let long = Stepping { dt: 50.0, restart_dt: 50.0, ..good() };
+    let error = failed(simulate(problem(), long));
+    let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else { panic!("{error}") };
+    assert!(pivot < 0.0 && n_value < -0.7, "{error}");
+    let mut simulation = simulate(problem(), good());
+    simulation.advance(0.2).unwrap();
+}
+
+#[test]
+fn iterations_that_are_not_enough_are_an_error() {
+    let few = Stepping { max_iterations: 2, dt: 0.1, restart_dt: 0.1, ..good() };
+    let error = failed(simulate(experiment(0.0, 0.0, 6), few));
+    assert!(matches!(error.failure, StepFailure::IterationLimit { iterations: 2, .. }), "{error}");
+    assert!(error.to_string().starts_with("step 1 (from t = 0, length 1e-1): increment "), "{error}");
+}
+
+#[test]
+fn numbers_beyond_all_bounds_are_an_error() {
+    let initial = Initial { u_t: Box::new(|x| 1e200 * x), ..Initial::at_rest(0.0) };
+    let error = failed(simulate(Problem { initial, ..experiment(0.0, 0.0, 6) }, good()));
+    assert!(matches!(error.failure, StepFailure::NonFinite { .. }), "{error}");
+}
+
+#[test]
+fn a_limit_in_the_past_or_no_number_is_no_step() {
+    let mut simulation = simulate(experiment(0.0, 0.0, 6), good());
+    for limit in [0.0, -1.0, f64::NAN] {
+        assert_eq!(simulation.step(limit), Ok(None));
+    }
+    simulation.advance(0.1).unwrap();
+    assert_eq!((simulation.t(), simulation.step(0.05)), (0.1, Ok(None)));
+}

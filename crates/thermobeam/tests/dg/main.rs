@@ -1,0 +1,17 @@
+//! The laws of the scheme of any order.
+
+mod scenes;
+
+#[path = "../p1_matrices/mod.rs"]
+mod p1_matrices;
+
+mod allocation;
+mod balance;
+mod contact;
+mod experiment;
+mod failure;
+mod first_member;
+mod linear;
+mod manufactured;
+mod order_in_time;
+mod steady;

@@ -19,6 +19,7 @@
 //! t_end = 10.0
 //! ```
 
+pub mod any_order;
 pub(crate) mod functions;
 pub(crate) mod limits;
 pub(crate) mod tables;
@@ -112,7 +113,8 @@ impl Scene {
         time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
         let (dt, t_end, steps) = time_steps(&time)?;
         let (scheme, settings) = (tables::scheme(&time)?, tables::settings(&time)?);
-        let mesh = mesh(root)?;
+        let mesh = mesh(root, DEFAULT_ELEMENTS)?;
+        linear_elements(root)?;
         let initial = initial(root, &beam, &mesh)?;
         Ok(Self { name, beam, obstacles, initial, mesh, dt, t_end, steps, scheme, settings })
     }
@@ -149,11 +151,11 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64, usize), InputError> {
 }
 
 /// The table `[mesh]`.
-fn mesh(root: &Section<'_>) -> Result<Mesh, InputError> {
+fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError> {
     let section = root.section("mesh")?;
     let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
     if let Some(section) = &section {
-        section.allow(&["elements", "map", "nodes"])?;
+        section.allow(&["elements", "map", "nodes", "degree"])?;
     }
     if let Some(nodes) = get("nodes") {
         if let Some(other) = get("elements").or_else(|| get("map")) {
@@ -163,13 +165,20 @@ fn mesh(root: &Section<'_>) -> Result<Mesh, InputError> {
         }
         return listed_nodes(&nodes);
     }
-    let elements = get("elements").map_or(Ok(DEFAULT_ELEMENTS), |field| tables::elements(&field))?;
+    let elements = get("elements").map_or(Ok(default_elements), |field| tables::elements(&field))?;
     let Some(field) = get("map") else {
         return Mesh::uniform(elements).map_err(|error| root.refuse("mesh", error.to_string(), "a valid mesh"));
     };
     let map = field.expression(Variable::S)?;
     field.finite(&map, 1.0, 0)?;
     tables::checked_mesh(Mesh::mapped(elements, |s| map.eval(s)), &field)
+}
+
+/// Refuses elements of a higher degree: one-step schemes work on linear ones.
+fn linear_elements(root: &Section<'_>) -> Result<(), InputError> {
+    let degree = root.section("mesh")?.and_then(|section| section.get("degree"));
+    let Some(field) = degree.filter(|field| !field.count(1..=1).is_ok()) else { return Ok(()) };
+    Err(field.refuse(field.as_written(), "1, or time.scheme = \"dg\" for elements of higher degree"))
 }
 
 fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {

@@ -1,6 +1,7 @@
 //! `run SCENE`: simulates one scene.
 
 mod accuracy;
+mod any_order;
 mod summary;
 
 use std::io;
@@ -12,8 +13,8 @@ use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
-use thermobeam_study::run::simulate::{Object, Recording, Run, Simulator, figures};
-use thermobeam_study::scene::Scene;
+use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
+use thermobeam_study::scene::any_order::SceneFile;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::interrupt;
@@ -60,7 +61,10 @@ struct Printed<'a> {
 
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let read = Scene::read(&arguments.scene)?;
+    let read = match SceneFile::read(&arguments.scene)? {
+        SceneFile::AnyOrder(scene) => return any_order::simulate(arguments, &scene),
+        SceneFile::OneStep(scene) => scene,
+    };
     let (scene, planned) = match arguments.target_error {
         None => (read, None),
         Some(target) => match accuracy::choose(read, arguments.quantity, target) {
@@ -86,7 +90,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
     let (run, _) = time_limit::within(arguments.time_limit, simulate);
     bar.finish_and_clear();
-    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, &scene, &run))?;
+    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| {
+        let history = run.record.iter().map(|record| ("history.csv", record.csv()));
+        write_files(folder, history.chain(figures(&scene, &run)))
+    })?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
     let budget = wanted.then(|| estimate(&scene)).transpose().map_err(|error| format!("error budget: {error}"));
@@ -114,11 +121,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     })
 }
 
-/// Writes the history and the pictures; returns their paths.
-fn write_files(folder: &Path, scene: &Scene, run: &Run) -> io::Result<Vec<PathBuf>> {
-    let history = run.record.iter().map(|record| ("history.csv", record.csv()));
+/// Writes files into a folder; returns their paths.
+fn write_files(folder: &Path, files: impl Iterator<Item = (&'static str, String)>) -> io::Result<Vec<PathBuf>> {
     let mut written = Vec::new();
-    for (name, content) in history.chain(figures(scene, run)) {
+    for (name, content) in files {
         let path = folder.join(name);
         atomic::write(&path, content)?;
         written.push(path);

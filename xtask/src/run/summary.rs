@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use super::accuracy::Planned;
-use thermobeam_study::run::simulate::{Run, energy_at_rest};
+use thermobeam_study::figures::energy_at_rest;
+use thermobeam_study::run::simulate::Run;
 use thermobeam_study::scene::Scene;
 
 /// A line of the summary: name, value, meaning.
@@ -25,16 +26,21 @@ pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, writt
     if !skipped.is_empty() {
         section(&mut text, "left out", skipped);
     }
+    list(&mut text, written);
+    text
+}
+
+/// The files that were written.
+pub(super) fn list(text: &mut String, written: &[PathBuf]) {
     if !written.is_empty() {
         text.push_str("\nwrote\n");
     }
     for path in written {
         let _ = writeln!(text, "  {}", path.display());
     }
-    text
 }
 
-fn section(text: &mut String, title: &str, lines: Vec<Line>) {
+pub(super) fn section(text: &mut String, title: &str, lines: Vec<Line>) {
     let _ = writeln!(text, "\n{title}");
     for (name, value, meaning) in lines {
         let line = format!("  {name:<18}{value:>20}   {meaning}");
@@ -86,7 +92,7 @@ fn work(scene: &Scene, run: &Run) -> Vec<Line> {
     lines
 }
 
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:.12e}")
 }
 
@@ -131,7 +137,7 @@ fn energy(scene: &Scene, run: &Run) -> Vec<Line> {
     let energy = &run.energy;
     let mut lines =
         vec![("initial", number(energy.initial), String::new()), ("final", number(energy.last), String::new())];
-    if let Some(rest) = energy_at_rest(scene) {
+    if let Some(rest) = energy_at_rest(&scene.beam) {
         lines.push(("straight beam", number(rest), "beta^2/(4 rho), the straight beam at rest".to_owned()));
     }
     let increase = energy.largest_increase;

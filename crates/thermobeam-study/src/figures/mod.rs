@@ -3,7 +3,9 @@
 mod animation;
 mod bifurcation;
 mod contraction;
+mod scene;
 
 pub use animation::{Animation, animation};
 pub use bifurcation::{Bifurcation, Branch, bifurcation};
 pub use contraction::{Contraction, contraction};
+pub use scene::{SceneMotion, energy_at_rest};

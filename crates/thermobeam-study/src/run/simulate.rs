@@ -41,7 +41,7 @@ use crate::scene::Scene;
 use convergence_study::run::time_limit::{Patience, TimeUp};
 use convergence_study::text::number::max_or_nan;
 
-pub use figures::{energy_at_rest, figures};
+pub use figures::figures;
 pub use object::Object;
 pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
 pub use together::{Together, run_together};

@@ -1,0 +1,456 @@
+//! A scene of any order, run: dG(q) from event to event, sampled from the polynomials inside its steps.
+//!
+//! The history is as fine as asked, whatever the steps: u, φ and their rates are polynomials within a step. Energy and its
+//! balance are summed over the steps themselves.
+
+use std::time::{Duration, Instant};
+
+use convergence_study::run::time_limit::{Patience, TimeUp};
+use convergence_study::text::number::max_or_nan;
+use serde::Serialize;
+use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Simulation, StepError};
+use thiserror::Error;
+
+use crate::figures::SceneMotion;
+use crate::scene::any_order::{AnyOrderScene, SCHEME};
+
+/// Points of a step at which the free end's extremes are looked for.
+const POINTS_PER_STEP: usize = 16;
+
+/// Times of a history: more than a figure has columns.
+pub const HISTORY_TIMES: usize = 4000;
+
+/// Frames of the displacement over space and time, and points of a frame.
+const FRAMES: usize = 440;
+const FRAME_POINTS: usize = 141;
+
+/// Why a run ended before the scene's end.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum AnyOrderFailure {
+    /// A step failed.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The time limit was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
+}
+
+/// The state at one time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct State {
+    /// The time.
+    pub t: f64,
+    /// u(1).
+    pub u_tip: f64,
+    /// φ(1).
+    pub phi_tip: f64,
+    /// u_t(1).
+    pub u_t_tip: f64,
+    /// φ_t(1).
+    pub phi_t_tip: f64,
+    /// The physical temperature at x = 1/2.
+    pub theta_mid: f64,
+    /// The energy, θ_A term included.
+    pub energy: f64,
+}
+
+/// The free end's range over the whole time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Extremes {
+    /// Smallest u(1).
+    pub u_tip_min: f64,
+    /// Largest u(1).
+    pub u_tip_max: f64,
+}
+
+/// Energy and balance over all steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EnergyOverSteps {
+    /// At t = 0.
+    pub initial: f64,
+    /// At the end.
+    #[serde(rename = "final")]
+    pub last: f64,
+    /// Largest change in a step; negative where the energy always falls, NaN without a step.
+    pub largest_increase: f64,
+    /// Largest residual of the balance in a step, in absolute value.
+    pub largest_balance_residual: f64,
+}
+
+/// Displacement over space and time, for pictures.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Frames {
+    /// Times.
+    pub times: Vec<f64>,
+    /// Points x.
+    pub points: Vec<f64>,
+    /// `u[k][i]` at `times[k]` and `points[i]`.
+    pub u: Vec<Vec<f64>>,
+}
+
+/// A finished run, or the part of it that was done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnyOrderRun {
+    /// Steps done.
+    pub steps: usize,
+    /// Iterations of all steps, and of the step that took most.
+    pub iterations: (usize, usize),
+    /// Time spent in steps.
+    pub wall: Duration,
+    /// The start and the last level.
+    pub ends: [State; 2],
+    /// The free end's range.
+    pub extremes: Extremes,
+    /// Energy and balance.
+    pub energy: EnergyOverSteps,
+    /// Where contact began and ended.
+    pub events: Vec<ContactEvent>,
+    /// Solves and factorisations.
+    pub work: thermobeam::dg::Work,
+    /// States at equally spaced times; empty unless asked for.
+    pub history: Vec<State>,
+    /// Displacement over space and time; empty unless asked for.
+    pub frames: Frames,
+    /// Why the run ended early, if it did.
+    pub failure: Option<AnyOrderFailure>,
+}
+
+/// Runs a scene.
+///
+/// * `times`: how many equally spaced times the history has beside t = 0; 0 for no history and no frames.
+/// * `progress`: called after every step with the time reached.
+///
+/// # Errors
+/// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
+pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
+    let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
+    let mut observed = Observed::new(&simulation, scene, times);
+    let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
+    let (mut wall, mut failure) = (Duration::ZERO, None);
+    loop {
+        if let Err(up) = patience.check(simulation.work().steps, || simulation.t()) {
+            failure = Some(up.into());
+            break;
+        }
+        let started = Instant::now();
+        let outcome = simulation.step(scene.t_end);
+        wall += started.elapsed();
+        match outcome {
+            Ok(Some(report)) => observed.step(&simulation, report.iterations),
+            Ok(None) => break,
+            Err(error) => {
+                failure = Some(error.into());
+                break;
+            }
+        }
+        progress(simulation.t());
+    }
+    Ok(observed.finish(&simulation, wall, failure))
+}
+
+/// What is seen of the steps.
+struct Observed<'s> {
+    scene: &'s AnyOrderScene,
+    level: Level,
+    first: State,
+    extremes: Extremes,
+    iterations: (usize, usize),
+    largest_increase: f64,
+    largest_residual: f64,
+    times: usize,
+    history: Vec<State>,
+    frames: Frames,
+}
+
+impl<'s> Observed<'s> {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize) -> Self {
+        let level = simulation.level().clone();
+        let first = state(simulation, scene, &level);
+        let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
+        let mut observed = Self {
+            scene,
+            level,
+            first,
+            extremes: Extremes { u_tip_min: first.u_tip, u_tip_max: first.u_tip },
+            iterations: (0, 0),
+            largest_increase: f64::NAN,
+            largest_residual: 0.0,
+            times,
+            history: vec![],
+            frames: Frames { points, ..Frames::default() },
+        };
+        if times > 0 {
+            observed.history.push(first);
+            observed.frame(simulation, 0.0);
+        }
+        observed
+    }
+
+    fn step(&mut self, simulation: &Simulation, iterations: usize) {
+        self.iterations = (self.iterations.0 + iterations, self.iterations.1.max(iterations));
+        let Balance { change, residual, .. } = simulation.balance();
+        let increase = if self.largest_increase.is_nan() && simulation.work().steps == 1 {
+            change
+        } else {
+            max_or_nan(self.largest_increase, change)
+        };
+        self.largest_increase = increase;
+        self.largest_residual = max_or_nan(self.largest_residual, residual.abs());
+        let (from, to) = (simulation.old_level().t, simulation.t());
+        for k in 1..=POINTS_PER_STEP {
+            let t = if k == POINTS_PER_STEP { to } else { from + (to - from) * k as f64 / POINTS_PER_STEP as f64 };
+            let u = simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN);
+            self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u);
+            self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u);
+        }
+        self.sample(simulation, from, to);
+    }
+
+    /// The states of the history that lie in the last step.
+    fn sample(&mut self, simulation: &Simulation, from: f64, to: f64) {
+        let t_end = self.scene.t_end;
+        for t in grid(t_end, self.times, from, to) {
+            if simulation.level_into(t, &mut self.level) {
+                let state = state(simulation, self.scene, &self.level);
+                self.history.push(state);
+            }
+        }
+        if self.times > 0 {
+            for t in grid(t_end, FRAMES, from, to) {
+                self.frame(simulation, t);
+            }
+        }
+    }
+
+    fn frame(&mut self, simulation: &Simulation, t: f64) {
+        let u = |&x: &f64| simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
+        self.frames.u.push(self.frames.points.iter().map(u).collect());
+        self.frames.times.push(t);
+    }
+
+    fn finish(self, simulation: &Simulation, wall: Duration, failure: Option<AnyOrderFailure>) -> AnyOrderRun {
+        let last = state(simulation, self.scene, simulation.level());
+        AnyOrderRun {
+            steps: simulation.work().steps,
+            iterations: self.iterations,
+            wall,
+            ends: [self.first, last],
+            extremes: self.extremes,
+            energy: EnergyOverSteps {
+                initial: self.first.energy,
+                last: last.energy,
+                largest_increase: self.largest_increase,
+                largest_balance_residual: self.largest_residual,
+            },
+            events: simulation.events().to_vec(),
+            work: simulation.work(),
+            history: self.history,
+            frames: self.frames,
+            failure,
+        }
+    }
+}
+
+/// Those of `t_end k / count`, k = 1 ... count, that lie in (from, to].
+fn grid(t_end: f64, count: usize, from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let time = move |k: usize| if k == count { t_end } else { t_end * k as f64 / count as f64 };
+    let first = if t_end > 0.0 { (from / t_end * count as f64).floor() as usize } else { count };
+    (first.max(1)..=count).map(time).skip_while(move |&t| t <= from).take_while(move |&t| t <= to)
+}
+
+fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> State {
+    let space = simulation.space();
+    let at = |field, x| level.value_and_slope(space, field, x).0;
+    State {
+        t: level.t,
+        u_tip: at(Field::U, 1.0),
+        phi_tip: at(Field::Phi, 1.0),
+        u_t_tip: at(Field::V, 1.0),
+        phi_t_tip: at(Field::W, 1.0),
+        theta_mid: at(Field::Theta, 0.5) + 0.5 * scene.beam.theta_a,
+        energy: simulation.energy(level).total(),
+    }
+}
+
+impl AnyOrderRun {
+    /// The history as comma-separated values, with enough digits to read back every bit.
+    pub fn csv(&self) -> String {
+        let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,energy\n");
+        for s in &self.history {
+            let row = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.energy];
+            let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
+            csv += &(cells.join(",") + "\n");
+        }
+        csv
+    }
+
+    /// Names of files and their SVG documents; none where no history was asked for.
+    pub fn pictures(&self, scene: &AnyOrderScene) -> Vec<(&'static str, String)> {
+        if self.history.is_empty() {
+            return vec![];
+        }
+        let over_time = |value: fn(&State) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
+        let motion = SceneMotion {
+            name: &scene.name,
+            beam: &scene.beam,
+            obstacles: scene.obstacles,
+            u_tip: over_time(|state| state.u_tip),
+            phi_tip: over_time(|state| state.phi_tip),
+            energy: over_time(|state| state.energy),
+            contact: self.contact_phases(scene.t_end),
+            times: &self.frames.times,
+            points: &self.frames.points,
+            frames: &self.frames.u,
+        };
+        motion.pictures()
+    }
+
+    /// Intervals of time in which the free end touched an obstacle, from the events.
+    pub fn contact_phases(&self, t_end: f64) -> Vec<(f64, f64)> {
+        let mut phases: Vec<(f64, f64)> = vec![];
+        for event in &self.events {
+            if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
+                phase.1 = event.t;
+            }
+            if event.to != Phase::Free {
+                phases.push((event.t, t_end));
+            }
+        }
+        phases
+    }
+}
+
+/// The object that `run --format json` prints; names and order of the first keys are those of a one-step run.
+#[derive(Debug, Serialize)]
+pub struct AnyOrderObject<'r> {
+    scene: &'r str,
+    elements: usize,
+    steps: usize,
+    dt: f64,
+    t_end: f64,
+    iterations: Iterations,
+    wall_seconds: f64,
+    #[serde(rename = "final")]
+    last: State,
+    extremes: Extremes,
+    energy: EnergyOverSteps,
+    scheme: &'static str,
+    degree: usize,
+    time_degree: usize,
+    restart_dt: f64,
+    growth: f64,
+    work: Work,
+    events: Vec<Event>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<Failure>,
+}
+
+#[derive(Debug, Serialize)]
+struct Iterations {
+    total: usize,
+    max: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Work {
+    passes: usize,
+    factorizations: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Event {
+    t: f64,
+    from: &'static str,
+    to: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Failure {
+    step: usize,
+    t: f64,
+    message: String,
+}
+
+/// A contact state in a word.
+pub fn phase_name(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Free => "free",
+        Phase::Lower => "lower",
+        Phase::Upper => "upper",
+    }
+}
+
+impl<'r> AnyOrderObject<'r> {
+    /// The object of a run of this scene.
+    pub fn new(scene: &'r AnyOrderScene, run: &AnyOrderRun) -> Self {
+        let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
+        Self {
+            scene: &scene.name,
+            elements: scene.mesh.elements(),
+            steps: run.steps,
+            dt: scene.stepping.dt,
+            t_end: scene.t_end,
+            iterations: Iterations { total: run.iterations.0, max: run.iterations.1 },
+            wall_seconds: run.wall.as_secs_f64(),
+            last: run.ends[1],
+            extremes: run.extremes,
+            energy: run.energy,
+            scheme: SCHEME,
+            degree: scene.degree,
+            time_degree: scene.stepping.degree,
+            restart_dt: scene.stepping.restart_dt,
+            growth: scene.stepping.growth,
+            work: Work { passes: run.work.solves, factorizations: run.work.factorizations },
+            events: run.events.iter().map(event).collect(),
+            failure: run.failure.as_ref().map(|failure| Failure {
+                step: run.steps + 1,
+                t: run.ends[1].t,
+                message: failure.to_string(),
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::any_order::SceneFile;
+
+    fn scene(time: &str) -> AnyOrderScene {
+        let text = format!(
+            "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
+             [mesh]\ndegree = 12\n[time]\nscheme = \"dg\"\n{time}\n"
+        );
+        match SceneFile::parse(&text, "s.toml").expect("a scene") {
+            SceneFile::AnyOrder(scene) => scene,
+            SceneFile::OneStep(_) => panic!("a one-step scene"),
+        }
+    }
+
+    #[test]
+    fn the_first_experiment_comes_out_to_seven_digits_with_its_events() {
+        let run = run(&scene("t_end = 1.0"), 100, &mut |_| ()).expect("a run");
+        assert_eq!(run.failure, None);
+        assert!((run.ends[1].u_tip - -0.011_764_243_810).abs() < 1e-7, "{:?}", run.ends);
+        assert_eq!(run.events.len(), 3);
+        let phases = run.contact_phases(1.0);
+        assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
+        assert_eq!(phases[1].1, 1.0);
+        // Each time once, whatever the steps.
+        assert_eq!(run.history.len(), 101);
+        assert!(run.history.windows(2).all(|pair| (pair[1].t - pair[0].t - 0.01).abs() < 1e-12));
+        assert_eq!(run.history[100], run.ends[1]);
+        assert_eq!((run.frames.times.len(), run.frames.u.len()), (441, 441));
+        // E falls in every step and its balance closes to round-off.
+        assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-12 * run.energy.initial);
+        assert!(run.extremes.u_tip_max > 0.105 && run.extremes.u_tip_min < -0.011, "{:?}", run.extremes);
+    }
+
+    #[test]
+    fn a_run_without_history_keeps_none_and_ends_alike() {
+        let scene = scene("t_end = 0.3\ndegree = 1");
+        let [with, without] = [50, 0].map(|times| run(&scene, times, &mut |_| ()).expect("a run"));
+        assert_eq!(with.ends, without.ends);
+        assert!(without.history.is_empty() && without.frames.u.is_empty());
+    }
+}

@@ -1,0 +1,125 @@
+//! `run` for scenes with `scheme = "dg"`.
+
+use std::fmt::Write;
+
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::output::{self, Format};
+use convergence_study::cli::{interrupt, progress};
+use convergence_study::run::time_limit;
+use convergence_study::store::atomic;
+use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIMES, phase_name, run};
+use thermobeam_study::scene::any_order::AnyOrderScene;
+
+use super::{Arguments, summary, write_files};
+
+/// Ticks of the progress bar over the scene's time.
+const TICKS: f64 = 1000.0;
+
+/// Runs the scene, writes what was asked for and prints the result.
+pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome {
+    for (asked, option) in
+        [(arguments.target_error.is_some(), "--target-error"), (arguments.estimate_error, "--estimate-error")]
+    {
+        if asked {
+            let reason = format!(
+                "{}: {option} works with one-step schemes; for scheme = \"dg\" compare runs with a higher mesh.degree and a \
+                 higher time.degree",
+                arguments.scene.display()
+            );
+            return Err(Unusable::because(&reason));
+        }
+    }
+    let times = if arguments.out.is_some() { HISTORY_TIMES } else { 0 };
+    if let Some(folder) = &arguments.out {
+        atomic::prepare_folder(folder)?;
+    }
+    let bar = progress::counting(&scene.name, TICKS as usize, "parts of the time", arguments.quiet);
+    let (shown, t_end) = (bar.clone(), scene.t_end);
+    interrupt::say(move || {
+        format!("t = {:.3} of {t_end} was reached; nothing is kept", shown.position() as f64 / TICKS * t_end)
+    });
+    let simulate = || run(scene, times, &mut |t| bar.set_position((TICKS * t / t_end) as u64));
+    let (found, _) = time_limit::within(arguments.time_limit, simulate);
+    bar.finish_and_clear();
+    let found = found.map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let files = (times > 0).then(|| ("history.csv", found.csv())).into_iter().chain(found.pictures(scene));
+    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, files))?;
+    match arguments.format {
+        Format::Json => output::print_json(&AnyOrderObject::new(scene, &found))?,
+        Format::Text => {
+            let mut text = text(scene, &found);
+            summary::list(&mut text, &written);
+            output::print(&text)?;
+        }
+    }
+    Ok(match &found.failure {
+        None => Ended::Well,
+        Some(failure) => {
+            output::complain(&format!("{}: {failure}", arguments.scene.display()));
+            Ended::Badly
+        }
+    })
+}
+
+fn text(scene: &AnyOrderScene, run: &AnyOrderRun) -> String {
+    let stepping = scene.stepping;
+    let mut text = format!(
+        "{}: {} elements of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
+        scene.name,
+        scene.mesh.elements(),
+        scene.degree,
+        stepping.degree,
+        stepping.restart_dt,
+        stepping.dt,
+        scene.t_end,
+        stepping.tolerance,
+    );
+    let [_, last] = &run.ends;
+    if let Some(failure) = &run.failure {
+        let _ = writeln!(text, "\nFAILED at t = {}: {failure}", last.t);
+    }
+    let number = summary::number;
+    let work = vec![
+        ("steps", run.steps.to_string(), format!("{} of them end where contact begins or ends", run.events.len())),
+        ("iterations", run.iterations.0.to_string(), format!("at most {} a step", run.iterations.1)),
+        ("linear solves", run.work.solves.to_string(), String::new()),
+        ("factorizations", run.work.factorizations.to_string(), String::new()),
+        ("time loop", format!("{:.2} ms", 1e3 * run.wall.as_secs_f64()), "observing left out".to_owned()),
+    ];
+    summary::section(&mut text, "work", work);
+    let state = vec![
+        ("u(1)", number(last.u_tip), "displacement of the free end".to_owned()),
+        ("phi(1)", number(last.phi_tip), "its rotation".to_owned()),
+        ("u_t(1)", number(last.u_t_tip), "its velocity".to_owned()),
+        ("phi_t(1)", number(last.phi_t_tip), "its rate of rotation".to_owned()),
+        ("theta(1/2)", number(last.theta_mid), "temperature in the middle".to_owned()),
+    ];
+    summary::section(&mut text, &format!("at t = {}", last.t), state);
+    let range = vec![
+        ("smallest u(1)", number(run.extremes.u_tip_min), String::new()),
+        ("largest u(1)", number(run.extremes.u_tip_max), String::new()),
+    ];
+    summary::section(&mut text, "over the whole time", range);
+    if !run.events.is_empty() {
+        let event = |event: &thermobeam::dg::ContactEvent| {
+            ("", format!("{:.12}", event.t), format!("{} -> {}", phase_name(event.from), phase_name(event.to)))
+        };
+        summary::section(&mut text, "contact events", run.events.iter().map(event).collect());
+    }
+    let energy = vec![
+        ("initial", number(run.energy.initial), String::new()),
+        ("final", number(run.energy.last), String::new()),
+        (
+            "largest increase",
+            format!("{:.3e}", run.energy.largest_increase),
+            "in a step; negative: it always falls".to_owned(),
+        ),
+        (
+            "largest residual",
+            format!("{:.3e}", run.energy.largest_balance_residual),
+            "of the exact balance of a step".to_owned(),
+        ),
+    ];
+    summary::section(&mut text, "energy", energy);
+    text
+}

@@ -50,7 +50,7 @@ mod tests {
     use super::nearest;
 
     #[test]
-    fn a_typing_error_finds_the_name_and_a_different_word_does_not() {
+    fn a_misspelt_name_is_suggested_and_an_unrelated_word_is_not() {
         let names = ["sin", "sinh", "sqrt", "log10", "theta_a", "elements"];
         for (written, meant) in [
             ("sine", Some("sin")),
@@ -71,14 +71,14 @@ mod tests {
     }
 
     #[test]
-    fn a_very_long_name_is_near_nothing() {
+    fn no_suggestion_for_names_longer_than_forty_characters() {
         assert_eq!(nearest(&"s".repeat(1_000_000), ["sin"]), None);
         let [forty, more] = [40, 41].map(|count| "s".repeat(count));
         assert_eq!([&forty, &more].map(|name| nearest(name, [forty.as_str()])), [Some(forty.as_str()), None]);
     }
 
     #[test]
-    fn one_edit_for_every_three_letters_is_granted_but_not_the_whole_name() {
+    fn suggestions_allow_one_edit_per_three_letters() {
         let edited = ["abcdefghX", "abcdefgXX", "abcdefXXX", "abcdeXXXX"].map(|name| nearest(name, ["abcdefghi"]));
         assert_eq!(edited, [Some("abcdefghi"), Some("abcdefghi"), Some("abcdefghi"), None]);
         assert_eq!((nearest("y", ["x"]), nearest("xx", ["x"])), (None, None));

@@ -33,15 +33,15 @@ enum Coefficient {
     /// T + ζ T': the shear's part of u_x.
     Shear(usize),
     /// S''.
-    TurnInertia(usize),
+    RotationInertia(usize),
     /// S + ζ S'.
-    Turn(usize),
+    Rotation(usize),
     /// S'.
-    TurnRate(usize),
+    RotationRate(usize),
     /// Q.
-    Heat(usize),
+    Temperature(usize),
     /// Q'.
-    HeatRate(usize),
+    TemperatureRate(usize),
 }
 
 /// A space vector of one equation (0: u, 1: φ, 2: θ) with its coefficient.
@@ -216,16 +216,16 @@ impl Sources {
             add(1, Coefficient::Shear(j), v.slope.iter().map(|s| -s).collect());
         }
         for (k, v) in phi.into_iter().enumerate() {
-            add(1, Coefficient::Turn(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
-            add(1, Coefficient::TurnInertia(k), v.value);
-            add(2, Coefficient::TurnRate(k), v.slope.iter().map(|s| beam.a * s).collect());
-            add(0, Coefficient::Turn(k), v.slope);
+            add(1, Coefficient::Rotation(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
+            add(1, Coefficient::RotationInertia(k), v.value);
+            add(2, Coefficient::RotationRate(k), v.slope.iter().map(|s| beam.a * s).collect());
+            add(0, Coefficient::Rotation(k), v.slope);
         }
         for (l, v) in vectors(&exact.theta).into_iter().enumerate() {
-            add(1, Coefficient::Heat(l), v.slope.iter().map(|s| beam.a * s).collect());
+            add(1, Coefficient::Temperature(l), v.slope.iter().map(|s| beam.a * s).collect());
             // θ's test functions vanish at both ends: no boundary load.
-            add(2, Coefficient::Heat(l), v.curvature);
-            add(2, Coefficient::HeatRate(l), v.value);
+            add(2, Coefficient::Temperature(l), v.curvature);
+            add(2, Coefficient::TemperatureRate(l), v.value);
         }
         Self { beam: *beam, terms, gram, tip, boundary }
     }
@@ -275,7 +275,7 @@ impl Sources {
     /// σ(1, t).
     fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
         let u = |j| self.coefficient(Coefficient::Tension(j), factors, n_value);
-        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, n_value);
+        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, n_value);
         let Boundary { u_slope, phi: phi_tip, .. } = &self.boundary;
         let stretch: f64 = u_slope.iter().enumerate().map(|(j, slope)| slope * u(j)).sum();
         stretch - phi_tip.iter().enumerate().map(|(k, value)| value * phi(k)).sum::<f64>()
@@ -283,7 +283,7 @@ impl Sources {
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
     fn tip_moment(&self, factors: &Factors) -> f64 {
-        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, 0.0);
+        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, 0.0);
         self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * phi(k)).sum()
     }
 
@@ -294,11 +294,11 @@ impl Sources {
             Coefficient::Inertia(j) => u.acceleration[j],
             Coefficient::Tension(j) => (1.0 + n_value) * u.value[j] + zeta * u.rate[j],
             Coefficient::Shear(j) => u.value[j] + zeta * u.rate[j],
-            Coefficient::TurnInertia(k) => phi.acceleration[k],
-            Coefficient::Turn(k) => phi.value[k] + zeta * phi.rate[k],
-            Coefficient::TurnRate(k) => phi.rate[k],
-            Coefficient::Heat(l) => theta.value[l],
-            Coefficient::HeatRate(l) => theta.rate[l],
+            Coefficient::RotationInertia(k) => phi.acceleration[k],
+            Coefficient::Rotation(k) => phi.value[k] + zeta * phi.rate[k],
+            Coefficient::RotationRate(k) => phi.rate[k],
+            Coefficient::Temperature(l) => theta.value[l],
+            Coefficient::TemperatureRate(l) => theta.rate[l],
         }
     }
 }

@@ -19,7 +19,7 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
 }
 
 #[test]
-fn the_errors_are_those_of_brute_force_far_from_the_solution() {
+fn the_errors_agree_with_fine_quadrature() {
     let product = |x: &str, t: &str| Product {
         x: Expression::parse(x, Variable::X).unwrap(),
         t: Expression::parse(t, Variable::T).unwrap(),
@@ -73,7 +73,7 @@ fn the_errors_are_those_of_brute_force_far_from_the_solution() {
 }
 
 #[test]
-fn norms_go_by_the_names_of_the_contract() {
+fn norm_names_are_those_of_the_study_files() {
     let names = Norm::ALL.map(Norm::name);
     let expected =
         ["velocity", "shear", "rotation-rate", "curvature", "temperature", "theorem-3.4", "displacement", "superclose"];

@@ -27,7 +27,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn expressions_mean_what_mathematics_means() {
+fn expressions_follow_mathematical_precedence() {
     let x = 0.7;
     for (text, value) in [
         ("-x^2", -(x * x)),
@@ -83,7 +83,7 @@ fn expressions_mean_what_mathematics_means() {
 }
 
 #[test]
-fn each_variable_goes_by_its_own_name_only() {
+fn each_variable_is_known_by_its_own_name_only() {
     for (variable, name) in [(Variable::X, "x"), (Variable::T, "t"), (Variable::S, "s")] {
         for other in ["x", "t", "s"] {
             let read = Expression::parse(other, variable);
@@ -166,7 +166,7 @@ fn minimum_and_maximum_keep_nan() {
 }
 
 #[test]
-fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
+fn a_syntax_error_gives_its_position_and_the_expected_input() {
     for (text, offset, pieces) in [
         ("", 0, &["an empty text", "allowed is a number, x, pi, e, a function or `(`"][..]),
         ("  ", 2, &["an empty text"]),
@@ -206,7 +206,7 @@ fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
 }
 
 #[test]
-fn a_product_is_only_missed_where_two_operands_meet() {
+fn the_hint_about_a_missing_product_sign_appears_only_between_two_operands() {
     for (text, is_missed) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
         assert_eq!(refusal(text).contains("a product needs its *"), is_missed, "{text}");
     }
@@ -218,7 +218,7 @@ fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
 }
 
 #[test]
-fn the_caret_stands_below_the_mistake() {
+fn the_caret_points_at_the_error() {
     assert_eq!(refusal("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
     let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
     let lines: Vec<String> = refusal(&long).lines().map(str::to_owned).collect();
@@ -231,7 +231,7 @@ fn the_caret_stands_below_the_mistake() {
 }
 
 #[test]
-fn deep_nesting_is_an_error_and_not_a_crash() {
+fn deep_nesting_is_rejected_without_stack_overflow() {
     let many = 1_000_000;
     for text in [
         format!("{}x{}", "(".repeat(many), ")".repeat(many)),
@@ -251,7 +251,7 @@ fn deep_nesting_is_an_error_and_not_a_crash() {
 }
 
 #[test]
-fn a_function_that_is_not_finite_is_refused_at_the_place() {
+fn a_value_that_is_not_finite_is_rejected_with_its_position() {
     for (text, order, pieces) in [
         ("1/x", 0, &["the value is inf at x = 0;", "finite value on all of [0, 1]"][..]),
         ("ln(x)", 0, &["the value is -inf at x = 0"]),
@@ -273,13 +273,13 @@ fn a_function_that_is_not_finite_is_refused_at_the_place() {
 }
 
 #[test]
-fn an_expression_shows_the_text_it_was_read_from() {
+fn an_expression_displays_its_source_text() {
     assert_eq!(function(" 0.01*x * (x-2)").to_string(), " 0.01*x * (x-2)");
     assert_eq!(function("2 * x").source(), "2 * x");
 }
 
 #[test]
-fn the_size_of_a_function_is_what_rounding_errors_of_it_and_of_its_argument_grow_with() {
+fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
     // max (|f| + |x f'|): of x² it is 3x² at the end, of 1 + x/2 it is 1 + x.
     for (text, size) in [("x^2", 12.0), ("-x^2", 12.0), ("1 + x/2", 3.0), ("7", 7.0)] {
         let function = function(text);
@@ -311,12 +311,12 @@ fn digest(text: &str) {
 
 proptest! {
     #[test]
-    fn any_text_is_read_or_refused_without_a_panic(text in any::<String>()) {
+    fn any_text_parses_or_is_rejected_without_panic(text in any::<String>()) {
         digest(&text);
     }
 
     #[test]
-    fn any_nearly_right_text_is_read_or_refused_without_a_panic(text in nearly_right()) {
+    fn any_nearly_valid_text_parses_or_is_rejected_without_panic(text in nearly_right()) {
         digest(&text);
     }
 

@@ -137,7 +137,7 @@ fn sources_from_the_matrices_are_those_of_the_weak_form_of_the_interpolant() {
 }
 
 #[test]
-fn a_boundary_load_left_out_is_the_stress_or_the_moment_at_the_end() {
+fn omitting_a_boundary_load_removes_the_stress_or_the_moment_at_the_tip() {
     let (exact, mesh) = (exact(), mesh());
     let sources = Sources::strong(&exact, &BEAM, &mesh);
     let whole = fill(&sources, BoundaryLoads::Both);
@@ -161,7 +161,7 @@ fn a_boundary_load_left_out_is_the_stress_or_the_moment_at_the_end() {
 }
 
 #[test]
-fn nodal_values_are_those_of_the_products_and_exactly_zero_where_the_beam_is_clamped() {
+fn nodal_values_are_exact_and_zero_at_the_clamped_end() {
     let mesh = mesh();
     let mut exact = exact();
     // sin(1000π(x + 1)) is 1e-13 at x = 0.

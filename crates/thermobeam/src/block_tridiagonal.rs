@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_that_is_zero_or_of_the_wrong_sign_or_no_number_is_refused() {
+    fn a_pivot_that_is_zero_or_nan_or_of_the_wrong_sign_is_rejected() {
         for pivot in [0.0, -1.0, f64::NAN] {
             let refused = invert([[1.0, 0.0], [0.0, pivot]], [1.0, 1.0]).unwrap_err();
             assert_eq!(refused.to_bits(), pivot.to_bits());

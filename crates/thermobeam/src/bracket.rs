@@ -33,7 +33,7 @@ pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
 /// Golden section search for the top of f, which rises to it and falls behind it.
 ///
 /// * Returns the point and f there. Near a smooth top the point is exact to √ε only, the value to ε.
-pub(crate) fn climb(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
+pub(crate) fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let at = |x: f64| (x, f(x));
     let (mut left, mut right) = (at(hi - ratio * (hi - lo)), at(lo + ratio * (hi - lo)));
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_counts_with_the_negative_numbers() {
+    fn bisection_treats_zero_as_negative() {
         let above = |x: f64| (x - 1.0).max(0.0);
         for (lo, hi) in [(0.0, 2.0), (0.0, 3.0), (2.0, 0.0), (3.0, -1.0)] {
             assert!((bisect(above, lo, hi) - 1.0).abs() <= 2.0 * f64::EPSILON, "{lo} {hi}");
@@ -72,9 +72,9 @@ mod tests {
     }
 
     #[test]
-    fn golden_section_finds_a_top_close_to_a_pole() {
+    fn golden_section_finds_a_maximum_close_to_a_pole() {
         // x - 1e-24 / x² is largest where x³ = -2e-24 from the left: x = -1.26e-8.
-        let (x, _) = climb(|x| x - 1e-24 / (x * x), -1.0, -1e-11);
+        let (x, _) = maximize(|x| x - 1e-24 / (x * x), -1.0, -1e-11);
         assert!((x + 2e-24_f64.cbrt()).abs() < 1e-11, "{x}");
     }
 }

@@ -156,7 +156,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
         #[test]
-        fn the_tip_equation_is_solved_whatever_the_start(
+        fn the_tip_equation_is_solved_from_any_start(
             r in -0.5..0.5f64, log_c in -12.0..2.0f64, u0 in start(), log_epsilon in -8.0..0.0f64, gradient: bool,
         ) {
             let obstacles = Obstacles { epsilon: 10f64.powf(log_epsilon), ..Obstacles::default() };
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn the_positive_root_cancels_nothing_and_may_be_zero() {
+    fn the_positive_root_is_computed_without_cancellation() {
         // x² + b x = c, for large b of either sign.
         for (b, c, root) in
             [(1e9, 1.0, 1e-9), (-1e9, 1.0, 1e9), (0.0, 4.0, 2.0), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (3.0, 4.0, 1.0)]
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_between_the_obstacles_is_free_even_where_it_stands_at_zero() {
+    fn a_tip_between_the_obstacles_has_no_contact_force() {
         for rule in [ContactRule::Implicit, ContactRule::DiscreteGradient] {
             for r in [0.0, -0.0, 0.05, -0.005] {
                 let tip = Obstacles::default().solve_tip(rule, r, 1.0, 0.0);
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_that_is_not_a_number_stays_visible() {
+    fn a_nan_at_the_tip_propagates() {
         let tip = Obstacles::default().solve_tip(ContactRule::Implicit, f64::NAN, 1.0, 0.0);
         assert!(tip.u.is_nan() && tip.force.is_nan());
         assert!(Obstacles::default().force(f64::NAN).is_nan());

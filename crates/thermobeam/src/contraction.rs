@@ -44,7 +44,7 @@ pub fn contact_contraction(
 
 /// Power iterations at most, and the relative change of the quotient at which they end.
 const ITERATIONS: usize = 300;
-const SETTLED: f64 = 1e-13;
+const RELATIVE_CHANGE: f64 = 1e-13;
 
 /// Contraction factor of the fixed point free of contact, from the lag between rotation and displacement.
 ///
@@ -65,10 +65,10 @@ const SETTLED: f64 = 1e-13;
 pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64) -> f64 {
     let n = lengths.len();
     let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-    let stretch = s + 0.5 * dt * n_value;
+    let stiffness_u = s + 0.5 * dt * n_value;
     let (mut of_u, mut of_phi) = (TridiagonalFactor::new(n), TridiagonalFactor::new(n));
     let factorized = of_u
-        .factorize(lengths, kappa, stretch, n_value)
+        .factorize(lengths, kappa, stiffness_u, n_value)
         .and_then(|()| of_phi.factorize(lengths, kappa + s, s, n_value));
     if factorized.is_err() {
         return f64::INFINITY;
@@ -80,7 +80,7 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     let (mut w, mut image) = (vec![0.0; n + 1], vec![0.0; n + 1]);
     let mut factor = 0.0;
     for _ in 0..ITERATIONS {
-        let size = (kappa * l2_squared(lengths, &v) + stretch * slope_squared(lengths, &v)).sqrt();
+        let size = (kappa * l2_squared(lengths, &v) + stiffness_u * slope_squared(lengths, &v)).sqrt();
         v.iter_mut().for_each(|v| *v /= size);
         w.fill(0.0);
         for i in 0..n {
@@ -103,7 +103,7 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
         std::mem::swap(&mut v, &mut image);
         let change = (quotient - factor).abs();
         factor = quotient;
-        if change <= SETTLED * factor {
+        if change <= RELATIVE_CHANGE * factor {
             break;
         }
     }
@@ -116,7 +116,7 @@ mod tests {
     use crate::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 
     #[test]
-    fn the_contact_lag_is_that_of_the_table() {
+    fn the_contact_factor_agrees_with_measured_values() {
         // Measured with an independent implementation, 100 elements, to the digits given.
         let rows = [
             (1e-3, 0.1, 1e-4, 0.00234, 5e-6),
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn on_one_element_the_contact_lag_is_a_fraction_of_numbers() {
+    fn on_one_element_the_contact_factor_is_the_closed_formula() {
         let (beam, obstacles) =
             (Beam { zeta: 0.3, ..Beam::default() }, Obstacles { epsilon: 0.01, ..Obstacles::default() });
         let (dt, n_value) = (0.1, 2.0);
@@ -146,13 +146,13 @@ mod tests {
     }
 
     #[test]
-    fn the_coupling_lag_is_that_of_the_layer_at_the_free_end_where_it_is_thin() {
+    fn the_coupling_factor_is_that_of_a_thin_layer_at_the_free_end() {
         let beam = Beam { zeta: 0.1, ..Beam::default() };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for (dt, n_value) in [(1e-3, 0.0), (1e-3, 200.0), (1e-2, -0.5)] {
                 let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-                let stretch = s + 0.5 * dt * n_value;
-                let layer = s * s / (stretch * (kappa + s) + (s * stretch * kappa * (kappa + s)).sqrt());
+                let stiffness_u = s + 0.5 * dt * n_value;
+                let layer = s * s / (stiffness_u * (kappa + s) + (s * stiffness_u * kappa * (kappa + s)).sqrt());
                 let found = coupling_contraction(&beam, &[1e-3; 1000], &scheme, dt, n_value);
                 assert!((found - layer).abs() <= 0.01 * layer, "{found} for {layer}");
             }
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_coupling_lag_stays_below_its_limit_for_large_steps() {
+    fn the_coupling_factor_stays_below_its_limit_for_large_steps() {
         let limit = 1.0 / (1.0 + std::f64::consts::PI.powi(2) / 4.0);
         let of = |dt| coupling_contraction(&Beam::default(), &[0.01; 100], &EULER_CRANK_NICOLSON, dt, 0.0);
         let mut last = 0.0;
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn an_indefinite_operator_contracts_nothing() {
+    fn the_contraction_factor_of_an_indefinite_operator_is_infinite() {
         let (beam, obstacles) = (Beam::default(), Obstacles::default());
         let alpha = contact_contraction(&beam, &obstacles, &[0.1; 10], &EULER_CRANK_NICOLSON, 10.0, -3.0);
         assert_eq!(alpha, f64::INFINITY);

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_that_a_map_misses_by_round_off_are_set_and_others_refused() {
+    fn mesh_ends_are_corrected_by_round_off_only() {
         let ends = |miss: f64| {
             let mesh = Mesh::mapped(4, |s| miss * f64::EPSILON * (1.0 - s) + s * (1.0 + miss * f64::EPSILON));
             mesh.map(|mesh| [mesh.nodes()[0], mesh.nodes()[4]])

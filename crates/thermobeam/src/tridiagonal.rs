@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_of_exactly_zero_is_refused() {
+    fn a_zero_pivot_is_rejected() {
         let mut factor = TridiagonalFactor::new(1);
         // One element of length 1: mass/3 + stiffness = 0, exact in binary.
         let refused = factor.factorize(&[1.0], 0.75, -0.25, -2.0);

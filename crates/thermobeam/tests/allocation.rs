@@ -78,7 +78,7 @@ fn lanes_with_their_balances_allocate_nothing() {
 }
 
 #[test]
-fn loads_cost_memory_only_when_first_asked_for() {
+fn loads_are_allocated_once() {
     for solver in Solver::ALL {
         let settings = Settings { solver, ..Settings::default() };
         let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: true };
@@ -89,7 +89,7 @@ fn loads_cost_memory_only_when_first_asked_for() {
 }
 
 #[test]
-fn the_counter_counts() {
+fn the_allocation_counter_counts() {
     let info = allocation_counter::measure(|| drop(std::hint::black_box(vec![0u8; 100])));
     assert_eq!(info.count_total, 1);
 }

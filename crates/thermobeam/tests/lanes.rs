@@ -39,7 +39,7 @@ fn problem(k: usize) -> Problem {
 const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 
 #[test]
-fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
+fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     for scheme in SCHEMES {
         let settings = Settings::default();
         let mut ensemble = Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
@@ -79,7 +79,7 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
 
 /// A pass is shared by the four lanes of a group, factorisations are each lane's own.
 #[test]
-fn the_work_of_an_ensemble_is_that_of_its_groups() {
+fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();
     let problems = (0..8).map(|k| problem(k % 4)).collect();
     let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
@@ -93,7 +93,7 @@ fn the_work_of_an_ensemble_is_that_of_its_groups() {
 }
 
 #[test]
-fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
+fn any_number_of_cases_agrees_bitwise_with_single_runs() {
     let settings = Settings::default();
     for count in [1, 3, 5, 8] {
         let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
@@ -116,7 +116,7 @@ fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
 }
 
 #[test]
-fn a_cold_case_beside_a_heated_one_gets_the_bits_that_it_gets_alone() {
+fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
     let cold = |k: usize| {
         let mut problem = problem(k);
         problem.beam = Beam { a: 0.0, theta_a: 0.0, ..problem.beam };
@@ -145,7 +145,7 @@ fn a_cold_case_beside_a_heated_one_gets_the_bits_that_it_gets_alone() {
 }
 
 #[test]
-fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
+fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
     let new = |problems, dt: &[f64]| Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err();
     let short = Mesh::uniform(3).unwrap();
     let initial = Initial::at_rest(&short, 0.0);

@@ -70,7 +70,7 @@ fn missing(text: &str, known: &BTreeSet<String>) -> Vec<String> {
 }
 
 #[test]
-fn every_result_is_held_by_tests_and_studies_that_exist() {
+fn every_result_names_tests_and_studies_that_exist() {
     for (title, names) in cited(THEORY) {
         assert!(!names.is_empty(), "nothing holds \"{title}\"");
     }
@@ -82,7 +82,7 @@ fn every_result_is_held_by_tests_and_studies_that_exist() {
 }
 
 #[test]
-fn a_function_that_is_no_test_holds_nothing() {
+fn only_functions_marked_as_tests_are_found() {
     let source =
         "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
     assert_eq!(tests_of(source).collect::<Vec<_>>(), ["a_law", "another"]);

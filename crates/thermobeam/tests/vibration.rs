@@ -162,7 +162,7 @@ fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
 }
 
 #[test]
-fn a_viscosity_that_is_none_is_an_error() {
+fn an_invalid_viscosity_is_rejected() {
     for zeta in [-0.1, f64::NAN, f64::INFINITY] {
         let error = DampedMode::new(Mode::new(0), zeta).expect_err("no viscosity");
         assert_eq!(error.name, "zeta");
@@ -172,7 +172,7 @@ fn a_viscosity_that_is_none_is_an_error() {
 }
 
 #[test]
-fn overdamped_modes_keep_their_digits_for_long_times() {
+fn overdamped_modes_are_accurate_for_long_times() {
     let damped = DampedMode::new(Mode::new(5), 1e9).expect("a viscosity");
     // The slow root is -1/ζ up to 1/(ζω)²: after t = ζ the mode has fallen to 1/e.
     close(damped.factor(1e9), (-1.0_f64).exp(), 1e-15);

@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_of_an_energy_is_the_sum_of_the_sizes_of_its_terms() {
+    fn the_energy_scale_is_the_sum_of_absolute_terms() {
         let lengths = [0.25, 0.75];
         let line = vec![0.0, 0.25, 1.0];
         let beam = Beam { beta: -3.0, rho: 2.0, a: 0.5, theta_a: 4.0, ..Beam::default() };

@@ -3,7 +3,7 @@
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
 use super::scan::{Place, Root, Scan};
-use super::shape::{Deep, Shape, Wave};
+use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 use super::{Contact, Equilibrium, EquilibriumError, HALF_WAVES};
 use crate::parameters::Beam;
 
@@ -51,7 +51,7 @@ impl Branch<'_> {
             return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
         }
         if s == 0.0 {
-            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.drive }, None, false));
+            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.moment }, None, false));
         }
         if let Some(error) = self.resonant(s) {
             return Err(error);
@@ -66,7 +66,7 @@ impl Branch<'_> {
         let singular = if s > 0.0 {
             self.law.determinant(q).abs() <= RESONANCE * (1.0 + q + epsilon)
         } else {
-            self.law.deep_buckling().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
+            self.law.buckling_below_minus_one().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
         };
         singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
     }
@@ -84,13 +84,13 @@ impl Branch<'_> {
     fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         // With a support at 0 the straight beam touches without pressing: it is the free law's state.
         let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
-        let shallow = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
-        let deep = self.law.deep_buckling().map(|s| (s, None));
+        let above = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
+        let below = self.law.buckling_below_minus_one().map(|s| (s, None));
         let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
-        for (s, unstable_directions) in shallow.chain(deep).filter(|(s, _)| exists(*s)) {
+        for (s, unstable_directions) in above.chain(below).filter(|(s, _)| exists(*s)) {
             for sign in [1.0, -1.0] {
                 let place = Place::Buckling(s, sign);
-                states.push(self.settle(&Root { place, unstable_directions, fold: false })?);
+                states.push(self.state_at(&Root { place, unstable_directions, fold: false })?);
             }
         }
         Ok(states)
@@ -99,15 +99,15 @@ impl Branch<'_> {
     /// A load: the roots of the scalar equation.
     fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
-        let roots = scan.shallow(HALF_WAVES + 1).into_iter().chain(scan.deep());
-        let states: Result<Vec<_>, _> = roots.map(|root| self.settle(&root)).collect();
+        let roots = scan.roots_above_minus_one(HALF_WAVES + 1).into_iter().chain(scan.roots_below_minus_one());
+        let states: Result<Vec<_>, _> = roots.map(|root| self.state_at(&root)).collect();
         Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
     }
 
     /// The free state at N = -1 that exists where `ρ(aθ_A)² = -1 - β` to round-off.
     fn at_minus_one(&self) -> Option<Equilibrium> {
         let Beam { beta, rho, .. } = *self.beam;
-        let slope = -self.law.drive;
+        let slope = -self.law.moment;
         let defect = -1.0 - beta - rho * slope * slope;
         let exists =
             self.law.support.is_none() && rho * slope != 0.0 && defect.abs() <= 4.0 * f64::EPSILON * beta.abs();
@@ -115,7 +115,7 @@ impl Branch<'_> {
     }
 
     /// The state at a root, checked.
-    fn settle(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
+    fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
         let Beam { beta, rho, .. } = *self.beam;
         let shape = match root.place {
             Place::Between(s) => self.law.solve(s),
@@ -123,8 +123,8 @@ impl Branch<'_> {
         };
         let shape = if root.fold { shape } else { polish(&self.law, beta, rho, shape) };
         let n_value = shape.n_value();
-        let stretch = rho * shape.stretch();
-        let defect = (n_value - beta - stretch) / (1.0 + n_value.abs().max(beta.abs()).max(stretch));
+        let tension = rho * shape.slope_squared();
+        let defect = (n_value - beta - tension) / (1.0 + n_value.abs().max(beta.abs()).max(tension));
         if defect.is_nan() || defect.abs() > CONSISTENCY {
             return Err(EquilibriumError::Inaccurate { contact: self.contact, n_value, defect });
         }
@@ -134,16 +134,21 @@ impl Branch<'_> {
     /// The buckling mode at s with the amplitude that makes `N = β + ρ‖u'‖²`, and the given sign.
     fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
         let mode = self.law.mode(s);
-        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.stretch());
+        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.slope_squared());
         if square.is_nan() || square <= 0.0 {
             return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
         }
         let factor = sign * square.sqrt();
         Ok(match mode {
-            Shape::Wave(w) => {
-                Shape::Wave(Wave { alpha: factor * w.alpha, stress: factor * w.stress, drive: self.law.drive, ..w })
+            Shape::AboveMinusOne(w) => Shape::AboveMinusOne(AboveMinusOne {
+                alpha: factor * w.alpha,
+                stress: factor * w.stress,
+                moment: self.law.moment,
+                ..w
+            }),
+            Shape::BelowMinusOne(d) => {
+                Shape::BelowMinusOne(BelowMinusOne { stress: factor * d.stress, moment: self.law.moment, ..d })
             }
-            Shape::Deep(d) => Shape::Deep(Deep { stress: factor * d.stress, drive: self.law.drive, ..d }),
             line @ Shape::Line { .. } => line,
         })
     }
@@ -176,40 +181,40 @@ mod tests {
 
     fn branch(beam: &Beam, support: Option<Support>, pinch: Option<Law>) -> Branch<'_> {
         let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
-        Branch { beam, contact, law: Law { drive: beam.a * beam.theta_a, support }, pinch }
+        Branch { beam, contact, law: Law { moment: beam.a * beam.theta_a, support }, pinch }
     }
 
     #[test]
-    fn what_misses_the_scalar_equation_is_called_inaccurate_by_how_much() {
+    fn a_state_that_violates_the_scalar_equation_is_rejected_with_its_defect() {
         let beam = Beam { beta: -3.0, rho: 5.0, a: 1.0, theta_a: 0.4, ..Beam::default() };
         for support in [None, Some(Support { epsilon: 0.5, position: 0.1 })] {
             let branch = branch(&beam, support, None);
             for s in [0.7, 4.0, -0.5] {
                 let root = Root { place: Place::Between(s), unstable_directions: None, fold: true };
-                let (n, stretch) = (s - 1.0, beam.rho * branch.law.solve(s).stretch());
-                let largest = n.abs().max(3.0).max(stretch);
-                let Err(Inaccurate { n_value, defect, .. }) = branch.settle(&root) else { panic!("{s} is no root") };
+                let (n, tension) = (s - 1.0, beam.rho * branch.law.solve(s).slope_squared());
+                let largest = n.abs().max(3.0).max(tension);
+                let Err(Inaccurate { n_value, defect, .. }) = branch.state_at(&root) else { panic!("{s} is no root") };
                 assert!((n_value - n).abs() < 1e-12);
-                assert!((defect - (n + 3.0 - stretch) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
+                assert!((defect - (n + 3.0 - tension) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
             }
             let nan = Root { place: Place::Between(f64::NAN), unstable_directions: None, fold: true };
-            assert!(matches!(branch.settle(&nan), Err(Inaccurate { .. })));
+            assert!(matches!(branch.state_at(&nan), Err(Inaccurate { .. })));
         }
     }
 
     #[test]
-    fn a_mode_carries_the_load_of_its_law_and_needs_a_buckling_value_above_beta() {
+    fn a_buckled_state_needs_a_buckling_value_above_beta() {
         let beam = Beam { beta: -4.0, rho: 2.0, a: 1.0, theta_a: 0.25, ..Beam::default() };
         let branch = branch(&beam, Some(Support { epsilon: 0.5, position: 0.1 }), None);
-        let values = [branch.law.buckling(1), branch.law.deep_buckling().unwrap()];
+        let values = [branch.law.buckling(1), branch.law.buckling_below_minus_one().unwrap()];
         for s in values {
             let shape = branch.buckled(s, -1.0).unwrap();
-            let drive = match shape {
-                Shape::Wave(wave) => wave.drive,
-                Shape::Deep(deep) => deep.drive,
+            let moment = match shape {
+                Shape::AboveMinusOne(wave) => wave.moment,
+                Shape::BelowMinusOne(below) => below.moment,
                 Shape::Line { .. } => f64::NAN,
             };
-            assert_eq!(drive, 0.25);
+            assert_eq!(moment, 0.25);
         }
         let stiff = Beam { beta: 3.0, ..beam };
         let branch = Branch { beam: &stiff, ..branch };
@@ -221,13 +226,13 @@ mod tests {
 
     /// A determinant is called zero below 1e-13 of the sum of its terms' sizes, and N a pole within 1e-13 of itself.
     #[test]
-    fn resonance_is_called_to_round_off() {
+    fn resonance_is_detected_to_round_off() {
         let is_resonant = |beta: f64, support: Option<Support>| {
             let beam = Beam { beta, rho: 0.0, a: 1.0, theta_a: 0.5, ..Beam::default() };
             branch(&beam, support, None).resonant(1.0 + beta).is_some()
         };
         for support in [None, Some(Support { epsilon: 12.0, position: 0.1 })] {
-            let law = Law { drive: 0.5, support };
+            let law = Law { moment: 0.5, support };
             let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
             let excess = |beta: f64| {
                 let q = 1.0 / (1.0 + beta);
@@ -245,7 +250,7 @@ mod tests {
             assert!(told[0] > 50 && told[1] > 10, "{told:?}");
         }
         let support = Some(Support { epsilon: 0.05, position: 0.1 });
-        let pole = Law { drive: 0.5, support }.deep_buckling().unwrap();
+        let pole = Law { moment: 0.5, support }.buckling_below_minus_one().unwrap();
         for (relative, expected) in [(-2e-13, false), (-7e-14, true), (0.0, true), (7e-14, true), (2e-13, false)] {
             assert_eq!(is_resonant(pole * (1.0 + relative) - 1.0, support), expected, "{relative:e}");
         }
@@ -272,11 +277,11 @@ mod tests {
     }
 
     #[test]
-    fn a_pinched_beam_at_its_own_buckling_value_is_not_called_stable() {
+    fn a_beam_held_by_both_obstacles_is_not_stable_at_its_buckling_value() {
         let mut tried = 0;
         for k in 0..50 {
             let support = Support { epsilon: 1e-3 * f64::from(1 + k), position: 0.0 };
-            let pinch = Law { drive: 0.0, support: Some(support) };
+            let pinch = Law { moment: 0.0, support: Some(support) };
             let Some(beta) = beta_at(pinch.buckling(1)) else { continue };
             let at = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let above = Beam { beta: beta + 1e-12, ..at };
@@ -288,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_free_buckling_value_the_straight_beam_alone_is_left() {
+    fn at_its_buckling_value_a_buckled_pair_merges_with_the_straight_beam() {
         let mut tried = 0;
         for k in 1..=HALF_WAVES {
             let Some(beta) = beta_at(free_buckling(k)) else { continue };

@@ -207,10 +207,10 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
 }
 
 fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
-    let drive = beam.a * beam.theta_a;
-    let mut laws = vec![(Contact::Free, Law { drive, support: None })];
+    let moment = beam.a * beam.theta_a;
+    let mut laws = vec![(Contact::Free, Law { moment, support: None })];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
-        let on = |position| Law { drive, support: Some(Support { epsilon, position }) };
+        let on = |position| Law { moment, support: Some(Support { epsilon, position }) };
         laws.push((Contact::Upper, on(g2)));
         laws.push((Contact::Lower, on(g1)));
     }
@@ -220,7 +220,7 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
 /// The spring that holds the tip at 0 in both directions, where both obstacles stand there.
 fn pinch(obstacles: Option<&Obstacles>) -> Option<Law> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
-    Some(Law { drive: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
+    Some(Law { moment: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
 }
 
 /// Whether the state is in the state of contact whose law it solves.
@@ -237,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_contact_state_presses_and_a_free_one_lies_between_the_obstacles_or_touches() {
+    fn a_consistent_state_presses_its_obstacle_or_lies_between_both() {
         let obstacles = Obstacles { epsilon: 1.0, g1: -0.25, g2: 0.5 };
         let state = |contact, contact_force, u_tip| Equilibrium {
             contact,

@@ -9,7 +9,7 @@
 //! φ(0) = 0 built in and needs no α: there α = 0 stands in for the first condition.
 
 use super::law::{Law, Support};
-use super::shape::{Deep, Shape, Wave};
+use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 
 /// Steps after which the iteration is given up; it converges quadratically but for the differenced Jacobian.
 const STEPS: usize = 12;
@@ -27,8 +27,8 @@ pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     let residual = |v: Vector| residual(law, beta, rho, v);
     let mut state = match start {
         Shape::Line { .. } => return start,
-        Shape::Wave(wave) => [1.0 / wave.q, wave.alpha, wave.stress],
-        Shape::Deep(deep) => [1.0 / deep.q, 0.0, deep.stress],
+        Shape::AboveMinusOne(wave) => [1.0 / wave.q, wave.alpha, wave.stress],
+        Shape::BelowMinusOne(below) => [1.0 / below.q, 0.0, below.stress],
     };
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
@@ -52,8 +52,12 @@ fn relative_size(step: Vector, state: Vector) -> f64 {
 }
 
 fn unpack(law: &Law, [s, alpha, stress]: Vector) -> Shape {
-    let (q, drive) = (1.0 / s, law.drive);
-    if s > 0.0 { Shape::Wave(Wave { q, alpha, stress, drive }) } else { Shape::Deep(Deep { q, stress, drive }) }
+    let (q, moment) = (1.0 / s, law.moment);
+    if s > 0.0 {
+        Shape::AboveMinusOne(AboveMinusOne { q, alpha, stress, moment })
+    } else {
+        Shape::BelowMinusOne(BelowMinusOne { q, stress, moment })
+    }
 }
 
 /// The three conditions.
@@ -65,7 +69,7 @@ fn residual(law: &Law, beta: f64, rho: f64, v: Vector) -> Vector {
         None => stress,
         Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
     };
-    [clamped, contact, s - (1.0 + beta) - rho * shape.stretch()]
+    [clamped, contact, s - (1.0 + beta) - rho * shape.slope_squared()]
 }
 
 fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Vector> {
@@ -105,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_of_a_step_is_relative_to_s_and_to_the_larger_of_the_other_two() {
+    fn the_newton_step_is_measured_relative_to_the_state() {
         assert!((relative_size([0.1, 0.3, -0.4], [-2.0, 1.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
         assert!((relative_size([0.1, -0.5, 0.4], [2.0, 10.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
         // A state without bending, as the straight beam is, that stays so.
@@ -113,20 +117,20 @@ mod tests {
     }
 
     #[test]
-    fn the_conditions_are_those_of_the_modules_head() {
-        let law = |epsilon, position| Law { drive: 0.5, support: Some(Support { epsilon, position }) };
+    fn the_residual_equals_the_documented_conditions() {
+        let law = |epsilon, position| Law { moment: 0.5, support: Some(Support { epsilon, position }) };
         for s in [0.25, 2.0, -0.5] {
-            let Shape::Wave(Wave { alpha, stress, .. }) = law(0.5, 0.125).solve(s) else {
-                let deep = law(0.5, 0.125).solve(s);
-                let found = residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.0, deep.stress()]);
-                let balance = s + 2.0 - 2.0 * deep.stretch();
+            let Shape::AboveMinusOne(AboveMinusOne { alpha, stress, .. }) = law(0.5, 0.125).solve(s) else {
+                let below = law(0.5, 0.125).solve(s);
+                let found = residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.0, below.stress()]);
+                let balance = s + 2.0 - 2.0 * below.slope_squared();
                 assert!(found[0] == 0.0 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14, "{found:?}");
-                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, deep.stress()])[0], 0.25);
+                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, below.stress()])[0], 0.25);
                 continue;
             };
             let at = |law: &Law| residual(law, -3.0, 2.0, [s, alpha, stress]);
             let found = at(&law(0.5, 0.125));
-            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).stretch();
+            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
             assert!(
                 found[0].abs() < 1e-14 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14,
                 "{found:?}"
@@ -134,16 +138,16 @@ mod tests {
             // A stiffness and a place of the obstacle that the shape does not meet.
             assert!((at(&law(2.5, 0.125))[1] - 2.0 * stress).abs() < 1e-14);
             assert!((at(&law(0.5, 1.125))[1] + 1.0).abs() < 1e-14);
-            assert_eq!(at(&Law { drive: 0.5, support: None })[1], stress);
+            assert_eq!(at(&Law { moment: 0.5, support: None })[1], stress);
         }
     }
 
     #[test]
-    fn a_start_beside_a_state_is_improved_to_round_off_and_one_far_off_left_as_it_is() {
-        let law = Law { drive: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
+    fn polishing_improves_a_nearby_state_and_leaves_a_distant_one_unchanged() {
+        let law = Law { moment: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
         // β that has a state at each of these N.
         for s in [0.7, 2.0, -0.5] {
-            let beta = s - 1.0 - 2.0 * law.solve(s).stretch();
+            let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
             let n = |start: f64| polish(&law, beta, 2.0, law.solve(start)).n_value();
             assert!((n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14, "{s}: {:e}", n(s * (1.0 + 1e-5)) - (s - 1.0));
             let far = law.solve(1.1 * s);
@@ -154,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_system_of_three_is_solved_and_a_singular_one_is_not() {
+    fn a_regular_3_by_3_system_is_solved_and_a_singular_one_rejected() {
         let a = [[2.0, -1.0, 0.5], [0.0, 3.0, 1.0], [4.0, 1.0, -2.0]];
         let x = [1.0, -2.0, 4.0];
         let b = a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());

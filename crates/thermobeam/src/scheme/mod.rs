@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_scheme_is_found_by_its_name_and_no_other_is() {
+    fn schemes_are_found_by_name() {
         assert_eq!(SCHEMES.map(|scheme| by_name(scheme.name)), SCHEMES.map(Some));
         assert_ne!(SCHEMES[0].name, SCHEMES[1].name);
         assert_eq!(by_name("euler"), None);

@@ -102,7 +102,7 @@ mod tests {
 
     /// The module's head, with numbers put in: compressed and stretched, where the bound is finite and where it is not.
     #[test]
-    fn the_bound_is_that_of_the_modules_head() {
+    fn the_bound_equals_the_documented_formula() {
         for (beta, rho, finite) in
             [(-2.0, 0.125, true), (-2.0, 2.0, false), (3.0, 0.125, true), (3.0, 8.0, false), (3.0, 0.5, true)]
         {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_left_without_a_residual_and_everything_without_coercivity() {
+    fn the_bound_is_zero_without_residual_and_infinite_without_coercivity() {
         let mut newton = stepper(1.0, 0.0);
         passed(&mut newton, 1.0, 1.0);
         let exact = newton.bound(0);
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn at_the_very_ends_of_what_the_bound_covers_nothing_is_trusted() {
+    fn the_bound_is_infinite_at_zero_coercivity_and_at_contraction_one_half() {
         // λ = 1.25 B + m/4 is zero to the bit.
         let mut newton = stepper(-5.0 * BUCKLING, 0.0);
         passed(&mut newton, -4.0, -4.0);

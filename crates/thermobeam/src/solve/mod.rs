@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_are_called_what_the_files_call_them() {
+    fn solver_names_are_those_of_the_scene_files() {
         assert_eq!(Solver::ALL.map(Solver::name), ["newton", "fixed-point"]);
     }
 }

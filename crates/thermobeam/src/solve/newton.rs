@@ -72,9 +72,9 @@ pub(super) enum Progress {
     Iterating,
     Accepted,
     /// Waiting for the safeguarded iteration.
-    Hesitating,
+    NeedsSafeguard,
     /// In the safeguarded iteration, one case at a time.
-    Searching,
+    Safeguarded,
     Failed,
 }
 
@@ -193,7 +193,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             }
         }
         for k in 0..T::WIDTH {
-            if matches!(self.controls[k].state, Progress::Iterating | Progress::Hesitating) {
+            if matches!(self.controls[k].state, Progress::Iterating | Progress::NeedsSafeguard) {
                 let outcome = self.find_root(k);
                 self.conclude(k, outcome, report);
             }
@@ -219,7 +219,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         // NaN on the first step: there is no factorisation yet, and the comparison then renews.
         if !(self.kept_contraction(k, m) <= RENEWAL) && self.factorize(k, m).is_err() {
             // The prediction may lie below the buckling force where the solution does not.
-            self.controls[k].state = Progress::Hesitating;
+            self.controls[k].state = Progress::NeedsSafeguard;
         }
     }
 
@@ -342,7 +342,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             control.m = bound.m;
         } else {
             // NaN ends here too: the safeguarded iteration starts afresh.
-            control.state = Progress::Hesitating;
+            control.state = Progress::NeedsSafeguard;
         }
     }
 

@@ -35,7 +35,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for _ in self.controls[k].iterations..self.settings.max_iterations {
             self.controls[k].m = m;
             self.factorize(k, m)?;
-            self.pass(Progress::Searching, false);
+            self.pass(Progress::Safeguarded, false);
             let bound = self.bound(k);
             let control = &mut self.controls[k];
             previous = control.increment;
@@ -70,7 +70,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// Throws the iterate of case k away: it may have gone astray, or to infinity.
     fn restart(&mut self, k: usize) {
-        self.controls[k].state = Progress::Searching;
+        self.controls[k].state = Progress::Safeguarded;
         let [iterate, before, ..] = &mut self.ring;
         for (to, from) in iterate.iter_mut().zip(before.iter()) {
             for (to, from) in to.iter_mut().zip(from) {
@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn outside_of_the_bracket_newton_gives_way_to_the_middle() {
+    fn a_newton_iterate_outside_the_bracket_is_replaced_by_the_midpoint() {
         assert_eq!(safeguarded(-1.0, 4.0, 3.5), 3.5);
         // At an end of the bracket F has been looked at already.
         for outside in [-7.0, -1.0, 4.0, 5.0, f64::NAN, f64::INFINITY] {
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn without_an_upper_end_leaps_get_anywhere_soon() {
+    fn without_an_upper_end_the_bracket_grows_geometrically() {
         for start in [-1e9, -3.0, -1.0, -0.25, 0.0, 0.75, 1e4] {
             assert_eq!(safeguarded(start, f64::INFINITY, start + 0.5), start + 0.5);
             let leaps = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_certain_scales_with_the_forces() {
+    fn the_rounding_bound_scales_with_the_forces() {
         let forces = [-0.5, 3.0, 1.25];
         assert_eq!(rounding(forces), 8.0 * f64::EPSILON * 4.75);
         for scale in [1e-6, 1e6] {

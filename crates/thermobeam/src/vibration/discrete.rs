@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spectrum_ends_below_its_bound() {
+    fn all_frequencies_lie_below_the_spectral_bound() {
         let bound = spectral_bound(&[0.5, 0.25, 0.25]);
         assert_eq!(bound, (24.0 * 16.0 + 2.0_f64).sqrt());
         assert_eq!(count_below(&[0.5, 0.25, 0.25], bound * bound), 6);

@@ -39,7 +39,7 @@ fn newton_and_the_fixed_point_agree() {
 
 /// (4.1): a step starts from the level before alone, so that a run goes on from a level as if it had begun there.
 #[test]
-fn the_fixed_point_knows_nothing_but_the_level_before() {
+fn a_fixed_point_step_depends_on_the_previous_level_only() {
     let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
     for (scheme, mesh) in schemes_and_meshes(20) {
         let problem = paper(mesh, EXPERIMENTS[0]);

@@ -76,7 +76,7 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
 }
 
 #[test]
-fn a_level_is_slow_where_no_node_is_faster_and_none_has_lost_its_number() {
+fn a_level_is_slow_when_no_nodal_velocity_is_larger_or_nan() {
     let mut level = Level::new(3);
     (level.v[1], level.w[2]) = (-1e-3, 1e-3);
     assert!(level.is_slow(1e-3) && !level.is_slow(0.99e-3));

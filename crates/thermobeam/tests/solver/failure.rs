@@ -58,7 +58,7 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
 }
 
 #[test]
-fn the_contact_force_of_the_start_is_that_of_the_initial_tip() {
+fn the_initial_contact_force_is_that_of_the_initial_tip() {
     for stepping in everywhere() {
         let mut problem = paper(uniform(10), (0.0, 0.0));
         problem.initial.u = problem.mesh.nodes().iter().map(|x| 0.12 * x).collect();
@@ -123,7 +123,7 @@ fn refused(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
 }
 
 #[test]
-fn data_that_break_a_boundary_condition_are_refused() {
+fn initial_data_that_violate_a_boundary_condition_are_rejected() {
     type Field = fn(&mut Initial) -> &mut Vec<f64>;
     let fields: [(&str, Field, usize, f64); 6] = [
         ("u", |i| &mut i.u, 0, 0.0),
@@ -147,7 +147,7 @@ fn data_that_break_a_boundary_condition_are_refused() {
 }
 
 #[test]
-fn settings_that_stop_nothing_are_refused() {
+fn invalid_settings_are_rejected() {
     for dt in [0.0, -1.0, f64::INFINITY] {
         assert_eq!(refused(|_, stepping| stepping.dt = dt), SetupError::TimeStep { found: dt });
     }
@@ -161,7 +161,7 @@ fn settings_that_stop_nothing_are_refused() {
 }
 
 #[test]
-fn coefficients_out_of_range_are_refused_by_name() {
+fn coefficients_out_of_range_are_rejected_by_name() {
     type Change = fn(&mut Beam, &mut Obstacles);
     let changes: [(&str, Change); 9] = [
         ("zeta", |beam, _| beam.zeta = -1.0),
@@ -181,7 +181,7 @@ fn coefficients_out_of_range_are_refused_by_name() {
 }
 
 #[test]
-fn nodes_that_are_no_mesh_are_refused() {
+fn invalid_nodes_are_rejected() {
     for nodes in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.6, 0.6, 1.0], vec![0.0, f64::NAN, 1.0]] {
         assert!(matches!(Mesh::from_nodes(nodes).map_err(SetupError::from), Err(SetupError::Mesh(_))));
     }

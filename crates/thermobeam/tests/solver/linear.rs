@@ -6,7 +6,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Settings, Start};
 
 #[test]
-fn newton_takes_one_pass_on_a_linear_beam_with_contact_and_without() {
+fn newton_takes_one_pass_per_step_on_a_linear_beam() {
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(20) {
             for (start, free) in [

@@ -7,7 +7,7 @@ use thermobeam::solve::{Level, Settings, Solver, Start};
 const STEPS: usize = 50;
 
 #[test]
-fn levels_are_copied_for_observers_and_loads_filled_only_as_often_as_asked_for() {
+fn loads_and_observations_are_counted_exactly() {
     let problem = paper(uniform(20), EXPERIMENTS[0]);
     let mut level = Level::new(21);
     for solver in Solver::ALL {

@@ -1,4 +1,4 @@
-//! The steady states of one state of contact.
+//! The steady states of one state of contact: straight, buckled and loaded.
 
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
@@ -7,31 +7,31 @@ use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 use super::{Contact, Equilibrium, EquilibriumError, HALF_WAVES};
 use crate::parameters::Beam;
 
-/// N = β + ρ‖u'‖² of a reported state holds to this, relative to the largest of its terms.
+/// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
 const CONSISTENCY: f64 = 1e-9;
 
-/// For ρ = 0 a determinant this close to zero, relative to its largest term, is one that round-off cannot tell from zero.
+/// For ρ = 0: a determinant smaller than this, relative to the sum of its terms, is zero to round-off.
 const RESONANCE: f64 = 1e-13;
 
-/// Whether a state of this N belongs into the list, which leaves out a neighbourhood of N = -1 from above.
+/// Whether a state with this N is returned: an interval above N = -1 is left out, see [`super::equilibria`].
 fn is_listed(n_value: f64) -> bool {
     n_value <= -1.0 || 1.0 + n_value > free_buckling(HALF_WAVES + 1)
 }
 
-/// One state of contact: its law, and the steady states of that law, pressing or not.
+/// One state of contact: its law, and the solutions of that law, whether they press the obstacle or not.
 pub(super) struct Branch<'a> {
     /// The coefficients.
     pub(super) beam: &'a Beam,
     /// The state of contact.
     pub(super) contact: Contact,
-    /// Its linear problem.
+    /// The linear problem for given N.
     pub(super) law: Law,
-    /// What stiffens the straight beam although it does not press.
+    /// The law of the straight beam if both obstacles hold its tip at 0.
     pub(super) pinch: Option<Law>,
 }
 
 impl Branch<'_> {
-    /// The steady states of the law.
+    /// All solutions of the law.
     pub(super) fn states(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let mut states = if self.beam.rho == 0.0 {
             vec![self.linear()?]
@@ -71,7 +71,7 @@ impl Branch<'_> {
         singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
     }
 
-    /// The unloaded beam: u = φ = 0, N = β.
+    /// The straight beam without load: u = φ = 0, N = β.
     fn straight(&self) -> Equilibrium {
         let s = 1.0 + self.beam.beta;
         let law = self.pinch.unwrap_or(self.law);
@@ -80,9 +80,9 @@ impl Branch<'_> {
         self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
     }
 
-    /// No load: the straight state, and a pair at each buckling value above β.
+    /// Without load: the straight state, and a pair of buckled states at each buckling value above β.
     fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        // With a support at 0 the straight beam touches without pressing: it is the free law's state.
+        // With a support at 0 the straight beam touches without pressing: the free law returns it.
         let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
         let above = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
         let below = self.law.buckling_below_minus_one().map(|s| (s, None));
@@ -96,7 +96,7 @@ impl Branch<'_> {
         Ok(states)
     }
 
-    /// A load: the roots of the scalar equation.
+    /// With a load: the roots of the scalar equation.
     fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
         let roots = scan.roots_above_minus_one(HALF_WAVES + 1).into_iter().chain(scan.roots_below_minus_one());
@@ -104,7 +104,7 @@ impl Branch<'_> {
         Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
     }
 
-    /// The free state at N = -1 that exists where `ρ(aθ_A)² = -1 - β` to round-off.
+    /// The free state at N = -1, which exists if `ρ(aθ_A)² = -1 - β` to round-off.
     fn at_minus_one(&self) -> Option<Equilibrium> {
         let Beam { beta, rho, .. } = *self.beam;
         let slope = -self.law.moment;
@@ -114,7 +114,7 @@ impl Branch<'_> {
         exists.then(|| self.state(-1.0, Shape::Line { slope }, None, false))
     }
 
-    /// The state at a root, checked.
+    /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
     fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
         let Beam { beta, rho, .. } = *self.beam;
         let shape = match root.place {
@@ -131,7 +131,7 @@ impl Branch<'_> {
         Ok(self.state(n_value, shape, root.unstable_directions, root.fold))
     }
 
-    /// The buckling mode at s with the amplitude that makes `N = β + ρ‖u'‖²`, and the given sign.
+    /// The buckling mode at s with the given sign and the amplitude for which `N = β + ρ‖u'‖²`.
     fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
         let mode = self.law.mode(s);
         let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.slope_squared());
@@ -154,10 +154,10 @@ impl Branch<'_> {
     }
 
     fn state(&self, n_value: f64, shape: Shape, unstable_directions: Option<usize>, singular: bool) -> Equilibrium {
-        // Subtracted, so that no force is 0 and not -0.
+        // A difference, so that a zero force is 0 and not -0.
         let contact_force = 0.0 - shape.stress();
         let u_tip = match self.law.support {
-            // The same number without the cancellation that a compliance of 1e-8 would magnify.
+            // Equal to u(1), without the cancellation that a small compliance would magnify.
             Some(Support { epsilon, position }) => position + epsilon * contact_force,
             None => shape.u(1.0),
         };
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// A determinant is called zero below 1e-13 of the sum of its terms' sizes, and N a pole within 1e-13 of itself.
+    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a pole within 1e-13 of it.
     #[test]
     fn resonance_is_detected_to_round_off() {
         let is_resonant = |beta: f64, support: Option<Support>| {
@@ -238,16 +238,16 @@ mod tests {
                 let q = 1.0 / (1.0 + beta);
                 law.determinant(q).abs() / (RESONANCE * size(q))
             };
-            let mut told = [0, 0];
+            let mut counts = [0, 0];
             for k in 1..=3 {
                 let beta = law.buckling(k) - 1.0;
                 for step in -40..=40 {
                     let beta = beta + f64::from(step) * 4e-15;
-                    told[usize::from(is_resonant(beta, support))] += 1;
+                    counts[usize::from(is_resonant(beta, support))] += 1;
                     assert_eq!(is_resonant(beta, support), excess(beta) <= 1.0, "{beta} of {law:?}: {}", excess(beta));
                 }
             }
-            assert!(told[0] > 50 && told[1] > 10, "{told:?}");
+            assert!(counts[0] > 50 && counts[1] > 10, "{counts:?}");
         }
         let support = Some(Support { epsilon: 0.05, position: 0.1 });
         let pole = Law { moment: 0.5, support }.buckling_below_minus_one().unwrap();
@@ -271,7 +271,7 @@ mod tests {
         assert_eq!((line.n_value, line.u_tip, line.unstable_directions), (-1.0, -0.5, None));
     }
 
-    /// β with 1 + β equal to the bits of s, where there is one.
+    /// β for which 1 + β is exactly s, if it exists.
     fn beta_at(s: f64) -> Option<f64> {
         Some(s - 1.0).filter(|beta| 1.0 + beta == s)
     }

@@ -1,22 +1,22 @@
-//! The static problem for a given N: linear, one law for each state of contact.
+//! The static problem for given N: linear, with one law for each state of contact.
 
 use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 use crate::bracket::bisect;
 use std::f64::consts::PI;
 
-/// What the free end rests on, and what loads the beam.
+/// Load of the beam and support of its tip.
 ///
-/// Without a support c = 0. With one, `c = -(u(1) - position) / ε`, pulling as well as pushing: whether the state
-/// found really presses is for the caller to judge.
+/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller checks
+/// whether the state presses the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Law {
-    /// aθ_A.
+    /// The thermal moment aθ_A.
     pub(super) moment: f64,
-    /// The obstacle touched.
+    /// The obstacle in contact.
     pub(super) support: Option<Support>,
 }
 
-/// One obstacle: a spring of compliance ε, relaxed where u(1) = position.
+/// An obstacle: a spring of compliance ε, relaxed at u(1) = position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Support {
     /// ε.
@@ -25,7 +25,7 @@ pub(super) struct Support {
     pub(super) position: f64,
 }
 
-/// `1 + N_k = 1 / (1 + κ²)`, κ = (k - 1/2)π: where the beam without support buckles into k quarter waves and more.
+/// `1 + N_k = 1/(1 + κ²)`, κ = (k - 1/2)π: the k-th buckling value of the beam without support.
 ///
 /// * `k` counts from 1.
 pub(super) fn free_buckling(k: usize) -> f64 {
@@ -33,7 +33,7 @@ pub(super) fn free_buckling(k: usize) -> f64 {
     1.0 / (1.0 + kappa * kappa)
 }
 
-/// How many `free_buckling` values lie strictly above s > 0.
+/// Number of [`free_buckling`] values strictly above s > 0.
 fn free_buckling_above(s: f64) -> usize {
     let reach = (1.0 / s - 1.0).max(0.0).sqrt() / PI + 0.5;
     // Strictly above: at s = 1 + N_k itself the k-th does not count.
@@ -41,12 +41,12 @@ fn free_buckling_above(s: f64) -> usize {
 }
 
 impl Law {
-    /// No load at all: the straight beam solves the law for every N.
+    /// Whether nothing loads the beam: then the straight beam solves the law for every N.
     pub(super) fn homogeneous(&self) -> bool {
         self.moment == 0.0 && self.support.is_none_or(|support| support.position == 0.0)
     }
 
-    /// The shape at `s = 1 + N`, which must be neither 0 nor a buckling value of this law.
+    /// The shape at `s = 1 + N`; s must be neither 0 nor a buckling value of this law.
     pub(super) fn solve(&self, s: f64) -> Shape {
         if s > 0.0 {
             Shape::AboveMinusOne(self.solve_above(1.0 / s))
@@ -61,7 +61,7 @@ impl Law {
         AboveMinusOne { q, alpha: rotation / determinant, stress: stress / determinant, moment: self.moment }
     }
 
-    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` on (α, c), or of the first alone on α.
+    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a support.
     pub(super) fn determinant(&self, q: f64) -> f64 {
         use crate::stumpff::{c0, c1, c2, c3};
         let x = q - 1.0;
@@ -87,17 +87,17 @@ impl Law {
     fn solve_below(&self, q: f64) -> BelowMinusOne {
         let mut below = BelowMinusOne { q, stress: 0.0, moment: self.moment };
         if let Some(Support { epsilon, position }) = self.support {
-            // Without stress u(1) = q aθ_A (1 - T)/k²; each unit of stress adds the flexibility.
+            // Without stress u(1) = q aθ_A (1 - T)/k²; a unit of stress adds the flexibility.
             let loaded = q * self.moment * (1.0 - below.t()) / (1.0 - q);
             below.stress = (position - loaded) / (epsilon + flexibility(&below));
         }
         below
     }
 
-    /// `1 + N` at this law's k-th buckling value above N = -1, where the linear problem is singular; k from 1.
+    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from 1.
     ///
-    /// A support is a rank-one stiffness, so its values interlace with the free ones: the k-th lies strictly
-    /// between the free k-th and (k+1)-st, with equality impossible because u(1) ≠ 0 in every free buckling mode.
+    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th lies strictly between the
+    /// k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0 in every free buckling mode.
     pub(super) fn buckling(&self, k: usize) -> f64 {
         if self.support.is_none() {
             return free_buckling(k);
@@ -106,38 +106,38 @@ impl Law {
         1.0 / bisect(|q| self.determinant(q), from, to)
     }
 
-    /// `1 + N` at the one buckling value below N = -1, which only a support has.
+    /// `1 + N` at the single buckling value below N = -1, which exists only with a support.
     ///
-    /// There the flexibility falls from 0 (N → -∞) to -∞ (N → -1), so it meets -ε exactly once.
+    /// The flexibility decreases from 0 (N → -∞) to -∞ (N → -1) and equals -ε exactly once.
     pub(super) fn buckling_below_minus_one(&self) -> Option<f64> {
         let Support { epsilon, .. } = self.support?;
         let excess = |s: f64| epsilon + flexibility(&BelowMinusOne { q: 1.0 / s, stress: 0.0, moment: 0.0 });
-        // Flexibility is close to 1/s far out and to -1/√-s close in: both ends are beyond the root.
+        // The flexibility is about 1/s for large -s and -1/√-s near s = 0: the two ends bracket the root.
         let far = -4.0 - 4.0 / epsilon;
         let near = -1e-3 * (1.0 + epsilon).powi(-2);
         Some(bisect(excess, far, near))
     }
 
-    /// How many of this law's buckling values lie strictly above s > 0.
+    /// Number of buckling values of this law strictly above s > 0.
     pub(super) fn buckling_above(&self, s: f64) -> usize {
         let free = free_buckling_above(s);
         if self.support.is_none() || free == 0 || self.buckling(free) > s { free } else { free - 1 }
     }
 
-    /// The buckling mode at the buckling value s, of some amplitude.
+    /// The buckling mode at the buckling value s, not normalised.
     pub(super) fn mode(&self, s: f64) -> Shape {
         use crate::stumpff::{c0, c2};
         let q = 1.0 / s;
         if s < 0.0 {
             return Shape::BelowMinusOne(BelowMinusOne { q, stress: 1.0, moment: 0.0 });
         }
-        // The null vector of the clamping row; for the free beam c0 is zero here but for round-off.
+        // Null vector of the row φ(0) = 0; for the free beam c0 is zero here up to round-off.
         let stress = if self.support.is_none() { 0.0 } else { c0(q - 1.0) };
         let alpha = if self.support.is_none() { 1.0 } else { q * c2(q - 1.0) };
         Shape::AboveMinusOne(AboveMinusOne { q, alpha, stress, moment: 0.0 })
     }
 
-    /// The sign with which the mode enters the solution just above the buckling value s; just below it is the opposite.
+    /// Sign of the mode in the solution just above the buckling value s; just below it is the opposite.
     pub(super) fn sign_above(&self, s: f64) -> f64 {
         let step = 1e-6 * s.abs();
         let (numerator, slope) = match self.mode(s) {
@@ -155,7 +155,7 @@ impl Law {
     }
 }
 
-/// The displacement of the tip that a unit of stress makes for N < -1, `q (1 - qT) / k²`.
+/// Tip displacement per unit of stress for N < -1, `q (1 - qT)/k²`.
 fn flexibility(below: &BelowMinusOne) -> f64 {
     below.q * (1.0 - below.q * below.t()) / (1.0 - below.q)
 }

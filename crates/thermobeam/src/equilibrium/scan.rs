@@ -1,16 +1,16 @@
-//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, with a proof that none is missed.
+//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, and why none is missed.
 //!
 //! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive definite) and K that of
 //! ‖u'‖². In the eigenbasis of K against B,
 //!
 //! `S(N) = ‖u'‖² = Σ_j a_j / (N - N_j)²`, a_j >= 0,
 //!
-//! with the buckling values N_j as poles (an integral over the spectrum in general, all of whose points
-//! but the N_j sit at N = -1). So S is convex and f strictly concave between two neighbouring poles:
+//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart from the N_j is the point
+//! N = -1). So S is convex and f strictly concave between neighbouring poles:
 //!
-//! * above the largest pole S falls, f rises to ∞: exactly one root;
-//! * between two poles, and in each interval below N = -1: none, two, or one double root, told by the largest value of f;
-//! * below β none, since ρS >= 0.
+//! * above the largest pole S decreases and f increases to ∞: exactly one root;
+//! * between two poles, and in each interval below N = -1: none, two, or one double root, decided by the maximum of f;
+//! * below β: none, since ρS >= 0.
 //!
 //! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by
 //! Sylvester's law it has as many negative directions as there are poles above N, less one where f' = 1 - ρS' < 0.
@@ -18,39 +18,39 @@
 use super::law::Law;
 use crate::bracket::{bisect, maximize};
 
-/// A root closer to a pole than this, relative to `1 + N`, is sought by its amplitude instead of by N.
+/// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
 ///
-/// Far above round-off, so that f's sign is certain at this distance; far below any distance that matters,
-/// so that the amplitude follows from the pole's N alone to eleven digits.
+/// Large against round-off, so that the sign of f is certain at this distance, and small enough for the pole's N to give
+/// the amplitude to eleven digits.
 const POLE_GAP: f64 = 1e-11;
 
-/// How many units of round-off of its largest term f may be from zero at its maximum to count as a double root.
+/// Bound on |max f| for a double root, in units of the largest term of f.
 const FOLD: f64 = 32.0 * f64::EPSILON;
 
-/// s closest to 0 from below that is told apart from N = -1.
+/// Distance from N = -1 at which the search below it starts.
 const MINUS_ONE_GAP: f64 = 1e-14;
 
-/// Where a root is.
+/// Position of a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
     /// At this `s = 1 + N`.
     Between(f64),
-    /// So close to the buckling value s that only the amplitude of its mode is certain, which has this sign.
+    /// Within round-off of the buckling value s: the solution is the mode with an amplitude of this sign.
     Buckling(f64, f64),
 }
 
-/// A root and what stability needs.
+/// A root and its stability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Root {
-    /// Where.
+    /// Its position.
     pub(super) place: Place,
-    /// Negative directions of the second variation; none if there are infinitely many.
+    /// Number of negative directions of the second variation; `None` if there are infinitely many.
     pub(super) unstable_directions: Option<usize>,
-    /// f' = 0 too: the second variation is singular.
+    /// Whether f' = 0 as well: the second variation is singular.
     pub(super) fold: bool,
 }
 
-/// The end of an interval.
+/// An end of an interval: a pole or a regular point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum End {
     Buckling(f64),
@@ -69,7 +69,7 @@ pub(super) struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    /// All roots N > -1 above the `waves`-th buckling value, the largest first.
+    /// All roots N > -1 above the `waves`-th buckling value, in decreasing order.
     pub(super) fn roots_above_minus_one(&self, waves: usize) -> Vec<Root> {
         let rest = 1.0 + self.beta;
         let mut hi = End::Plain(self.upper_end(self.law.buckling(1)));
@@ -106,15 +106,15 @@ impl Scan<'_> {
         s - (1.0 + self.beta) - self.rho * self.law.solve(s).slope_squared()
     }
 
-    /// Some s above the largest pole where f > 0.
+    /// An s above the largest pole with f(s) > 0.
     ///
-    /// Where `s > max(pole, 1 + β)`, `f(s + ρS(s)) >= s - (1 + β) > 0`, because S falls there.
+    /// For `s > max(pole, 1 + β)`, `f(s + ρS(s)) >= s - (1 + β) > 0`, because S decreases there.
     fn upper_end(&self, pole: f64) -> f64 {
         let s = 2.0 * (pole + (1.0 + self.beta).abs());
         s + self.rho * self.law.solve(s).slope_squared()
     }
 
-    /// The roots of f, concave between `lo` and `hi`, where `above` poles lie above.
+    /// The roots of f in an interval in which it is concave, with `above` poles above the interval.
     fn interval(&self, lo: End, hi: End, above: Option<usize>) -> Vec<Root> {
         let inside = |end: End, side: f64| match end {
             End::Plain(s) => s,
@@ -140,7 +140,7 @@ impl Scan<'_> {
         .collect()
     }
 
-    /// f > 0 right beside a pole means that f still falls to -∞ in between: one root, at the pole.
+    /// The root between a pole and the point next to it: f > 0 there, and f → -∞ at the pole.
     fn at_pole(&self, end: End, side: f64) -> Option<Place> {
         match end {
             End::Plain(_) => None,
@@ -148,16 +148,16 @@ impl Scan<'_> {
         }
     }
 
-    /// Where f is positive between two points at which it is not.
+    /// Sign of the maximum of f on [a, b], to round-off, and its position.
     fn maximum(&self, a: f64, b: f64) -> Maximum {
-        let noise = |s: f64| {
+        let round_off = |s: f64| {
             let tension = self.rho * self.law.solve(s).slope_squared();
             FOLD * (s.abs() + (1.0 + self.beta).abs() + tension)
         };
         let (s, value) = maximize(|s| self.f(s), a, b);
-        if value > noise(s) {
+        if value > round_off(s) {
             Maximum::Positive(s)
-        } else if value >= -noise(s) {
+        } else if value >= -round_off(s) {
             Maximum::Zero(s)
         } else {
             Maximum::Negative
@@ -189,7 +189,7 @@ mod tests {
         for law in laws() {
             for s in [5.0, 1.5, 0.9, 0.5, 0.15, 0.06, 0.011, -0.02, -0.3, -0.9, -2.0, -6.0, -40.0, -200.0] {
                 for rho in [0.25, 30.0] {
-                    // β that has a root at this s.
+                    // The β for which s is a root.
                     let beta = s - 1.0 - rho * law.solve(s).slope_squared();
                     let scan = Scan { law: &law, beta, rho };
                     let roots =
@@ -231,13 +231,13 @@ mod tests {
         }
     }
 
-    /// At a fold f touches zero from below; what round-off allows is 32 units of the sum of its terms.
+    /// At a fold the maximum of f is zero; the tolerance is 32 units of round-off of the sum of its terms.
     #[test]
     fn zero_one_and_two_roots_are_distinguished_to_round_off() {
         for (law, rho) in laws().into_iter().zip([6.0, 4.0, 3.0, 20.0]) {
             let (low, high) = (law.buckling(2), law.buckling(1));
             let (a, b) = (low + 1e-3 * (high - low), high - 1e-3 * (high - low));
-            // f = without_beta - β, highest at the fold.
+            // f = without_beta - β; its maximum is the fold.
             let without_beta = |s: f64| s - 1.0 - rho * law.solve(s).slope_squared();
             let (mut left, mut right) = (a, b);
             while right - left > 1e-9 {
@@ -263,8 +263,8 @@ mod tests {
             assert!((at - s).abs() < 1e-6);
             let apart =
                 Scan { law: &law, beta: beta - 1e-6, rho }.interval(End::Buckling(low), End::Buckling(high), Some(1));
-            let told = apart.iter().map(|root| (root.unstable_directions, root.fold)).collect::<Vec<_>>();
-            assert_eq!(told, [(Some(1), false), (Some(0), false)], "{law:?}");
+            let kinds = apart.iter().map(|root| (root.unstable_directions, root.fold)).collect::<Vec<_>>();
+            assert_eq!(kinds, [(Some(1), false), (Some(0), false)], "{law:?}");
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The bent beam in closed form, for a given axial force N and stress c.
+//! The bent beam in closed form for given axial force N and stress c.
 
 use crate::stumpff::{c0, c1, c2, c3, c5};
 
-/// A solution of the static equations in the interior and at x = 1; see the module's head for the letters.
+/// A solution of the static equations in the interior and at x = 1; notation as in [`super`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Shape {
     /// `u = slope x`, `φ = 0`, `c = 0`.
@@ -18,7 +18,7 @@ pub(super) enum Shape {
 
 /// N > -1: `φ = α c_0(Xy²) - d y² c_2(Xy²)` with y = 1 - x, X = q - 1.
 ///
-/// Entire in q: neither N = 0 nor a buckling value is special.
+/// Entire in q: N = 0 and the buckling values are no special cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AboveMinusOne {
     /// `q = 1 / (1 + N) > 0`.
@@ -27,25 +27,25 @@ pub(super) struct AboveMinusOne {
     pub(super) alpha: f64,
     /// The stress c.
     pub(super) stress: f64,
-    /// The load aθ_A.
+    /// The thermal moment aθ_A.
     pub(super) moment: f64,
 }
 
 /// N < -1: `φ = d (1 - cosh ky / cosh k) / k²` with y = 1 - x, k² = 1 - q > 1.
 ///
-/// The clamped end is built in; only ratios of hyperbolic functions occur, so that k may be as large as it likes.
+/// It satisfies φ(0) = 0. Only ratios of hyperbolic functions occur, so k may be arbitrarily large.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BelowMinusOne {
     /// `q = 1 / (1 + N) < 0`.
     pub(super) q: f64,
     /// The stress c.
     pub(super) stress: f64,
-    /// The load aθ_A.
+    /// The thermal moment aθ_A.
     pub(super) moment: f64,
 }
 
 impl Shape {
-    /// The N that the shape belongs to; a line has no other than -1.
+    /// Axial force N of the shape; -1 for a line.
     pub(super) fn n_value(&self) -> f64 {
         match self {
             Shape::Line { .. } => -1.0,
@@ -55,7 +55,7 @@ impl Shape {
         }
     }
 
-    /// `c = (1 + N) u' - φ`, the same for all x.
+    /// Stress `c = (1 + N) u' - φ`, constant in x.
     pub(super) fn stress(&self) -> f64 {
         match self {
             Shape::Line { .. } => 0.0,
@@ -122,7 +122,7 @@ impl AboveMinusOne {
 
     /// `‖u'‖² = q² ∫ (αC - dW + c)² dy` with C = c_0(Xy²), W = y² c_2(Xy²).
     ///
-    /// The products integrate to Stumpff functions of X and 4X by cosh² = (1 + cosh 2·)/2.
+    /// By cosh² = (1 + cosh 2·)/2 the products integrate to Stumpff functions of X and 4X.
     fn slope_squared(&self) -> f64 {
         let (x, alpha, c, d) = (self.x(), self.alpha, self.stress, self.d());
         let cc = 0.5 * (1.0 + c1(4.0 * x));
@@ -168,9 +168,9 @@ impl BelowMinusOne {
         self.k().tanh() / self.k()
     }
 
-    /// `q / k²`, the factor that u' = (φ + c) q has in front of `aθ_A + c - d cosh ky / cosh k`.
+    /// `q/k²`: `u' = (q/k²) (aθ_A + c - d cosh ky / cosh k)`.
     ///
-    /// In this form the stress, which dominates φ near N = -1, has already cancelled by hand.
+    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is cancelled analytically.
     fn factor(&self) -> f64 {
         self.q / (1.0 - self.q)
     }

@@ -208,7 +208,7 @@ pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
 }
 
 /// The solver of the steps.
-fn choose(
+fn choose(case: Case, stepping: &Stepping, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
     let Stepping { scheme, settings, dt, .. } = *stepping;
     Ok(match settings.solver {
         Solver::Newton => newton(vec![case], scheme, settings, &[level], heated),

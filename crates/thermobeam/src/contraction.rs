@@ -1,11 +1,13 @@
-//! How fast the paper's fixed point (4.1)-(4.5) converges, foretold.
+//! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
-//! The paper leaves the convergence of its iteration out. Two of its lags decide:
+//! The paper does not analyse the convergence of its iteration. Two of the quantities that (4.2) takes from the previous
+//! iterate determine it:
 //!
-//! * the contact force is that of the iterate before: while the tip is in contact an error shrinks by [`contact_contraction`];
-//! * the rotation is computed with the displacement before: free of contact an error shrinks by [`coupling_contraction`].
+//! * g(u) in the first equation: in contact an error is multiplied by [`contact_contraction`] in each iteration;
+//! * u and û in the second equation: without contact an error is multiplied by [`coupling_contraction`].
 //!
-//! A factor above 1 means divergence. The lags of the Kirchhoff term and of the temperature are of order dt² beside them.
+//! The iteration diverges for a factor above 1. The effects of the previous N(u) and φ̂ in the first and third equation are
+//! smaller, of order dt².
 
 use crate::norms::{l2_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
@@ -14,14 +16,14 @@ use crate::tridiagonal::TridiagonalFactor;
 
 /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`.
 ///
-/// `A_u = κ M + (ζ + dt (1 + N)/2) K` is what (4.4) solves with, κ = inertia/dt, and g' the slope of the contact force:
-/// 1/ε, or half of it for the discrete gradient. The contact force of the iterate before stands on the right of (4.4) in
-/// the tip's equation alone, so that an error e of u(1) comes back as -α e. On a fine mesh `α ≈ dt^{3/2}/(ε √ζ)`, up to
-/// terms in dt/ζ.
+/// `A_u = κ M + (ζ + dt (1 + N)/2) K` is the matrix of the first equation of (4.2), κ = inertia/dt, and g' the slope of the
+/// contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous iterate enters the right-
+/// hand side at the tip only, so an error e of u(1) becomes -α e. On a fine mesh `α ≈ dt^{3/2}/(ε √ζ)`, up to terms in
+/// dt/ζ.
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
-/// * Returns infinity where A_u is not positive definite: the fixed point then cannot do the step at all.
+/// * Returns infinity if A_u is not positive definite: then the fixed point cannot do the step.
 pub fn contact_contraction(
     beam: &Beam,
     obstacles: &Obstacles,
@@ -42,26 +44,26 @@ pub fn contact_contraction(
     }
 }
 
-/// Power iterations at most, and the relative change of the quotient at which they end.
+/// Largest number of power iterations, and the relative change of the quotient at which they stop.
 const ITERATIONS: usize = 300;
 const RELATIVE_CHANGE: f64 = 1e-13;
 
-/// Contraction factor of the fixed point free of contact, from the lag between rotation and displacement.
+/// Contraction factor of the fixed point without contact, from the coupling of rotation and displacement.
 ///
-/// An error of V enters (4.3) through `s Cᵀ`, and that of W enters (4.4) through `s C`, so that the factor is the largest
-/// eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
+/// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as `s C W`.
+/// The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
 ///
 /// ```text
 /// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.
 /// ```
 ///
-/// In the middle of the beam a wave of wavenumber k sees `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about dt s/4.
-/// At the free end sits a layer that sees more, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` where it is thin, about dt s/2.
-/// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884`, whatever dt, its limit for dt → ∞.
+/// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about dt s/4.
+/// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about dt s/2.
+/// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
-/// * Returns infinity where A_u is not positive definite.
+/// * Returns infinity if A_u is not positive definite.
 pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64) -> f64 {
     let n = lengths.len();
     let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
@@ -73,7 +75,7 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     if factorized.is_err() {
         return f64::INFINITY;
     }
-    // A load on the tip starts the layer there, and has a share of every mode.
+    // A load at the tip starts in the layer there and contains every mode.
     let mut v = vec![0.0; n + 1];
     v[n] = 1.0;
     of_u.solve_in_place(&mut v);

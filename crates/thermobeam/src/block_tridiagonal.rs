@@ -72,7 +72,7 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
 
 /// Inverse of a symmetric block by Gauss-Jordan elimination with diagonal pivots.
 ///
-/// Returns the first pivot that has not the sign of `signs[k]` (NaN included) as an error.
+/// Pivot k must have the sign of `signs[k]`; the first that does not (NaN included) is returned as an error.
 #[inline(always)] // Unrolled for the constant signs of its caller; not inlined, a factorisation takes half as long again.
 fn invert<const B: usize>(mut block: Block<f64, B>, signs: [f64; B]) -> Result<Block<f64, B>, f64> {
     for k in 0..B {

@@ -84,20 +84,9 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     for _ in 0..ITERATIONS {
         let size = (kappa * l2_squared(lengths, &v) + stiffness_u * slope_squared(lengths, &v)).sqrt();
         v.iter_mut().for_each(|v| *v /= size);
-        w.fill(0.0);
-        for i in 0..n {
-            let shear = 0.5 * s * (v[i + 1] - v[i]);
-            w[i] += shear;
-            w[i + 1] += shear;
-        }
-        w[0] = 0.0;
+        to_rotation(s, &v, &mut w);
         of_phi.solve_in_place(&mut w);
-        image.fill(0.0);
-        for i in 0..n {
-            let stress = 0.5 * s * (w[i] + w[i + 1]);
-            image[i] -= stress;
-            image[i + 1] += stress;
-        }
+        to_displacement(s, &w, &mut image);
         // The quotient (V, s C W)/(V, A_u V).
         let quotient: f64 = v.iter().zip(&image).map(|(v, image)| v * image).sum();
         image[0] = 0.0;
@@ -110,6 +99,27 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
         }
     }
     factor
+}
+
+/// `w = s Cᵀ v`, zero at the clamped node.
+fn to_rotation(s: f64, v: &[f64], w: &mut [f64]) {
+    w.fill(0.0);
+    for i in 0..v.len() - 1 {
+        let shear = 0.5 * s * (v[i + 1] - v[i]);
+        w[i] += shear;
+        w[i + 1] += shear;
+    }
+    w[0] = 0.0;
+}
+
+/// `v = s C w`.
+fn to_displacement(s: f64, w: &[f64], v: &mut [f64]) {
+    v.fill(0.0);
+    for i in 0..w.len() - 1 {
+        let stress = 0.5 * s * (w[i] + w[i + 1]);
+        v[i] -= stress;
+        v[i + 1] += stress;
+    }
 }
 
 #[cfg(test)]

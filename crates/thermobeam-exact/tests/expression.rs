@@ -1,11 +1,11 @@
-//! Functions as text: what they mean, their derivatives, and what is said when they are wrong.
+//! Values and derivatives of expressions, and error messages.
 
 use std::f64::consts::{E, PI};
 
 use proptest::prelude::*;
 use thermobeam_exact::expression::{Expression, Variable};
 
-/// Asserts that a message holds each of these pieces, in this order.
+/// Asserts that a message contains these pieces in this order.
 #[track_caller]
 fn says(message: &str, pieces: &[&str]) {
     let mut rest = message;
@@ -138,7 +138,7 @@ fn derivatives_agree_with_finite_differences() {
     ] {
         let f = function(text);
         for x in [0.2, 0.45, 0.8] {
-            // Central differences: the error is a sixth and a twelfth of the next derivatives, times the step squared.
+            // The errors of the central differences are h²/6 and h²/12 times the next derivatives.
             let h = 1e-4;
             let (minus, middle, plus) = (f.eval(x - h), f.eval(x), f.eval(x + h));
             let expected = [middle, (plus - minus) / (2.0 * h), (plus - 2.0 * middle + minus) / (h * h)];
@@ -243,7 +243,7 @@ fn deep_nesting_is_rejected_without_stack_overflow() {
     ] {
         says(&refusal(&text), &["expected at most 256 nested operations"]);
     }
-    // Wide is not deep.
+    // A wide tree is not deep.
     let block = format!("(x{})", "+x".repeat(200));
     let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
     assert_eq!(sum.eval(1.0), 201.0 * 41.0);
@@ -285,17 +285,17 @@ fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
         let function = function(text);
         assert_eq!((function.size(2.0), function.roundoff(2.0)), (size, 8.0 * f64::EPSILON * size), "{text}");
     }
-    // The slope of the root is infinite at 0 and is left out there.
+    // The slope of the root is infinite at 0 and left out.
     assert!((function("sqrt(x)").size(4.0) - 3.0).abs() < 1e-12);
 }
 
-/// Texts that are more often nearly right than arbitrary characters are.
+/// Texts that are often nearly valid.
 fn nearly_right() -> impl Strategy<Value = String> {
     let pieces = ["x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^", " ", "ä"];
     prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// Reads, and uses whatever comes back.
+/// Parses a text, and evaluates the expression or checks the error.
 fn digest(text: &str) {
     match Expression::parse(text, Variable::X) {
         Ok(f) => {
@@ -325,7 +325,7 @@ proptest! {
         let [c0, c1, c2, c3] = c;
         let [value, first, second] = function(&format!("{c0} + {c1}*x + {c2}*x^2 + {c3}*x^3")).derivatives(x);
         let c = c.map(f64::from);
-        // Sums of four terms, each below 9 * 2^3 * 6 and rounded a few times.
+        // Sums of four terms, each below 9 * 2³ * 6 and rounded a few times.
         let slack = 16.0 * f64::EPSILON * 432.0;
         prop_assert!((value - (c[0] + x * (c[1] + x * (c[2] + x * c[3])))).abs() <= slack);
         prop_assert!((first - (c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]))).abs() <= slack);

@@ -1,4 +1,4 @@
-//! Loads, held against the weak form of (1.1) with (1.3): with a load `F`, the solution satisfies it for every hat function.
+//! Loads against the weak form of (1.1) and (1.3), which the solution satisfies for every hat function.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
@@ -30,7 +30,7 @@ fn mesh() -> Mesh {
 /// Value and slope in x of each product of a field.
 type Shape<'a> = dyn Fn(&[Product], usize, f64) -> [f64; 2] + 'a;
 
-/// Of a field at x, the jth derivative in time: its value and its slope.
+/// Value and slope at x of the j-th time derivative of a field.
 fn field(products: &[Product], shape: &Shape<'_>, x: f64, j: usize) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for (k, product) in products.iter().enumerate() {
@@ -89,7 +89,7 @@ fn factors(exact: &Manufactured) -> Factors {
     factors
 }
 
-/// The sources as loads; the temperature's equation holds at the inner nodes only.
+/// The loads; the equation of the temperature holds at the inner nodes only.
 fn fill(sources: &Sources, loads: BoundaryLoads) -> Vec<[f64; 3]> {
     let factors = factors(&exact());
     let mut load = vec![[f64::NAN; 3]; mesh().nodes().len()];

@@ -1,4 +1,4 @@
-//! The time loop allocates nothing: all memory is taken when the simulation is set up.
+//! Steps allocate no memory: all memory is allocated when a simulation is set up.
 
 use std::f64::consts::PI;
 use thermobeam::ensemble::Ensemble;
@@ -8,7 +8,7 @@ use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::{BYTES_PER_ELEMENT, Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
-/// The paper's beam thrown against its upper obstacle, heated or not.
+/// The paper's beam, moving towards its upper obstacle, with or without heat.
 fn thrown(heated: bool) -> Problem {
     let mesh = Mesh::uniform(20).unwrap();
     let mut initial = Initial::at_rest(&mesh, 0.0);
@@ -25,7 +25,7 @@ fn thrown(heated: bool) -> Problem {
     Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial }
 }
 
-/// Allocations of 500 steps, observed and balanced, and how many of them ended in contact.
+/// Number of allocations in 500 steps with their energies and balances, and number of steps that end in contact.
 fn allocations(mut simulation: Simulation) -> (u64, usize) {
     let mut levels = [simulation.level(), simulation.level()];
     let mut touching = 0;
@@ -94,7 +94,7 @@ fn the_allocation_counter_counts() {
     assert_eq!(info.count_total, 1);
 }
 
-/// Bytes that a simulation on so many elements holds, its data included.
+/// Bytes of a simulation with the given number of elements, its data included.
 fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
     let problem = Problem {
         mesh: Mesh::uniform(elements).unwrap(),

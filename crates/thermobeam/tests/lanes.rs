@@ -1,4 +1,4 @@
-//! Cases in lanes get the bits that they get alone, and a case that fails does not touch the others.
+//! Cases in lanes agree bitwise with single runs, and a failed case does not affect the others.
 
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
@@ -9,16 +9,16 @@ use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 
-/// Elements: two are left over when they are taken by four.
+/// Number of elements, not a multiple of four.
 const N: usize = 22;
 
-/// A balance, bit by bit.
+/// The bits of a balance.
 fn bits(balance: &Balance) -> [u64; 6] {
     let Balance { change, viscous, thermal, inertial, contact, residual } = *balance;
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 
-/// Four beams that differ in everything, so that some need a second pass or the safeguarded iteration where others do not.
+/// Four different beams: some need a second pass or the safeguarded iteration in steps in which others do not.
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
     let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();
@@ -77,7 +77,7 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     }
 }
 
-/// A pass is shared by the four lanes of a group, factorisations are each lane's own.
+/// A pass is shared by the four lanes of a group; each lane has its own factorisations.
 #[test]
 fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();
@@ -159,7 +159,7 @@ fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
 
 #[test]
 fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
-    // At dt = 10 the operator of a beam loaded beyond buckling is not definite.
+    // At dt = 10 the matrix of a beam loaded beyond buckling is not positive definite.
     let buckled = |k: usize| {
         let mut problem = problem(k);
         if k == 2 {

@@ -1,11 +1,11 @@
-//! Buckling, folds and the borderline cases.
+//! Buckling, folds and limit cases.
 
 use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
 use thermobeam::equilibrium::{Contact, EquilibriumError, HALF_WAVES, equilibria, lists_all};
 use thermobeam::parameters::Obstacles;
 
-/// N_k, where the beam without support buckles.
+/// The buckling value N_k of the beam without support.
 fn buckling(k: u32) -> f64 {
     let kappa = (f64::from(k) - 0.5) * PI;
     -kappa * kappa / (1.0 + kappa * kappa)
@@ -54,7 +54,7 @@ fn a_small_load_moves_buckled_states_linearly() {
     for moment in [1e-6, -1e-8, 1e-10, -1e-12] {
         close(sum(moment), slope, 1e-5 + 4e-16 / moment.abs());
     }
-    // Below round-off of the amplitude the pair is that of the unloaded beam.
+    // For loads below round-off of the amplitude the pair is that of the unloaded beam.
     let unloaded = states(&loaded(-0.9, 1.0, 0.0), None);
     for moment in [1e-15, 1e-17, -1e-30, 1e-200] {
         let found = states(&loaded(-0.9, 1.0, moment), None);
@@ -73,7 +73,7 @@ fn two_states_merge_in_a_fold_and_vanish() {
         if count(middle) == 1 { one = middle } else { three = middle }
     }
     assert_eq!((count(three * (1.0 - 1e-12)), count(one * (1.0 + 1e-12))), (3, 1));
-    // Beside the fold the pair is √ close, one of it stable, one not.
+    // At a relative distance δ from the fold the two states differ by √δ; one is stable, the other is not.
     let nearby = states(&loaded(-0.8, 1.0, three * (1.0 - 1e-10)), None);
     assert!((nearby[1].u_tip - nearby[0].u_tip).abs() < 1e-4);
     assert_eq!(nearby.iter().filter(|state| state.stable).count(), 2);
@@ -100,7 +100,7 @@ fn the_state_at_axial_force_minus_one_has_no_stress() {
     }
 }
 
-/// Below β = -1 the list ends at N_17 from above, and goes on from N = -1 down.
+/// For β < -1 the list ends at N_17 from above and continues from N = -1 downwards.
 #[test]
 fn sixteen_buckled_pairs_are_listed_for_any_beta() {
     for beta in [-1.0, -1.5] {
@@ -110,7 +110,7 @@ fn sixteen_buckled_pairs_are_listed_for_any_beta() {
         let straight = unloaded.iter().find(|state| state.u_tip == 0.0).expect("the straight beam");
         assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
     }
-    // A load splits each pair, to both sides of N_k, but for N_1, above which one is; N_17 gives its upper one.
+    // A load splits each pair into states on both sides of N_k; of N_1 and N_17 only the upper one is listed.
     let split = states(&loaded(-1.5, 1.0, 1e-6), None);
     let shallow: Vec<f64> = split.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
     assert_eq!(shallow.len(), 2 * HALF_WAVES + 1, "{shallow:?}");

@@ -1,11 +1,11 @@
-//! No state is missed and none is found twice.
+//! No state is missed, and none is found twice.
 
 use super::{close, loaded, slope_squared_by_quadrature, states};
 use proptest::prelude::*;
 use thermobeam::equilibrium::{Contact, Equilibrium, equilibria};
 use thermobeam::parameters::{Beam, Obstacles};
 
-/// The textbook formula for one law at one N, integrals by Simpson's rule: (f, c, u(1)).
+/// The textbook formula for one law at one N, with integrals by Simpson's rule: (f, c, u(1)).
 fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64, f64) {
     let (q, m, moment) = (1.0 / (1.0 + n_value), n_value / (1.0 + n_value), beam.a * beam.theta_a);
     let k = m.abs().sqrt();
@@ -25,7 +25,7 @@ fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64
     (n_value - beam.beta - beam.rho * slope_squared, c, q * (d * a + c))
 }
 
-/// All states with N > -0.98 by a blind fine scan: (contact, u(1)).
+/// All states with N > -0.98 by a fine scan: (contact, u(1)).
 fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Contact, f64)> {
     let Obstacles { epsilon, g1, g2 } = *obstacles;
     let laws = [(Contact::Free, None), (Contact::Upper, Some((epsilon, g2))), (Contact::Lower, Some((epsilon, g1)))];
@@ -96,8 +96,8 @@ fn any_obstacles() -> impl Strategy<Value = Option<Obstacles>> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// The energy grows in all directions, so its gradient has degree 1: one state missed or found twice breaks the sum.
-    /// (A pair missed would not: that is what the blind scan is for.)
+    /// The energy is coercive, so its gradient has degree 1: a state missed or found twice changes the sum.
+    /// A missed pair does not; the fine scan covers that case.
     #[test]
     fn the_indices_of_all_states_add_up_to_one(beam in any_beam(), obstacles in any_obstacles()) {
         let found = states(&beam, obstacles.as_ref());
@@ -106,7 +106,7 @@ proptest! {
         prop_assert!(found.iter().any(|state| state.stable));
     }
 
-    /// Upside down, everything is upside down.
+    /// Reflecting beam and obstacles reflects the states.
     #[test]
     fn a_mirrored_scene_has_mirrored_states(beam in any_beam(), obstacles in any_obstacles()) {
         let mirrored_beam = Beam { theta_a: -beam.theta_a, ..beam };
@@ -119,7 +119,7 @@ proptest! {
         }
     }
 
-    /// Whatever the coefficients, the states are finite, hold N = β + ρ‖u'‖², and one of them is stable.
+    /// For all coefficients the states are finite, satisfy N = β + ρ‖u'‖², and one of them is stable.
     #[test]
     fn equilibria_are_found_for_extreme_coefficients(
         beta in prop_oneof![-1e6..1e6_f64, -5.0..1.0_f64, -1.01..-0.99_f64],
@@ -138,7 +138,7 @@ proptest! {
             for state in &found {
                 let slope_squared = slope_squared_by_quadrature(state);
                 let defect = state.n_value - beta - beam.rho * slope_squared;
-                // Simpson's rule sees no boundary layer thinner than its step.
+                // Simpson's rule does not resolve a boundary layer thinner than its step.
                 let resolved = !(-1.001..=-1.0).contains(&state.n_value);
                 prop_assert!(!resolved || defect.abs() <= 1e-6 * (1.0 + beta.abs() + beam.rho * slope_squared), "{:?}", state);
             }

@@ -1,10 +1,11 @@
-//! The paper's fixed point contracts as predicted, and past a factor of one it diverges.
+//! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use crate::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::error::StepFailure;
+use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
@@ -15,7 +16,7 @@ fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) ->
     simulate(problem, Stepping { scheme, settings, ..stepping(dt) })
 }
 
-/// A beam pressed into the upper obstacle by a fifth of the gap, at rest or still on its way up.
+/// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
 fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
     let mesh = uniform(100);
     let mut initial = Initial::at_rest(&mesh, 0.0);
@@ -45,7 +46,7 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
 
 #[test]
 fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
-    // The midpoint rule would let a tip at rest leave the obstacle within such a step: it has to come in fast.
+    // In the midpoint rule a tip at rest would leave the obstacle within such a step; a fast tip does not.
     for (scheme, dt, speed) in
         [(EULER_CRANK_NICOLSON, 5e-3, 0.0), (EULER_CRANK_NICOLSON, 2e-2, 0.0), (MIDPOINT, 1e-2, 10.0)]
     {
@@ -89,7 +90,7 @@ fn spectral_radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
     let (kappa, s) = (scheme.inertia / dt, problem.beam.zeta + 0.5 * dt);
     let to_rotation = (&m * (kappa + s) + &k * s).lu().solve(&(c.transpose() * s)).unwrap();
     let back = (&m * kappa + &k * s).lu().solve(&(&c * s)).unwrap();
-    (back * to_rotation).complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    (back * to_rotation).complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, max_or_nan)
 }
 
 #[test]
@@ -107,7 +108,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
             let predicted = coupling_contraction(&beam, &lengths, &scheme, dt, 0.0);
             let exact = spectral_radius(&problem, &scheme, dt);
             assert!((predicted - exact).abs() <= 1e-6 * exact, "{}: {predicted} for {exact}", scheme.name);
-            // A contraction as strong as that of small steps ends the iteration before the slowest mode stands alone.
+            // For small steps the iteration converges before the slowest mode dominates.
             let lowest = if dt < 1.0 { 0.0 } else { 0.97 };
             assert!((lowest..1.03).contains(&(measured / exact)), "{}: {measured} for {exact}", scheme.name);
         }

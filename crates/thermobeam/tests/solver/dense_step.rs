@@ -1,4 +1,4 @@
-//! Steps of the solver against a dense formulation, on random small systems.
+//! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
 use crate::dense::{Dense, State};
 use crate::scenes::{relative_difference, simulate};
@@ -15,7 +15,7 @@ use thermobeam::solve::{Settings, Solver};
 const STEPS: usize = 3;
 const MOST: usize = 8;
 
-/// How far the coefficients go.
+/// Ranges of the coefficients.
 #[derive(Debug, Clone, Copy)]
 struct Range {
     log_dt: (f64, f64),
@@ -24,9 +24,9 @@ struct Range {
     beta: (f64, f64),
 }
 
-/// Where Newton's method has to work.
+/// Coefficients for Newton's method.
 const WIDE: Range = Range { log_dt: (-4.0, -0.5), log_epsilon: (-6.0, 0.0), log_rho: (-2.0, 4.0), beta: (-0.7, 50.0) };
-/// Where the fixed point converges.
+/// Coefficients for which the fixed point converges.
 const TAME: Range = Range { log_dt: (-4.0, -3.0), log_epsilon: (-1.0, 0.0), log_rho: (-2.0, 0.5), beta: (-0.7, 2.0) };
 
 #[derive(Debug, Clone)]
@@ -48,7 +48,7 @@ fn integrate(slopes: &[f64], mesh: &Mesh) -> Vec<f64> {
 }
 
 prop_compose! {
-    /// Elements in ratios of up to 1000.
+    /// A mesh with ratios of element lengths up to 1000.
     fn mesh()(logs in vec(-3.0..0.0f64, 1..=MOST)) -> Mesh {
         let parts: Vec<f64> = logs.iter().map(|log| 10f64.powf(*log)).collect();
         let total: f64 = parts.iter().sum();
@@ -76,7 +76,7 @@ prop_compose! {
     }
 }
 
-/// A row that the table does not have: the solvers serve any.
+/// A scheme that is not in the table, to test other inertias.
 const BETWEEN: Scheme = Scheme {
     name: "between",
     order: 1.0,
@@ -116,7 +116,7 @@ prop_compose! {
     }
 }
 
-/// Does the steps and compares each with the dense one from the same level; how often the tip pressed above and below.
+/// Compares each step with the dense one from the same level; whether the tip pressed the upper and the lower obstacle.
 fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
     let Random { problem, stepping, loads } = case;
     let dense = Dense::new(problem);
@@ -144,7 +144,7 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
     Ok(pressed)
 }
 
-/// Compares on so many random cases; both obstacles must have been pressed in a tenth of them.
+/// Compares on the given number of random cases; each obstacle must be pressed in a tenth of them.
 fn compare_all(range: Range, solver: Solver, cases: u32) {
     let config =
         ProptestConfig { cases, failure_persistence: None, max_global_rejects: 10, ..ProptestConfig::default() };

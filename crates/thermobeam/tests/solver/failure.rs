@@ -1,4 +1,4 @@
-//! Failure is a value: typed, with step and time, and the simulation stands where it stood.
+//! A failed step returns an error with step and time and leaves the simulation at its level; invalid input is rejected.
 
 use crate::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
@@ -23,7 +23,7 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for component in 0..3 {
                 for node in [1, 5, 10] {
-                    // A temperature is given at the tip: there is no equation that a load could enter.
+                    // The temperature is prescribed at the tip: no equation there contains the load.
                     if (component, node) == (2, 10) {
                         continue;
                     }
@@ -85,18 +85,18 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
             assert!(increment > 0.0, "{error}");
             (increment, contraction)
         };
-        let mut told = 0;
+        let mut compared = 0;
         let mut previous = f64::NAN;
         for max_iterations in 1..=4 {
             let (increment, contraction) = failed_at(max_iterations);
-            // Newton's method does not know it before it searches for the root.
+            // Newton's method has a contraction factor only in the safeguarded iteration.
             if !contraction.is_nan() {
                 assert_eq!(contraction, increment / previous, "{stepping:?} {max_iterations}");
-                told += 1;
+                compared += 1;
             }
             previous = increment;
         }
-        assert!(told > 1, "{stepping:?}");
+        assert!(compared > 1, "{stepping:?}");
     }
 }
 

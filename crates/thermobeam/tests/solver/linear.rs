@@ -1,4 +1,4 @@
-//! On the linear beam (ρ = 0) Newton's method has nothing to iterate.
+//! For the linear beam (ρ = 0) one pass of Newton's method solves a step.
 
 use crate::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::parameters::Beam;

@@ -1,4 +1,4 @@
-//! Numbers of an independent implementation of the scheme.
+//! Comparison with numbers from an independent implementation of the scheme.
 
 use crate::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::Stepping;

@@ -1,4 +1,4 @@
-//! The temperature is left out where nothing heats the beam, and leaving it out changes nothing.
+//! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
 use crate::scenes::{
     EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping, uniform,

@@ -1,4 +1,4 @@
-//! What a scene does not have is not computed: counted, because counts are exact where times are noisy.
+//! Work that a scene does not need is not done. Counts are tested, because unlike times they are exact.
 
 use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::{Problem, Stepping};
@@ -28,7 +28,7 @@ fn loads_and_observations_are_counted_exactly() {
                 let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
                 assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
                 assert!(work.passes >= STEPS, "{work:?}");
-                // A factor is kept over many steps; in the fixed point m changes with every iterate.
+                // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every iterate.
                 let expected = if solver == Solver::Newton { 1..STEPS } else { work.passes..work.passes + 1 };
                 assert!(expected.contains(&work.factorizations), "{solver:?}: {work:?}");
             }

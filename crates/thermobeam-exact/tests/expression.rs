@@ -7,12 +7,12 @@ use thermobeam_exact::expression::{Expression, Variable};
 
 /// Asserts that a message contains these pieces in this order.
 #[track_caller]
-fn says(message: &str, pieces: &[&str]) {
+fn contains_in_order(message: &str, pieces: &[&str]) {
     let mut rest = message;
     for piece in pieces {
         match rest.split_once(piece) {
             Some((_, after)) => rest = after,
-            None => panic!("not said, or not in this order: {piece:?}\n{message}"),
+            None => panic!("missing, or not in this order: {piece:?}\n{message}"),
         }
     }
 }
@@ -22,7 +22,7 @@ fn function(text: &str) -> Expression {
 }
 
 #[track_caller]
-fn refusal(text: &str) -> String {
+fn rejection(text: &str) -> String {
     Expression::parse(text, Variable::X).expect_err(text).to_string()
 }
 
@@ -201,14 +201,14 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
     ] {
         let error = Expression::parse(text, Variable::X).expect_err(text);
         assert_eq!(error.offset, offset, "{text}");
-        says(&error.to_string(), pieces);
+        contains_in_order(&error.to_string(), pieces);
     }
 }
 
 #[test]
 fn the_hint_about_a_missing_product_sign_appears_only_between_two_operands() {
-    for (text, is_missed) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
-        assert_eq!(refusal(text).contains("a product needs its *"), is_missed, "{text}");
+    for (text, has_hint) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
+        assert_eq!(rejection(text).contains("a product needs its *"), has_hint, "{text}");
     }
 }
 
@@ -219,12 +219,12 @@ fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
 
 #[test]
 fn the_caret_points_at_the_error() {
-    assert_eq!(refusal("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
+    assert_eq!(rejection("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
     let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
-    let lines: Vec<String> = refusal(&long).lines().map(str::to_owned).collect();
+    let lines: Vec<String> = rejection(&long).lines().map(str::to_owned).collect();
     assert_eq!(lines.len(), 3);
     assert!(lines[1].starts_with("    ...") && lines[1].ends_with("..."), "{lines:?}");
-    assert_eq!(refusal("ä + 2x").lines().nth(1), Some("    ä + 2x"));
+    assert_eq!(rejection("ä + 2x").lines().nth(1), Some("    ä + 2x"));
     assert!(lines.iter().all(|line| line.chars().count() < 120), "{lines:?}");
     let column = lines[2].find('^').expect("a caret");
     assert!(lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"), "{lines:?}");
@@ -241,7 +241,7 @@ fn deep_nesting_is_rejected_without_stack_overflow() {
         format!("x{}", "^x".repeat(many)),
         "(".repeat(many),
     ] {
-        says(&refusal(&text), &["expected at most 256 nested operations"]);
+        contains_in_order(&rejection(&text), &["expected at most 256 nested operations"]);
     }
     // A wide tree is not deep.
     let block = format!("(x{})", "+x".repeat(200));
@@ -262,14 +262,14 @@ fn a_value_that_is_not_finite_is_rejected_with_its_position() {
         ("x^1.5", 2, &["the second derivative is inf at x = 0"]),
         ("1/0", 0, &["the value is inf at x = 0"]),
     ] {
-        says(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
+        contains_in_order(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
     }
     assert_eq!(function("sqrt(x)").check_finite(0), Ok(()));
     assert_eq!(function("x^1.5").check_finite(1), Ok(()));
     assert_eq!(function("x^3").check_finite(2), Ok(()));
     let late = Expression::parse("1/(2-t)", Variable::T).expect("a function");
     assert_eq!(late.check_finite(2), Ok(()));
-    says(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
+    contains_in_order(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
 }
 
 #[test]
@@ -290,13 +290,13 @@ fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
 }
 
 /// Texts that are often nearly valid.
-fn nearly_right() -> impl Strategy<Value = String> {
+fn nearly_valid() -> impl Strategy<Value = String> {
     let pieces = ["x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^", " ", "ä"];
     prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40).prop_map(|pieces| pieces.concat())
 }
 
 /// Parses a text, and evaluates the expression or checks the error.
-fn digest(text: &str) {
+fn parse_and_use(text: &str) {
     match Expression::parse(text, Variable::X) {
         Ok(f) => {
             assert_eq!(f.to_string(), text);
@@ -312,12 +312,12 @@ fn digest(text: &str) {
 proptest! {
     #[test]
     fn any_text_parses_or_is_rejected_without_panic(text in any::<String>()) {
-        digest(&text);
+        parse_and_use(&text);
     }
 
     #[test]
-    fn any_nearly_valid_text_parses_or_is_rejected_without_panic(text in nearly_right()) {
-        digest(&text);
+    fn any_nearly_valid_text_parses_or_is_rejected_without_panic(text in nearly_valid()) {
+        parse_and_use(&text);
     }
 
     #[test]

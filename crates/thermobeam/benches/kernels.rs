@@ -23,7 +23,7 @@ fn main() {
 }
 
 /// The paper's beam, heated and moving towards its upper obstacle.
-fn thrown(elements: usize) -> Problem {
+fn moving_beam(elements: usize) -> Problem {
     let mesh = Mesh::uniform(elements).expect("a mesh");
     let mut initial = Initial::at_rest(&mesh, 0.0);
     for (i, &x) in mesh.nodes().iter().enumerate() {
@@ -35,7 +35,7 @@ fn thrown(elements: usize) -> Problem {
 
 fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
     let settings = Settings { solver, ..Settings::default() };
-    Simulation::new(thrown(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
+    Simulation::new(moving_beam(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
 }
 
 /// A simulation after eleven steps, and its last two levels.
@@ -73,7 +73,7 @@ fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![thrown(elements); 4];
+    let problems = vec![moving_beam(elements); 4];
     let mut ensemble =
         Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
     bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.advance());
@@ -82,7 +82,7 @@ fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![thrown(elements); 4];
+    let problems = vec![moving_beam(elements); 4];
     let mut ensemble =
         Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
     ensemble.advance();

@@ -37,7 +37,7 @@
 //! | (3.7), (3.8) | the scheme, solved by Newton's method | [`scheme`], `solve/sweeps.rs`, `solve/newton.rs` |
 //! | (3.9) | discrete energy, and its exact balance | [`energy`] |
 //! | (3.14) | the norm of Theorem 3.4 | [`norms`] |
-//! | (4.1)-(4.5) | the fixed-point iteration, and its contraction factors | `solve/fixed_point.rs`, [`contraction`] |
+//! | (4.1)-(4.3), (4.5) | the fixed-point iteration, and its contraction factors | `solve/fixed_point.rs`, [`contraction`] |
 //!
 //! # From data to levels
 //!
@@ -54,7 +54,7 @@
 //! use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 //! use thermobeam::solve::Settings;
 //!
-//! // The paper's beam, pushed upwards, meets its upper obstacle.
+//! // The paper's beam with an upward initial velocity reaches its upper obstacle.
 //! let mesh = Mesh::uniform(50)?;
 //! let mut initial = Initial::at_rest(&mesh, 0.0);
 //! initial.u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();

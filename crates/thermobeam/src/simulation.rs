@@ -237,7 +237,7 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
     Ok(())
 }
 
-/// Checks the initial data (1.2) against (1.3), sets their boundary values exactly, and lifts the temperature.
+/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly, lifts the temperature.
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;

@@ -9,7 +9,7 @@ use thermobeam::simulation::{BYTES_PER_ELEMENT, Initial, Problem, Simulation, St
 use thermobeam::solve::{Settings, Solver};
 
 /// The paper's beam, moving towards its upper obstacle, with or without heat.
-fn thrown(heated: bool) -> Problem {
+fn moving_beam(heated: bool) -> Problem {
     let mesh = Mesh::uniform(20).unwrap();
     let mut initial = Initial::at_rest(&mesh, 0.0);
     let mut beam = Beam::default();
@@ -53,7 +53,7 @@ fn the_time_loop_allocates_nothing() {
             for heated in [false, true] {
                 let settings = Settings { solver, ..Settings::default() };
                 let stepping = Stepping { scheme, settings, dt: 1e-3, loaded: false };
-                let simulation = Simulation::new(thrown(heated), stepping).unwrap();
+                let simulation = Simulation::new(moving_beam(heated), stepping).unwrap();
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
                 assert!(touching > 10, "the obstacle is meant to be met: {touching} steps");
@@ -64,7 +64,7 @@ fn the_time_loop_allocates_nothing() {
 
 #[test]
 fn lanes_with_their_balances_allocate_nothing() {
-    let (problems, dt) = ([true, false, true, true, false].map(thrown).to_vec(), [1e-3; 5]);
+    let (problems, dt) = ([true, false, true, true, false].map(moving_beam).to_vec(), [1e-3; 5]);
     let mut ensemble = Ensemble::new(problems, &dt, SCHEMES[0], Settings::default()).unwrap();
     let mut balances = Vec::with_capacity(5);
     let info = allocation_counter::measure(|| {
@@ -82,7 +82,7 @@ fn loads_are_allocated_once() {
     for solver in Solver::ALL {
         let settings = Settings { solver, ..Settings::default() };
         let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: true };
-        let mut simulation = Simulation::new(thrown(true), stepping).unwrap();
+        let mut simulation = Simulation::new(moving_beam(true), stepping).unwrap();
         simulation.load_mut();
         assert_eq!(allocations(simulation).0, 0, "{solver:?}");
     }
@@ -99,7 +99,7 @@ fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
     let problem = Problem {
         mesh: Mesh::uniform(elements).unwrap(),
         initial: Initial::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
-        ..thrown(heated)
+        ..moving_beam(heated)
     };
     let settings = Settings { solver, ..Settings::default() };
     let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: false };

@@ -205,7 +205,7 @@ impl Parser<'_> {
         let constants = CONSTANTS.iter().map(|(name, _)| *name);
         let known: Vec<&str> =
             std::iter::once(self.variable.name()).chain(constants).chain(FUNCTIONS.iter().map(|f| f.0)).collect();
-        // A single letter is not a misspelt name.
+        // A single letter is a wrong variable: no suggestion.
         let suggestion = if name.len() == 1 { None } else { nearest(name, known.iter().copied()).map(str::to_owned) };
         ExpressionProblem::UnknownName { name: shorten(name), suggestion, known: known.join(" ") }
     }

@@ -4,7 +4,7 @@ use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
 use super::scan::{Place, Root, Scan};
 use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
-use super::{Contact, Equilibrium, EquilibriumError, HALF_WAVES};
+use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
 use crate::parameters::Beam;
 
 /// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
@@ -15,7 +15,7 @@ const RESONANCE: f64 = 1e-13;
 
 /// Whether a state with this N is returned: an interval above N = -1 is left out, see [`super::equilibria`].
 fn is_listed(n_value: f64) -> bool {
-    n_value <= -1.0 || 1.0 + n_value > free_buckling(HALF_WAVES + 1)
+    n_value <= -1.0 || 1.0 + n_value > free_buckling(BUCKLING_VALUES + 1)
 }
 
 /// One state of contact: its law, and the solutions of that law, whether they press the obstacle or not.
@@ -84,7 +84,7 @@ impl Branch<'_> {
     fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         // With a support at 0 the straight beam touches without pressing: the free law returns it.
         let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
-        let above = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
+        let above = (1..=BUCKLING_VALUES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
         let below = self.law.buckling_below_minus_one().map(|s| (s, None));
         let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
         for (s, unstable_directions) in above.chain(below).filter(|(s, _)| exists(*s)) {
@@ -99,7 +99,7 @@ impl Branch<'_> {
     /// With a load: the roots of the scalar equation.
     fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
-        let roots = scan.roots_above_minus_one(HALF_WAVES + 1).into_iter().chain(scan.roots_below_minus_one());
+        let roots = scan.roots_above_minus_one(BUCKLING_VALUES + 1).into_iter().chain(scan.roots_below_minus_one());
         let states: Result<Vec<_>, _> = roots.map(|root| self.state_at(&root)).collect();
         Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
     }
@@ -295,7 +295,7 @@ mod tests {
     #[test]
     fn at_its_buckling_value_a_buckled_pair_merges_with_the_straight_beam() {
         let mut tried = 0;
-        for k in 1..=HALF_WAVES {
+        for k in 1..=BUCKLING_VALUES {
             let Some(beta) = beta_at(free_buckling(k)) else { continue };
             let beam = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let states = branch(&beam, None, None).states().unwrap();

@@ -33,7 +33,7 @@
 //!
 //! Their determinant vanishes at the buckling values of the law. Without contact these are the zeros of cos k:
 //! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. With contact there is one value between N_{k+1} and N_k for each k, and one more
-//! near N = -1 - 1/ε, where the negative stiffness of the beam equals that of the obstacle.
+//! near N = -1 - 1/ε, where the negative stiffness of the beam has the size of the obstacle's.
 //!
 //! # N is the root of one scalar equation
 //!
@@ -71,10 +71,10 @@ use law::{Law, Support, free_buckling};
 use shape::Shape;
 use thiserror::Error;
 
-/// [`equilibria`] returns all states with N above the buckling value N_k of index k = `HALF_WAVES + 1`.
+/// Number of buckling values above which [`equilibria`] returns all states: the next one, N_k with k one larger, is the limit.
 ///
-/// A state with smaller N has at least `HALF_WAVES - 1` unstable directions, so every stable state is returned for any β.
-pub const HALF_WAVES: usize = 16;
+/// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for any β.
+pub const BUCKLING_VALUES: usize = 16;
 
 /// The obstacle that the tip presses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,14 +175,14 @@ impl Equilibrium {
 ///
 /// Every state has N >= β, so the list is complete if β is at least the lowest buckling value that is searched.
 pub fn lists_all(beam: &Beam) -> bool {
-    1.0 + beam.beta >= free_buckling(HALF_WAVES + 1)
+    1.0 + beam.beta >= free_buckling(BUCKLING_VALUES + 1)
 }
 
 /// All steady states, sorted by u(1), then N.
 ///
 /// * `obstacles`: `None` leaves the tip free.
 /// * For β so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value of index
-///   [`HALF_WAVES`] + 1 and all with N <= -1. Those between are unstable.
+///   [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
 ///
 /// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the number
 /// of states (none, one or two) is determined to round-off of N.

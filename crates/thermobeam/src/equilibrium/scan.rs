@@ -69,12 +69,12 @@ pub(super) struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    /// All roots N > -1 above the `waves`-th buckling value, in decreasing order.
-    pub(super) fn roots_above_minus_one(&self, waves: usize) -> Vec<Root> {
+    /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
+    pub(super) fn roots_above_minus_one(&self, count: usize) -> Vec<Root> {
         let rest = 1.0 + self.beta;
         let mut hi = End::Plain(self.upper_end(self.law.buckling(1)));
         let mut roots = Vec::new();
-        for above in 0..waves {
+        for above in 0..count {
             let pole = self.law.buckling(above + 1);
             roots.extend(self.interval(End::Buckling(pole), hi, Some(above)));
             if pole <= rest {
@@ -173,7 +173,7 @@ enum Maximum {
 
 #[cfg(test)]
 mod tests {
-    use super::super::HALF_WAVES;
+    use super::super::BUCKLING_VALUES;
     use super::super::law::Support;
     use super::*;
 
@@ -192,8 +192,11 @@ mod tests {
                     // The β for which s is a root.
                     let beta = s - 1.0 - rho * law.solve(s).slope_squared();
                     let scan = Scan { law: &law, beta, rho };
-                    let roots =
-                        if s > 0.0 { scan.roots_above_minus_one(HALF_WAVES + 1) } else { scan.roots_below_minus_one() };
+                    let roots = if s > 0.0 {
+                        scan.roots_above_minus_one(BUCKLING_VALUES + 1)
+                    } else {
+                        scan.roots_below_minus_one()
+                    };
                     let is_found = |root: &Root| match root.place {
                         Place::Between(found) => (found / s - 1.0).abs() < 1e-9,
                         Place::Buckling(..) => false,

@@ -30,7 +30,7 @@ impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
 
     fn tip(&self, k: usize) -> f64 {
         let tip = self.old.len() - 1;
-        self.frozen[k].as_ref().map_or(self.old[tip][0].lane(k), |frozen| frozen.u[tip])
+        self.failed_levels[k].as_ref().map_or(self.old[tip][0].lane(k), |level| level.u[tip])
     }
 
     fn contact_force(&self, k: usize) -> f64 {
@@ -43,7 +43,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     fn sums(&self) -> Sums<T> {
         let [velocity, before] = match &self.velocity {
             [velocity, before] if !velocity.is_empty() => [velocity, before],
-            _ => [&self.ring[1], &self.ring[2]],
+            _ => [&self.iterates[1], &self.iterates[2]],
         };
         let count = self.elements.len();
         // Slices of equal length, so the compiler removes the bounds checks in the loop.

@@ -221,7 +221,7 @@ impl FixedPoint {
         TheoremSquares::of(&self.case.lengths, v, u, w, phi, theta).norm()
     }
 
-    /// Makes the present iterate the previous one.
+    /// Makes the present iterate the previous one, with u^{n,ℓ} by (4.3).
     fn remember(&mut self) {
         for (u, (u0, v)) in self.u_before.iter_mut().zip(self.old.u.iter().zip(&self.now.v)) {
             *u = u0 + self.case.dt * v;

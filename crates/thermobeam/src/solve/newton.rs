@@ -59,14 +59,14 @@ pub(crate) struct Newton<T, const B: usize> {
     /// The scheme's inertia: `v = v0 + weight (V - v0)`.
     weight: T,
     /// X of the present step and of the previous three; at the start, the initial velocities and temperature.
-    pub(super) ring: [Vec<[T; B]>; 4],
+    pub(super) iterates: [Vec<[T; B]>; 4],
     /// The right-hand side after the forward sweep.
     pub(super) middle: Vec<[T; B]>,
     /// The loads, or empty.
     load: Vec<[T; 3]>,
     pub(super) controls: Vec<Control>,
     /// The last level of the cases that have failed.
-    pub(super) frozen: Vec<Option<Level>>,
+    pub(super) failed_levels: Vec<Option<Level>>,
     /// Passes over all lanes.
     passes: usize,
 }
@@ -116,14 +116,14 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             factor: Factor::new(n),
             elements,
             new: zeros.clone(),
-            ring: [zeros.clone(), start.clone(), start.clone(), start],
+            iterates: [zeros.clone(), start.clone(), start.clone(), start],
             middle: zeros.clone(),
             load: vec![],
             old,
             velocity,
             weight: T::splat(scheme.inertia),
             controls,
-            frozen: vec![None; cases.len()],
+            failed_levels: vec![None; cases.len()],
             scalars: scalars(&cases, &scheme),
             scheme,
             settings,
@@ -189,7 +189,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         self.passes += 1;
         self.forward(m, first);
         let tip = self.solve_tip(active);
-        let [iterate, ..] = &mut self.ring;
+        let [iterate, ..] = &mut self.iterates;
         let sums = Backward {
             scalars: &self.scalars,
             elements: &self.elements,
@@ -208,7 +208,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// Runs the forward sweep for the mean forces m; `first` extrapolates the initial iterate.
     fn forward(&mut self, m: T, first: bool) {
         let weights = self.weights().map(T::splat);
-        let [iterate, one, two, three] = &mut self.ring;
+        let [iterate, one, two, three] = &mut self.iterates;
         let old_velocity = if self.velocity[0].is_empty() { &*one } else { &self.velocity[0] };
         let sweep = Forward {
             scalars: &self.scalars,
@@ -242,7 +242,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 continue;
             }
             let (dt, u0) = (self.cases[k].dt, self.old[last][0].lane(k));
-            let free = u0 + dt * (self.ring[0][last][0].lane(k) + delta[0].lane(k));
+            let free = u0 + dt * (self.iterates[0][last][0].lane(k) + delta[0].lane(k));
             let tip = obstacles.solve_tip(self.scheme.contact, free, dt * inverse[0][0].lane(k), u0);
             self.controls[k].tip = tip;
             for (component, row) in delta.iter_mut().zip(inverse) {
@@ -287,7 +287,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             if T::WIDTH > 1 {
                 let mut level = Level::new(self.old.len());
                 self.read(k, &mut level);
-                self.frozen[k] = Some(level);
+                self.failed_levels[k] = Some(level);
             }
         }
     }
@@ -310,13 +310,13 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         {
             // In this order it is v = 2 V - v0 to the bit for the midpoint rule.
             let (weight, rest) = (self.weight, T::splat(1.0) - self.weight);
-            for ((new, old), x) in new.iter_mut().zip(old.iter()).zip(&self.ring[0]) {
+            for ((new, old), x) in new.iter_mut().zip(old.iter()).zip(&self.iterates[0]) {
                 *new = std::array::from_fn(|c| weight * x[c] + rest * old[c]);
             }
             std::mem::swap(old, new);
         }
         std::mem::swap(&mut self.old, &mut self.new);
-        self.ring.rotate_right(1);
+        self.iterates.rotate_right(1);
     }
 }
 
@@ -359,11 +359,11 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
     }
 
     fn read(&self, k: usize, level: &mut Level) {
-        if let Some(frozen) = &self.frozen[k] {
-            level.copy_from(frozen);
+        if let Some(level_before) = &self.failed_levels[k] {
+            level.copy_from(level_before);
             return;
         }
-        let velocity = if self.velocity[0].is_empty() { &self.ring[1] } else { &self.velocity[0] };
+        let velocity = if self.velocity[0].is_empty() { &self.iterates[1] } else { &self.velocity[0] };
         for (i, (state, velocity)) in self.old.iter().zip(velocity).enumerate() {
             level.u[i] = state[0].lane(k);
             level.phi[i] = state[1].lane(k);

@@ -75,7 +75,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// Resets the iterate of case k to the previous step's, because it may have diverged.
     fn restart(&mut self, k: usize) {
         self.controls[k].state = Progress::Safeguarded;
-        let [iterate, before, ..] = &mut self.ring;
+        let [iterate, before, ..] = &mut self.iterates;
         for (to, from) in iterate.iter_mut().zip(before.iter()) {
             for (to, from) in to.iter_mut().zip(from) {
                 to.set_lane(k, from.lane(k));

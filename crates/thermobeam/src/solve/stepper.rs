@@ -1,4 +1,4 @@
-//! What a simulation needs of a solver, and what a batch of cases in lanes needs besides.
+//! The interface of a solver to a simulation, and its extension for several cases in lanes.
 
 use crate::energy::Balance;
 use crate::error::StepFailure;

@@ -2,7 +2,7 @@
 
 use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{Contact, EquilibriumError, HALF_WAVES, equilibria, lists_all};
+use thermobeam::equilibrium::{BUCKLING_VALUES, Contact, EquilibriumError, equilibria, lists_all};
 use thermobeam::parameters::Obstacles;
 
 /// The buckling value N_k of the beam without support.
@@ -105,7 +105,7 @@ fn the_state_at_axial_force_minus_one_has_no_stress() {
 fn sixteen_buckled_pairs_are_listed_for_any_beta() {
     for beta in [-1.0, -1.5] {
         let unloaded = states(&loaded(beta, 1.0, 0.0), None);
-        assert_eq!(unloaded.len(), 1 + 2 * HALF_WAVES, "one straight, and a pair each: {beta}");
+        assert_eq!(unloaded.len(), 1 + 2 * BUCKLING_VALUES, "one straight, and a pair each: {beta}");
         assert!((1..=16).all(|k| unloaded.iter().filter(|s| (s.n_value - buckling(k)).abs() < 1e-13).count() == 2));
         let straight = unloaded.iter().find(|state| state.u_tip == 0.0).expect("the straight beam");
         assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
@@ -113,8 +113,8 @@ fn sixteen_buckled_pairs_are_listed_for_any_beta() {
     // A load splits each pair into states on both sides of N_k; of N_1 and N_17 only the upper one is listed.
     let split = states(&loaded(-1.5, 1.0, 1e-6), None);
     let shallow: Vec<f64> = split.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
-    assert_eq!(shallow.len(), 2 * HALF_WAVES + 1, "{shallow:?}");
-    assert!(shallow.iter().all(|n| *n > buckling(HALF_WAVES as u32 + 1)));
+    assert_eq!(shallow.len(), 2 * BUCKLING_VALUES + 1, "{shallow:?}");
+    assert!(shallow.iter().all(|n| *n > buckling(BUCKLING_VALUES as u32 + 1)));
     assert!(split.iter().any(|state| state.n_value < -1.0));
 }
 
@@ -125,6 +125,6 @@ fn undecidable_equilibria_are_errors() {
     let bad = equilibria(&loaded(f64::NAN, 1.0, 0.1), None);
     assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
     assert!(lists_all(&loaded(-0.999, 1.0, 0.0)) && !lists_all(&loaded(-1.0, 1.0, 0.0)));
-    let last = buckling(HALF_WAVES as u32 + 1);
+    let last = buckling(BUCKLING_VALUES as u32 + 1);
     assert!(lists_all(&loaded(last + 1e-9, 1.0, 0.0)) && !lists_all(&loaded(last - 1e-9, 1.0, 0.0)));
 }

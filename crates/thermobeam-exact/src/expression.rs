@@ -10,8 +10,8 @@
 //! | `sin cos tan asin acos atan sinh cosh tanh exp ln log10 sqrt abs` | functions of one argument |
 //! | `min max` | functions of two arguments |
 //!
-//! A product needs its `*`: `2x` is an error. The syntax tree is evaluated on `f64` and on second-order dual numbers, which
-//! give exact derivatives.
+//! A product needs its `*`: `2x` is an error. The syntax tree is evaluated on `f64` and on second-order dual numbers,
+//! which give exact derivatives.
 
 mod error;
 mod parser;

@@ -39,9 +39,9 @@ impl FieldFactors {
 
     /// The time-discrete form of a sequence of values over a step: mean, difference quotient, and inertia term.
     ///
-    /// `old` and `new` contain the values at both ends of the step and the velocities v of the sequence. The new velocity is
-    /// set to `inertia * V + (1 - inertia) v_old` with `V = (T_n - T_{n-1})/dt`: V for the paper's scheme, `2 V - v_old` for
-    /// the midpoint rule. The acceleration is `(V - v_old) inertia/dt`.
+    /// `old` and `new` contain the values at both ends of the step and the velocities v of the sequence. The new
+    /// velocity is set to `inertia * V + (1 - inertia) v_old` with `V = (T_n - T_{n-1})/dt`: V for the paper's scheme,
+    /// `2 V - v_old` for the midpoint rule. The acceleration is `(V - v_old) inertia/dt`.
     fn of_step(&mut self, old: &FieldFactors, new: &mut FieldFactors, inertia: f64, dt: f64) {
         self.value.clear();
         self.rate.clear();
@@ -64,7 +64,8 @@ impl Factors {
         self.theta.at(&exact.theta, t);
     }
 
-    /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`, and the velocities of `new`.
+    /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`, and the velocities of
+    /// `new`.
     ///
     /// * `inertia`: that of the [`Scheme`](thermobeam::scheme::Scheme).
     /// * `dt`: the time step.

@@ -1,8 +1,8 @@
 //! Exact solutions for the [`thermobeam`] solver: functions given as text, loads derived from them, and errors.
 //!
 //! With `u = Σ X_j(x) T_j(t)`, `φ = Σ Y_k S_k`, `θ = Σ Z_l Q_l`, every load of the scheme is a sum of time coefficients
-//! times space vectors that are computed once, and every error norm is a few dot products. A step then needs a few vector
-//! operations instead of quadrature.
+//! times space vectors that are computed once, and every error norm is a few dot products. A step then needs a few
+//! vector operations instead of quadrature.
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
 //! * [`solution`]: the sums of products.
@@ -11,8 +11,8 @@
 //! * [`errors`]: the errors in each [`norm`].
 //! * [`quadrature`]: integrals for errors against other functions.
 //!
-//! The code that runs in every step of a convergence study is a separate crate, because it is compiled with optimisation and
-//! the code that reads files and reports is not: a clean build takes a fifth less time.
+//! The code that runs in every step of a convergence study is a separate crate, because it is compiled with
+//! optimisation and the code that reads files and reports is not: a clean build takes a fifth less time.
 
 pub mod errors;
 pub mod expression;

@@ -17,7 +17,8 @@ pub enum Norm {
     Theorem34,
     /// ‖u_h - u‖.
     Displacement,
-    /// The norm of [`Norm::Theorem34`] of the distance to the nodal interpolants of the exact solution: Z_n^½ of (3.16).
+    /// The norm of [`Norm::Theorem34`] of the distance to the nodal interpolants of the exact solution: Z_n^½ of
+    /// (3.16).
     Superclose,
 }
 

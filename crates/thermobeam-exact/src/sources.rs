@@ -8,10 +8,10 @@
 //! f_θ = θ_t - θ_xx + a φ_xt
 //! ```
 //!
-//! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3): `σ(1, t) + g(u(1, t))` in the
-//! first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, so the two computations share
-//! only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not contribute to f_θ; its
-//! contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
+//! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3): `σ(1, t) + g(u(1, t))`
+//! in the first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, so the two
+//! computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
+//! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
 
 use crate::factors::Factors;
 use crate::quadrature::RULE;

@@ -1,7 +1,7 @@
 //! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
 //!
-//! The solver works element by element without them. They serve the manufactured solutions that isolate the time error, the
-//! studies of vibrations, and the tests.
+//! The solver works element by element without them. They serve the manufactured solutions that isolate the time error,
+//! the studies of vibrations, and the tests.
 
 use crate::mesh::Mesh;
 
@@ -138,7 +138,8 @@ mod tests {
                 };
                 let (ni, nj) = (hat(i), hat(j));
                 assert!((entry(&m) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
-                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of N_j.
+                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of
+                // N_j.
                 let exact: f64 = x.windows(2).map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1]))).sum();
                 assert!((entry(&c) - exact).abs() < 1e-15);
             }

@@ -11,8 +11,8 @@ const SECTIONS: usize = 90;
 
 /// The point between `lo` and `hi` where f changes sign, to two neighbouring floats.
 ///
-/// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for a function that vanishes
-///   on one side of the point, the boundary of the zero set is returned.
+/// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for a function that
+///   vanishes on one side of the point, the boundary of the zero set is returned.
 /// * `lo` may be larger than `hi`. Only the sign of f at `lo` is evaluated.
 /// * Returns one of the two floats between which the sign changes.
 pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {

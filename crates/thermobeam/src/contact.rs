@@ -3,10 +3,10 @@
 //! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, hence G' = g (the paper defines
 //! them after (2.3) and (2.5)).
 //!
-//! For given mean axial force a step is linear except for one scalar equation at the tip, `u + c F(u) = r`: r is the tip's
-//! position without obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is piecewise
-//! linear for the implicit rule and a quotient of quadratics for the discrete gradient. It is nondecreasing, so the root is
-//! unique and r determines the piece that contains it: for every ε it is computed without iteration.
+//! For given mean axial force a step is linear except for one scalar equation at the tip, `u + c F(u) = r`: r is the
+//! tip's position without obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is
+//! piecewise linear for the implicit rule and a quotient of quadratics for the discrete gradient. It is nondecreasing,
+//! so the root is unique and r determines the piece that contains it: for every ε it is computed without iteration.
 
 use crate::parameters::Obstacles;
 use crate::scheme::ContactRule;

@@ -1,13 +1,13 @@
 //! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
-//! The paper does not analyse the convergence of its iteration. Two of the quantities that (4.2) takes from the previous
-//! iterate determine it:
+//! The paper does not analyse the convergence of its iteration. Two of the quantities that (4.2) takes from the
+//! previous iterate determine it:
 //!
 //! * g(u) in the first equation: in contact an error is multiplied by [`contact_contraction`] in each iteration;
 //! * u and û in the second equation: without contact an error is multiplied by [`coupling_contraction`].
 //!
-//! The iteration diverges for a factor above 1. The effects of the previous N(u) and φ̂ in the first and third equation are
-//! smaller, of order dt².
+//! The iteration diverges for a factor above 1. The effects of the previous N(u) and φ̂ in the first and third equation
+//! are smaller, of order dt².
 
 use crate::norms::{l2_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
@@ -16,10 +16,10 @@ use crate::tridiagonal::TridiagonalFactor;
 
 /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`.
 ///
-/// `A_u = κ M + (ζ + dt (1 + N)/2) K` is the matrix of the first equation of (4.2), κ = inertia/dt, and g' the slope of the
-/// contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous iterate enters the right-
-/// hand side at the tip only, so an error e of u(1) becomes -α e. On a fine mesh `α ≈ dt^{3/2}/(ε √ζ)`, up to terms in
-/// dt/ζ.
+/// `A_u = κ M + (ζ + dt (1 + N)/2) K` is the matrix of the first equation of (4.2), κ = inertia/dt, and g' the slope of
+/// the contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous iterate enters
+/// the right- hand side at the tip only, so an error e of u(1) becomes -α e. On a fine mesh `α ≈ dt^{3/2}/(ε √ζ)`, up
+/// to terms in dt/ζ.
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
@@ -50,8 +50,8 @@ const RELATIVE_CHANGE: f64 = 1e-13;
 
 /// Contraction factor of the fixed point without contact, from the coupling of rotation and displacement.
 ///
-/// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as `s C W`.
-/// The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
+/// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
+/// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
 ///
 /// ```text
 /// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! V and W are the velocities that carry the step, F is its contact force. The balance follows from (3.7) with the test
-//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with each inequality kept as an equation. In
-//! the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w - w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with the
-//! lifted temperature θ~ plus the term `-a θ_A ∫φ`, without which it need not decrease.
+//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with each inequality kept as an equation.
+//! In the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w - w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with
+//! the lifted temperature θ~ plus the term `-a θ_A ∫φ`, without which it need not decrease.
 //!
 //! A wrong step may still lose energy, but its balance does not close to round-off.
 
@@ -140,7 +140,8 @@ impl Balance {
         let gap = obstacles.map_or(0.0, |_| tip.force * (tip.new - tip.old) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
-        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule none.
+        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
+        // none.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
     }

@@ -1,7 +1,8 @@
 //! Several simulations side by side in lanes: for sweeps, maps and random scenes.
 //!
 //! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers in place of one. The
-//! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the others.
+//! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the
+//! others.
 
 use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
@@ -15,10 +16,11 @@ use crate::solve::{Level, Settings, StepReport, Work};
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.
 const WIDTH: usize = 4;
 
-/// Simulations by Newton's method with the same number of elements, the same scheme and the same settings. Coefficients,
-/// obstacles, meshes, initial data and time steps may differ.
+/// Simulations by Newton's method with the same number of elements, the same scheme and the same settings.
+/// Coefficients, obstacles, meshes, initial data and time steps may differ.
 ///
-/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group costs as much as a full one.
+/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group costs as much as a full
+/// one.
 pub struct Ensemble {
     problems: Vec<Problem>,
     lengths: Vec<Vec<f64>>,

@@ -34,8 +34,9 @@ pub enum StepFailure {
     },
     /// The increments decrease, but not below the tolerance within the allowed number of iterations.
     #[error(
-        "the iteration is too slow: expected an increment below the tolerance, found {increment:.3e} after {iterations} \
-         iterations (contraction factor {contraction:.3e}): allow more iterations, or take a larger tolerance or a smaller dt"
+        "the iteration is too slow: expected an increment below the tolerance, found {increment:.3e} after \
+         {iterations} iterations (contraction factor {contraction:.3e}): allow more iterations, or take a larger \
+         tolerance or a smaller dt"
     )]
     IterationLimit {
         /// Number of iterations done.
@@ -47,8 +48,8 @@ pub enum StepFailure {
     },
     /// The solution is infinite or NaN.
     #[error(
-        "expected a finite solution, found an infinite value or NaN after {iterations} iterations (last finite increment \
-         {increment:.3e}): check the loads, or take a smaller dt"
+        "expected a finite solution, found an infinite value or NaN after {iterations} iterations (last finite \
+         increment {increment:.3e}): check the loads, or take a smaller dt"
     )]
     NonFinite {
         /// Number of iterations done.
@@ -56,10 +57,11 @@ pub enum StepFailure {
         /// The last finite increment; NaN if there is none.
         increment: f64,
     },
-    /// The operator of the step is not positive definite.
+    /// The matrix of the step is not positive definite, or not quasi-definite with the temperature.
     #[error(
-        "the matrix of the step is not positive definite: expected a pivot of the right sign, found {pivot:.3e} at node {node} \
-         for the axial force {n_value:.6}: take a smaller dt, because the beam is loaded beyond its buckling force"
+        "the matrix of the step is not positive definite: expected a pivot of the right sign, found {pivot:.3e} at \
+         node {node} for the axial force {n_value:.6}: take a smaller dt, because the beam is loaded beyond its \
+         buckling force"
     )]
     Indefinite {
         /// Node of the pivot.

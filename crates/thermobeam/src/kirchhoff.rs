@@ -19,8 +19,8 @@ impl Beam {
         self.beta + self.rho * slope_squared
     }
 
-    /// Kirchhoff energy for given ‖u_x‖²: `N²/(4ρ)` of (2.5) for ρ > 0; `β/2 ‖u_x‖²` for the linear beam, which is the same
-    /// up to the constant β²/(4ρ) in the limit ρ → 0.
+    /// Kirchhoff energy for given ‖u_x‖²: `N²/(4ρ)` of (2.5) for ρ > 0; `β/2 ‖u_x‖²` for the linear beam, which is the
+    /// same up to the constant β²/(4ρ) in the limit ρ → 0.
     pub fn kirchhoff_energy(&self, slope_squared: f64) -> f64 {
         if self.rho > 0.0 {
             let n = self.axial_force(slope_squared);

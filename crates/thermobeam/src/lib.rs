@@ -44,8 +44,8 @@
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
 //! one [`scheme`] and one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Exact solutions for
 //! comparison: [`equilibrium`], [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The
-//! crate does no input or output and starts no threads. Every failure is a value of a type in [`error`], and a failed step
-//! leaves the simulation at its last level.
+//! crate does no input or output and starts no threads. Every failure is a value of a type in [`error`], and a failed
+//! step leaves the simulation at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;

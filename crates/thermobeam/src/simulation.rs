@@ -10,8 +10,8 @@ use crate::solve::newton::Case;
 use crate::solve::stepper::{Stepper, newton};
 use crate::solve::{Level, Settings, Solver, StepReport, Work};
 
-/// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is 1e-16,
-/// 20 cos(5πx/2) there is 6e-15.
+/// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
+/// 1e-16, 20 cos(5πx/2) there is 6e-15.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// Nodal values of the initial data (1.2), n + 1 each.
@@ -66,7 +66,8 @@ pub struct Stepping {
     pub loaded: bool,
 }
 
-/// Memory of a simulation by Newton's method with temperature, in bytes per element; the factorisation takes 144 of them.
+/// Memory of a simulation by Newton's method with temperature, in bytes per element; the factorisation takes 144 of
+/// them.
 pub const BYTES_PER_ELEMENT: usize = 392;
 
 /// A simulation at one time level.
@@ -190,7 +191,8 @@ impl Simulation {
         Work { loads: self.loads, observations: self.observations, ..self.stepper.work() }
     }
 
-    /// Whether the temperature is computed. Newton's method leaves it out if nothing heats the beam and there are no loads.
+    /// Whether the temperature is computed. Newton's method leaves it out if nothing heats the beam and there are no
+    /// loads.
     pub fn is_heated(&self) -> bool {
         self.heated
     }
@@ -237,7 +239,8 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
     Ok(())
 }
 
-/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly, lifts the temperature.
+/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly, lifts the
+/// temperature.
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;

@@ -17,20 +17,20 @@
 //!
 //! # Contact
 //!
-//! The position of the tip carries a rounding error δ of about `u_r (|u(1)| + dt |v(1)|)`; the second part is the path of
-//! the tip without the obstacle, whose rounding error it keeps. The contact law amplifies it to a force δ/ε, 1e-17/ε for
-//! an obstacle at 0.1. The *force* of the step is hardly affected, because it is computed in closed form and enters the
-//! balance as computed; the contact *energy* is evaluated at the rounded position, with an error of `|F| δ + δ²/(2ε)`. In
-//! the residual this error cancels against the same error in the gap. In the change of the energy it does not: a conserved
-//! energy may appear to rise by as much.
+//! The position of the tip carries a rounding error δ of about `u_r (|u(1)| + dt |v(1)|)`; the second part is the path
+//! of the tip without the obstacle, whose rounding error it keeps. The contact law amplifies it to a force δ/ε, 1e-17/ε
+//! for an obstacle at 0.1. The *force* of the step is hardly affected, because it is computed in closed form and enters
+//! the balance as computed; the contact *energy* is evaluated at the rounded position, with an error of
+//! `|F| δ + δ²/(2ε)`. In the residual this error cancels against the same error in the gap. In the change of the energy
+//! it does not: a conserved energy may appear to rise by as much.
 
 use crate::energy::Energy;
 use crate::norms::slope_squared;
 use crate::parameters::{Beam, Obstacles};
 use crate::solve::Level;
 
-/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and as many in the
-/// balance; the elimination multiplies by inverted blocks, which doubles the number.
+/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and as many in
+/// the balance; the elimination multiplies by inverted blocks, which doubles the number.
 const TERMS: f64 = 64.0;
 /// Rounding errors in the tip's position: of the elimination's last row, of the closed form, and of `u0 + dt V`.
 const TIP_TERMS: f64 = 16.0;
@@ -50,7 +50,8 @@ impl Rounding {
         self.residual + self.contact
     }
 
-    /// The bounds for the step from `old` to `new` with step `dt`, without loads and solved to a tolerance at round-off.
+    /// The bounds for the step from `old` to `new` with step `dt`, without loads and solved to a tolerance at
+    /// round-off.
     pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64, lengths: &[f64], old: &Level, new: &Level) -> Self {
         let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
         let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;

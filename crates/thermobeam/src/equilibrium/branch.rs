@@ -224,7 +224,8 @@ mod tests {
         }
     }
 
-    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a pole within 1e-13 of it.
+    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a pole within 1e-13 of
+    /// it.
     #[test]
     fn resonance_is_detected_to_round_off() {
         let is_resonant = |beta: f64, support: Option<Support>| {

@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 
 /// Load of the beam and support of its tip.
 ///
-/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller checks
-/// whether the state presses the obstacle.
+/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller
+/// checks whether the state presses the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Law {
     /// The thermal moment aθ_A.
@@ -61,7 +61,8 @@ impl Law {
         AboveMinusOne { q, alpha: rotation / determinant, stress: stress / determinant, moment: self.moment }
     }
 
-    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a support.
+    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a
+    /// support.
     pub(super) fn determinant(&self, q: f64) -> f64 {
         use crate::stumpff::{c0, c1, c2, c3};
         let x = q - 1.0;
@@ -94,10 +95,11 @@ impl Law {
         below
     }
 
-    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from 1.
+    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from
+    /// 1.
     ///
-    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th lies strictly between the
-    /// k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0 in every free buckling mode.
+    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th lies strictly
+    /// between the k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0 in every free buckling mode.
     pub(super) fn buckling(&self, k: usize) -> f64 {
         if self.support.is_none() {
             return free_buckling(k);

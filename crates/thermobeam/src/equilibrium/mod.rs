@@ -23,8 +23,8 @@
 //! N > 0, k² = -X:     C = cosh ky,    W = (cosh ky - 1)/k²
 //! ```
 //!
-//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: one formula, smooth in N. The clamping φ(0) = 0 and the
-//! contact law are two linear equations for (α, c):
+//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: one formula, smooth in N. The clamping φ(0) = 0 and
+//! the contact law are two linear equations for (α, c):
 //!
 //! ```text
 //! C(1) α - W(1) d = 0,        εc + u(1) = g  in contact with the obstacle at g,  or  c = 0  without,
@@ -32,29 +32,29 @@
 //! ```
 //!
 //! Their determinant vanishes at the buckling values of the law. Without contact these are the zeros of cos k:
-//! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. With contact there is one value between N_{k+1} and N_k for each k, and one more
-//! near N = -1 - 1/ε, where the negative stiffness of the beam has the size of the obstacle's.
+//! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. With contact there is one value between N_{k+1} and N_k for each k, and one
+//! more near N = -1 - 1/ε, where the negative stiffness of the beam has the size of the obstacle's.
 //!
 //! # N is the root of one scalar equation
 //!
 //! `N = β + ρ‖u'‖²`, with ‖u'‖² in closed form. `scan` proves that each law has at most two roots between neighbouring
-//! buckling values, finds all of them, and counts the unstable directions of each state without a discretisation.
-//! A root is a contact state only if it presses the obstacle (c < 0 on the upper, c > 0 on the lower one), and a free state
-//! only if `g₁ <= u(1) <= g₂`.
+//! buckling values, finds all of them, and counts the unstable directions of each state without a discretisation. A
+//! root is a contact state only if it presses the obstacle (c < 0 on the upper, c > 0 on the lower one), and a free
+//! state only if `g₁ <= u(1) <= g₂`.
 //!
 //! # Buckled states
 //!
-//! Without a load (aθ_A = 0, and no contact or contact with an obstacle at 0) the straight beam solves the law for every N,
-//! and bent states exist exactly at the buckling values N_k > β: the mode with either sign, and with the amplitude
-//! for which N_k = β + ρ‖u'‖². A small load splits each of these into two states on either side of N_k.
+//! Without a load (aθ_A = 0, and no contact or contact with an obstacle at 0) the straight beam solves the law for
+//! every N, and bent states exist exactly at the buckling values N_k > β: the mode with either sign, and with the
+//! amplitude for which N_k = β + ρ‖u'‖². A small load splits each of these into two states on either side of N_k.
 //!
 //! # N <= -1, and β <= -1
 //!
-//! For N < -1 the coefficient of u'' is negative: k² = 1 - q > 1, all functions are hyperbolic, and there is no buckling
-//! value without contact. At N = -1 exactly φ = -c = 0 and u' = -aθ_A, a state that exists for `ρ(aθ_A)² = -1 - β`. The
-//! second variation has infinitely many negative directions at N <= -1: none of these states is stable.
-//! The buckling values N_k accumulate at -1 from above, so for β <= -1 there are infinitely many states: [`equilibria`]
-//! documents which of them it returns.
+//! For N < -1 the coefficient of u'' is negative: k² = 1 - q > 1, all functions are hyperbolic, and there is no
+//! buckling value without contact. At N = -1 exactly φ = -c = 0 and u' = -aθ_A, a state that exists for
+//! `ρ(aθ_A)² = -1 - β`. The second variation has infinitely many negative directions at N <= -1: none of these states
+//! is stable. The buckling values N_k accumulate at -1 from above, so for β <= -1 there are infinitely many states:
+//! [`equilibria`] documents which of them it returns.
 //!
 //! Source: the steady form of (1.1) and (1.3); the classification by N follows Sapir and Reiss (reference \[16\] of the
 //! paper) for the beam without contact.
@@ -71,9 +71,11 @@ use law::{Law, Support, free_buckling};
 use shape::Shape;
 use thiserror::Error;
 
-/// Number of buckling values above which [`equilibria`] returns all states: the next one, N_k with k one larger, is the limit.
+/// Number of buckling values above which [`equilibria`] returns all states: the next one, N_k with k one larger, is the
+/// limit.
 ///
-/// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for any β.
+/// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for
+/// any β.
 pub const BUCKLING_VALUES: usize = 16;
 
 /// The obstacle that the tip presses.
@@ -93,7 +95,8 @@ pub enum EquilibriumError {
     /// A coefficient out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// ρ = 0 and β is a buckling value: the linear problem has infinitely many solutions without a load, and none with one.
+    /// ρ = 0 and β is a buckling value: the linear problem has infinitely many solutions without a load, and none with
+    /// one.
     #[error(
         "the linear problem is singular at the buckling value N = {n_value} ({contact:?}): change beta, or take rho > 0"
     )]
@@ -141,8 +144,9 @@ pub struct Equilibrium {
     pub contact_force: f64,
     /// Whether the second variation of the potential energy is positive definite: a strict minimum.
     ///
-    /// False at a fold or a bifurcation, where it is only semidefinite. An obstacle that the straight beam touches without
-    /// pressing stiffens one direction of u(1) only and does not count; two obstacles that hold the tip from both sides do.
+    /// False at a fold or a bifurcation, where it is only semidefinite. An obstacle that the straight beam touches
+    /// without pressing stiffens one direction of u(1) only and does not count; two obstacles that hold the tip from
+    /// both sides do.
     pub stable: bool,
     /// Number of negative directions of the second variation; `None` if there are infinitely many (N <= -1).
     pub unstable_directions: Option<usize>,
@@ -181,11 +185,11 @@ pub fn lists_all(beam: &Beam) -> bool {
 /// All steady states, sorted by u(1), then N.
 ///
 /// * `obstacles`: `None` leaves the tip free.
-/// * For β so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value of index
-///   [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
+/// * For β so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value of
+///   index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
 ///
-/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the number
-/// of states (none, one or two) is determined to round-off of N.
+/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the
+/// number of states (none, one or two) is determined to round-off of N.
 ///
 /// # Errors
 /// [`EquilibriumError`] for a coefficient out of range, for ρ = 0 at a buckling value, for β at a buckling value with a

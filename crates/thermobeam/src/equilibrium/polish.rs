@@ -5,8 +5,8 @@
 //!
 //! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
 //!
-//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below N = -1 the shape satisfies
-//! φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
+//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below N = -1 the shape
+//! satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
 
 use super::law::{Law, Support};
 use super::shape::{AboveMinusOne, BelowMinusOne, Shape};

@@ -5,8 +5,8 @@
 //!
 //! `S(N) = ‖u'‖² = Σ_j a_j / (N - N_j)²`, a_j >= 0,
 //!
-//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart from the N_j is the point
-//! N = -1). So S is convex and f strictly concave between neighbouring poles:
+//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart from the N_j is the
+//! point N = -1). So S is convex and f strictly concave between neighbouring poles:
 //!
 //! * above the largest pole S decreases and f increases to ∞: exactly one root;
 //! * between two poles, and in each interval below N = -1: none, two, or one double root, decided by the maximum of f;
@@ -20,8 +20,8 @@ use crate::bracket::{bisect, maximize};
 
 /// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
 ///
-/// Large against round-off, so that the sign of f is certain at this distance, and small enough for the pole's N to give
-/// the amplitude to eleven digits.
+/// Large against round-off, so that the sign of f is certain at this distance, and small enough for the pole's N to
+/// give the amplitude to eleven digits.
 const POLE_GAP: f64 = 1e-11;
 
 /// Bound on |max f| for a double root, in units of the largest term of f.

@@ -170,7 +170,8 @@ impl BelowMinusOne {
 
     /// `q/k²`: `u' = (q/k²) (aθ_A + c - d cosh ky / cosh k)`.
     ///
-    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is cancelled analytically.
+    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is cancelled
+    /// analytically.
     fn factor(&self) -> f64 {
         self.q / (1.0 - self.q)
     }

@@ -26,7 +26,8 @@ pub struct Scheme {
     pub name: &'static str,
     /// Theoretical order in dt for smooth solutions.
     pub order: f64,
-    /// The factor of `M (V - v0)/dt`: 1 if V is the new velocity, 2 if V is the mean velocity, between 1 and 2 otherwise.
+    /// The factor of `M (V - v0)/dt`: 1 if V is the new velocity, 2 if V is the mean velocity, between 1 and 2
+    /// otherwise.
     pub inertia: f64,
     /// How the contact force enters.
     pub contact: ContactRule,

@@ -1,7 +1,7 @@
 //! The paper's fixed-point iteration (4.1)-(4.5): the problem (4.2) is solved for θ, φ and u, in this order.
 //!
-//! One iteration ℓ solves three scalar tridiagonal systems, the three equations of (4.2). In the notation of `sweeps.rs`,
-//! with the previous iterate marked by ⁻ and n-½ and the update of u and φ as in (4.3):
+//! One iteration ℓ solves three scalar tridiagonal systems, the three equations of (4.2). In the notation of
+//! `sweeps.rs`, with the previous iterate marked by ⁻ and n-½ and the update of u and φ as in (4.3):
 //!
 //! ```text
 //! (2/dt M + K) Θ         = 2/dt M θ~0 - a Cᵀ W⁻ + F_θ

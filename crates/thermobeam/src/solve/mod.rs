@@ -53,8 +53,8 @@ impl Default for Settings {
 /// Initial iterate of Newton's method. It changes the number of passes; the result changes within the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Start {
-    /// Velocities and axial force, extrapolated from the last three levels. At the start the missing levels are copies of the
-    /// first.
+    /// Velocities and axial force, extrapolated from the last three levels. At the start the missing levels are copies
+    /// of the first.
     #[default]
     Extrapolated,
     /// The previous level, as in (4.1).

@@ -2,18 +2,20 @@
 //!
 //! # A step is one scalar equation
 //!
-//! For a given mean axial force m the step (3.7)-(3.8) is linear except at the tip, where it is solved in closed form. So a
-//! step is a root of `F(m) = m - ½(N(u(m)) + N(u0))`. F <= 0 at `m = ½(β + N(u0))`, and F → ∞ with m: a bracket exists.
+//! For a given mean axial force m the step (3.7)-(3.8) is linear except at the tip, where it is solved in closed form.
+//! So a step is a root of `F(m) = m - ½(N(u(m)) + N(u0))`. F <= 0 at `m = ½(β + N(u0))`, and F → ∞ with m: a bracket
+//! exists.
 //!
 //! # Two iterations
 //!
-//! *Kept factorisation.* Start from velocities and N extrapolated in time (third order), do one pass with the factorisation
-//! of an earlier step, and accept if the a-posteriori error bound of `bound.rs` is below the tolerance. Most steps take one
-//! pass. The rank-one term of the Kirchhoff force in the Jacobian is left out; the bound accounts for its effect.
+//! *Kept factorisation.* Start from velocities and N extrapolated in time (third order), do one pass with the
+//! factorisation of an earlier step, and accept if the a-posteriori error bound of `bound.rs` is below the tolerance.
+//! Most steps take one pass. The rank-one term of the Kirchhoff force in the Jacobian is left out; the bound accounts
+//! for its effect.
 //!
-//! *Safeguarded Newton* (`root.rs`), if that iteration would not contract: Newton's method for F, with F'(m) from one more
-//! solve (Kirchhoff term as a rank-one change, contact as a change of the tip's pivot), and bisection if an iterate leaves
-//! the bracket.
+//! *Safeguarded Newton* (`root.rs`), if that iteration would not contract: Newton's method for F, with F'(m) from one
+//! more solve (Kirchhoff term as a rank-one change, contact as a change of the tip's pivot), and bisection if an
+//! iterate leaves the bracket.
 
 use crate::block_tridiagonal::Factor;
 use crate::error::StepFailure;

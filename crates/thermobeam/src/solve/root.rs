@@ -1,4 +1,5 @@
-//! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept factorisation do not contract.
+//! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept factorisation do not
+//! contract.
 
 use crate::block_tridiagonal::{minus_times, minus_transpose_times, times};
 use crate::error::StepFailure;

@@ -1,8 +1,9 @@
-//! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward, substitution and (3.8) backward.
+//! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward, substitution and (3.8)
+//! backward.
 //!
 //! The unknown at a node is `X = (V, W, Θ)`: the velocities that carry the step, `u = u0 + dt V`, `phi = phi0 + dt W`,
-//! (3.8), and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and the
-//! mean axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
+//! (3.8), and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and
+//! the mean axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
 //!
 //! ```text
 //! R_u = κ M (V - v0) + K ((1 + m) u½ + ζ V) - C (φ½ + ζ W)                          + F(u(1)) e - F_u
@@ -11,9 +12,9 @@
 //! ```
 //!
 //! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the axial force for which A was
-//! factorised. It may differ from m: then δ is not exact, but the residual R of the next pass is. The contact force is part
-//! of the solve: it acts on one node, the last in the elimination, where it is a scalar equation with a closed solution
-//! (`contact.rs`).
+//! factorised. It may differ from m: then δ is not exact, but the residual R of the next pass is. The contact force is
+//! part of the solve: it acts on one node, the last in the elimination, where it is a scalar equation with a closed
+//! solution (`contact.rs`).
 //!
 //! A pass runs over the nodes twice and allocates nothing.
 
@@ -62,7 +63,8 @@ impl<T: Lane> Scalars<T> {
 }
 
 impl Scalars<f64> {
-    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right of it (`None` at the tip).
+    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right of it (`None` at the
+    /// tip).
     pub(crate) fn blocks<const B: usize>(
         &self,
         m: f64,

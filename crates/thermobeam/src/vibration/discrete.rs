@@ -24,12 +24,13 @@ struct Symmetric {
 
 /// The `count` lowest ω of the semi-discrete beam, `(K - ω² M) x = 0`, in increasing order.
 ///
-/// K and M are the P1 matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` with exact integration and with u and φ clamped at
-/// node 0, as in (3.7) with a = β = ρ = ζ = 0. On a uniform mesh ω_h - ω ≈ ω³h²/24 for high modes.
+/// K and M are the P1 matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` with exact integration and with u and φ
+/// clamped at node 0, as in (3.7) with a = β = ρ = ζ = 0. On a uniform mesh ω_h - ω ≈ ω³h²/24 for high modes.
 ///
-/// Method: the block LDLᵀ pivots of K - λM, block tridiagonal with 2 x 2 blocks, have as many negative eigenvalues as the
-/// pencil has eigenvalues below λ (Sylvester). Bisection on that count separates eigenvalues however close they are. The
-/// error of a frequency is at most round-off times the condition number, about `ε n²/ω²`, and mostly far smaller.
+/// Method: the block LDLᵀ pivots of K - λM, block tridiagonal with 2 x 2 blocks, have as many negative eigenvalues as
+/// the pencil has eigenvalues below λ (Sylvester). Bisection on that count separates eigenvalues however close they
+/// are. The error of a frequency is at most round-off times the condition number, about `ε n²/ω²`, and mostly far
+/// smaller.
 ///
 /// # Errors
 /// [`SpectrumError`] if `count` is more than 2n.
@@ -80,7 +81,8 @@ fn diagonal(left: f64, right: Option<f64>, lambda: f64) -> Symmetric {
     Symmetric { a: stiffness - lambda * mass, b: -coupling, d: stiffness + mass - lambda * mass }
 }
 
-/// `pivot -= F P Fᵀ`, with P the inverse of the previous pivot and F the subdiagonal block, across an element of length h.
+/// `pivot -= F P Fᵀ`, with P the inverse of the previous pivot and F the subdiagonal block, across an element of length
+/// h.
 fn subtract_congruence(pivot: &mut Symmetric, inverse: Symmetric, h: f64, lambda: f64) {
     let mass = h / 6.0;
     let (u, phi) = (-1.0 / h - lambda * mass, -1.0 / h + mass - lambda * mass);
@@ -98,7 +100,8 @@ fn invert(block: Symmetric) -> (usize, Symmetric) {
     let Symmetric { a, b, d } = block;
     let mut determinant = a * d - b * b;
     if determinant == 0.0 {
-        // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other λ.
+        // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
+        // λ.
         determinant = (f64::EPSILON * f64::EPSILON * (a * a + d * d + b * b)).max(f64::MIN_POSITIVE);
     }
     let negative = if determinant < 0.0 {

@@ -41,7 +41,8 @@ fn variations(
     (first, second)
 }
 
-/// Tip of the discrete state on n elements by Newton's method from the exact state, and its number of negative eigenvalues.
+/// Tip of the discrete state on n elements by Newton's method from the exact state, and its number of negative
+/// eigenvalues.
 fn discrete_state(beam: &Beam, obstacles: Option<&Obstacles>, state: &Equilibrium, n: usize) -> (f64, usize) {
     let discrete = P1Matrices::new(n);
     let mut x = interpolate(&discrete, |x| state.u(x), |x| state.phi(x));

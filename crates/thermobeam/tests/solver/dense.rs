@@ -145,7 +145,8 @@ impl Dense {
         }
     }
 
-    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is returned.
+    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is
+    /// returned.
     pub(crate) fn step(&self, scheme: &Scheme, dt: f64, old: &State, load: &[[f64; 3]]) -> Option<State> {
         let sides: &[Side] =
             if self.obstacles.is_some() { &[Side::Between, Side::Above, Side::Below] } else { &[Side::Between] };
@@ -187,8 +188,8 @@ impl Step<'_> {
         self.starts(side).into_iter().find_map(|tip| self.solve_from(tip, side))
     }
 
-    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the root, or
-    /// on the side from which it does not overshoot.
+    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the
+    /// root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
         let old = self.old.u[self.dense.n - 1];
         let Some(o) = self.dense.obstacles else { return vec![old] };

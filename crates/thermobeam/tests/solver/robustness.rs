@@ -18,7 +18,8 @@ fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem 
     Problem { beam: Beam { rho, ..problem.beam }, obstacles, ..problem }
 }
 
-/// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance relative to the energy.
+/// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance relative to the
+/// energy.
 fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
     let mut simulation = simulate(problem, stepping);
     let mut old = simulation.level();

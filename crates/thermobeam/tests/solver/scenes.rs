@@ -8,8 +8,8 @@ use thermobeam::scheme::{EULER_CRANK_NICOLSON, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
-/// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with θ_A = 0, (5.5) with θ_A = 20,
-/// and the buckled beam.
+/// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with θ_A = 0, (5.5) with θ_A
+/// = 20, and the buckled beam.
 pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
     [(-0.5, 0.0), (0.0, 0.0), (5.0, 0.0), (-0.5, 20.0), (0.0, 20.0), (5.0, 20.0), (-0.8, 0.0)];
 

@@ -28,7 +28,8 @@ fn loads_and_observations_are_counted_exactly() {
                 let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
                 assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
                 assert!(work.passes >= STEPS, "{work:?}");
-                // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every iterate.
+                // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every
+                // iterate.
                 let expected = if solver == Solver::Newton { 1..STEPS } else { work.passes..work.passes + 1 };
                 assert!(expected.contains(&work.factorizations), "{solver:?}: {work:?}");
             }

@@ -56,7 +56,7 @@ fn the_time_loop_allocates_nothing() {
                 let simulation = Simulation::new(moving_beam(heated), stepping).unwrap();
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
-                assert!(touching > 10, "the obstacle is meant to be met: {touching} steps");
+                assert!(touching > 10, "expected contact in more than 10 steps, found {touching}");
             }
         }
     }

@@ -178,7 +178,7 @@ mod tests {
                     (found, mode) => found.stress() / mode.stress(),
                 };
                 let (above, below) = (amplitude(s + 1e-6 * s.abs()), amplitude(s - 1e-6 * s.abs()));
-                assert!(above.abs() > 10.0 && above * below < 0.0, "no pole at {s} of {law:?}");
+                assert!(above.abs() > 10.0 && above * below < 0.0, "expected a pole at {s} of {law:?}");
                 assert_eq!(law.sign_above(s), above.signum(), "{s} of {law:?}");
             }
         }

@@ -117,7 +117,10 @@ mod tests {
             let increment = (1.0 / lambda * soft).sqrt() * c;
             let q = 0.5 * (0.125 / 2.0 + rho * 0.75 * 0.5) / lambda;
             let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
-            assert!(lambda > 0.0 && (q < 0.5) == finite, "what this case is for: {lambda}, {q}");
+            assert!(
+                lambda > 0.0 && (q < 0.5) == finite,
+                "expected λ > 0 and q on the given side of 1/2: {lambda}, {q}"
+            );
             assert_eq!(bound.m, m);
             assert!(close(bound.increment, increment) && close(bound.contraction, q), "{bound:?}, {increment}, {q}");
             let remaining = if finite { increment / (1.0 - q) } else { f64::INFINITY };

@@ -142,9 +142,9 @@ mod tests {
     fn without_an_upper_end_the_bracket_grows_geometrically() {
         for start in [-1e9, -3.0, -1.0, -0.25, 0.0, 0.75, 1e4] {
             assert_eq!(safeguarded(start, f64::INFINITY, start + 0.5), start + 0.5);
-            let leaps = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
-            let count = leaps.take(100).take_while(|&m| m < 1e12).count();
-            assert!(count < 80, "{count} leaps from {start}");
+            let ends = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
+            let count = ends.take(100).take_while(|&m| m < 1e12).count();
+            assert!(count < 80, "{count} extensions from {start}");
         }
     }
 

@@ -60,7 +60,7 @@ fn newton_converges_for_every_compliance_step_force_and_stiffness() {
         }
     }
     assert!(most <= 20, "a step took {most} iterations");
-    assert!(worst <= 1e-11, "the balance of a step is open by {worst:e}");
+    assert!(worst <= 1e-11, "the largest residual of a balance is {worst:e}");
 }
 
 #[test]

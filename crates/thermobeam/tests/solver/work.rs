@@ -50,7 +50,7 @@ fn a_free_linear_beam_is_solved_once_a_step_and_factorized_once() {
     problem.beam.rho = 0.0;
     problem.obstacles = None;
     assert_eq!(passes(&problem), (STEPS, 1));
-    assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "more passes, with the same factor: {nonlinear:?}");
+    assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "expected more passes with one factorisation: {nonlinear:?}");
 }
 
 #[test]

@@ -13,7 +13,7 @@ const SECTIONS: usize = 90;
 ///
 /// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for a function that
 ///   vanishes on one side of the point, the boundary of the zero set is returned.
-/// * `lo` may be larger than `hi`. Only the sign of f at `lo` is evaluated.
+/// * `lo` may be larger than `hi`. f is evaluated at `lo` and inside the bracket, not at `hi`.
 /// * Returns one of the two floats between which the sign changes.
 pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
     let starts_positive = f(lo) > 0.0;

@@ -46,7 +46,7 @@
 //!
 //! Without a load (aθ_A = 0, and no contact or contact with an obstacle at 0) the straight beam solves the law for
 //! every N, and bent states exist exactly at the buckling values N_k > β: the mode with either sign, and with the
-//! amplitude for which N_k = β + ρ‖u'‖². A small load splits each of these into two states on either side of N_k.
+//! amplitude for which N_k = β + ρ‖u'‖². A small load splits each of these into two states, one on each side of N_k.
 //!
 //! # N <= -1, and β <= -1
 //!
@@ -71,8 +71,7 @@ use law::{Law, Support, free_buckling};
 use shape::Shape;
 use thiserror::Error;
 
-/// Number of buckling values above which [`equilibria`] returns all states: the next one, N_k with k one larger, is the
-/// limit.
+/// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
 ///
 /// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for
 /// any β.

@@ -165,6 +165,7 @@ impl Scan<'_> {
     }
 }
 
+/// Sign of the maximum of f on an interval, to round-off, with its position.
 enum Maximum {
     Positive(f64),
     Zero(f64),

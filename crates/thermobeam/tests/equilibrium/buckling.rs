@@ -110,11 +110,11 @@ fn sixteen_buckled_pairs_are_listed_for_any_beta() {
         let straight = unloaded.iter().find(|state| state.u_tip == 0.0).expect("the straight beam");
         assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
     }
-    // A load splits each pair into states on both sides of N_k; of N_1 and N_17 only the upper one is listed.
+    // A load splits each pair into one state above and one below N_k; of N_17 only the upper one is listed.
     let split = states(&loaded(-1.5, 1.0, 1e-6), None);
-    let shallow: Vec<f64> = split.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
-    assert_eq!(shallow.len(), 2 * BUCKLING_VALUES + 1, "{shallow:?}");
-    assert!(shallow.iter().all(|n| *n > buckling(BUCKLING_VALUES as u32 + 1)));
+    let above_minus_one: Vec<f64> = split.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
+    assert_eq!(above_minus_one.len(), 2 * BUCKLING_VALUES + 1, "{above_minus_one:?}");
+    assert!(above_minus_one.iter().all(|n| *n > buckling(BUCKLING_VALUES as u32 + 1)));
     assert!(split.iter().any(|state| state.n_value < -1.0));
 }
 

@@ -2,7 +2,7 @@
 
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
-use super::scan::{Place, Root, Scan};
+use super::scan::{Position, Root, Scan};
 use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
 use crate::parameters::Beam;
@@ -27,7 +27,7 @@ pub(super) struct Branch<'a> {
     /// The linear problem for given N.
     pub(super) law: Law,
     /// The law of the straight beam if both obstacles hold its tip at 0.
-    pub(super) pinch: Option<Law>,
+    pub(super) held_tip: Option<Law>,
 }
 
 impl Branch<'_> {
@@ -74,7 +74,7 @@ impl Branch<'_> {
     /// The straight beam without load: u = φ = 0, N = β.
     fn straight(&self) -> Equilibrium {
         let s = 1.0 + self.beam.beta;
-        let law = self.pinch.unwrap_or(self.law);
+        let law = self.held_tip.unwrap_or(self.law);
         let unstable = (s > 0.0).then(|| law.buckling_above(s));
         let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
         self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
@@ -89,8 +89,8 @@ impl Branch<'_> {
         let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
         for (s, unstable_directions) in above.chain(below).filter(|(s, _)| exists(*s)) {
             for sign in [1.0, -1.0] {
-                let place = Place::Buckling(s, sign);
-                states.push(self.state_at(&Root { place, unstable_directions, fold: false })?);
+                let position = Position::Buckling(s, sign);
+                states.push(self.state_at(&Root { position, unstable_directions, fold: false })?);
             }
         }
         Ok(states)
@@ -117,9 +117,9 @@ impl Branch<'_> {
     /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
     fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
         let Beam { beta, rho, .. } = *self.beam;
-        let shape = match root.place {
-            Place::Between(s) => self.law.solve(s),
-            Place::Buckling(s, sign) => self.buckled(s, sign)?,
+        let shape = match root.position {
+            Position::Between(s) => self.law.solve(s),
+            Position::Buckling(s, sign) => self.buckled(s, sign)?,
         };
         let shape = if root.fold { shape } else { polish(&self.law, beta, rho, shape) };
         let n_value = shape.n_value();
@@ -179,9 +179,9 @@ mod tests {
     use super::super::EquilibriumError::{Bifurcation, Inaccurate};
     use super::*;
 
-    fn branch(beam: &Beam, support: Option<Support>, pinch: Option<Law>) -> Branch<'_> {
+    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch<'_> {
         let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
-        Branch { beam, contact, law: Law { moment: beam.a * beam.theta_a, support }, pinch }
+        Branch { beam, contact, law: Law { moment: beam.a * beam.theta_a, support }, held_tip }
     }
 
     #[test]
@@ -190,14 +190,14 @@ mod tests {
         for support in [None, Some(Support { epsilon: 0.5, position: 0.1 })] {
             let branch = branch(&beam, support, None);
             for s in [0.7, 4.0, -0.5] {
-                let root = Root { place: Place::Between(s), unstable_directions: None, fold: true };
+                let root = Root { position: Position::Between(s), unstable_directions: None, fold: true };
                 let (n, tension) = (s - 1.0, beam.rho * branch.law.solve(s).slope_squared());
                 let largest = n.abs().max(3.0).max(tension);
                 let Err(Inaccurate { n_value, defect, .. }) = branch.state_at(&root) else { panic!("{s} is no root") };
                 assert!((n_value - n).abs() < 1e-12);
                 assert!((defect - (n + 3.0 - tension) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
             }
-            let nan = Root { place: Place::Between(f64::NAN), unstable_directions: None, fold: true };
+            let nan = Root { position: Position::Between(f64::NAN), unstable_directions: None, fold: true };
             assert!(matches!(branch.state_at(&nan), Err(Inaccurate { .. })));
         }
     }
@@ -282,12 +282,12 @@ mod tests {
         let mut tried = 0;
         for k in 0..50 {
             let support = Support { epsilon: 1e-3 * f64::from(1 + k), position: 0.0 };
-            let pinch = Law { moment: 0.0, support: Some(support) };
-            let Some(beta) = beta_at(pinch.buckling(1)) else { continue };
+            let held_tip = Law { moment: 0.0, support: Some(support) };
+            let Some(beta) = beta_at(held_tip.buckling(1)) else { continue };
             let at = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let above = Beam { beta: beta + 1e-12, ..at };
-            assert!(!branch(&at, None, Some(pinch)).straight().stable, "{support:?}");
-            assert!(branch(&above, None, Some(pinch)).straight().stable, "{support:?}");
+            assert!(!branch(&at, None, Some(held_tip)).straight().stable, "{support:?}");
+            assert!(branch(&above, None, Some(held_tip)).straight().stable, "{support:?}");
             tried += 1;
         }
         assert!(tried > 5, "{tried}");

@@ -211,7 +211,7 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
     }
     let mut found = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
-        let branch = Branch { beam, contact, law, pinch: pinch(obstacles) };
+        let branch = Branch { beam, contact, law, held_tip: held_tip(obstacles) };
         let states = branch.states()?;
         found.extend(states.into_iter().filter(|state| is_consistent(state, obstacles)));
     }
@@ -231,7 +231,7 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
 }
 
 /// The spring that holds the tip at 0 in both directions if both obstacles stand there.
-fn pinch(obstacles: Option<&Obstacles>) -> Option<Law> {
+fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
     Some(Law { moment: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
 }

@@ -32,7 +32,7 @@ const MINUS_ONE_GAP: f64 = 1e-14;
 
 /// Position of a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum Position {
     /// At this `s = 1 + N`.
     Between(f64),
     /// Within round-off of the buckling value s: the solution is the mode with an amplitude of this sign.
@@ -43,7 +43,7 @@ pub(super) enum Place {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Root {
     /// Its position.
-    pub(super) place: Place,
+    pub(super) position: Position,
     /// Number of negative directions of the second variation; `None` if there are infinitely many.
     pub(super) unstable_directions: Option<usize>,
     /// Whether f' = 0 as well: the second variation is singular.
@@ -52,9 +52,9 @@ pub(super) struct Root {
 
 /// An end of an interval: a pole or a regular point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum End {
+enum Endpoint {
     Buckling(f64),
-    Plain(f64),
+    Regular(f64),
 }
 
 /// f for one law, as a function of `s = 1 + N`.
@@ -72,15 +72,15 @@ impl Scan<'_> {
     /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
     pub(super) fn roots_above_minus_one(&self, count: usize) -> Vec<Root> {
         let rest = 1.0 + self.beta;
-        let mut hi = End::Plain(self.upper_end(self.law.buckling(1)));
+        let mut hi = Endpoint::Regular(self.upper_end(self.law.buckling(1)));
         let mut roots = Vec::new();
         for above in 0..count {
             let pole = self.law.buckling(above + 1);
-            roots.extend(self.interval(End::Buckling(pole), hi, Some(above)));
+            roots.extend(self.interval(Endpoint::Buckling(pole), hi, Some(above)));
             if pole <= rest {
                 break;
             }
-            hi = End::Buckling(pole);
+            hi = Endpoint::Buckling(pole);
         }
         roots
     }
@@ -91,14 +91,14 @@ impl Scan<'_> {
         if rest >= -MINUS_ONE_GAP {
             return Vec::new();
         }
-        let upper = End::Plain(-MINUS_ONE_GAP);
+        let upper = Endpoint::Regular(-MINUS_ONE_GAP);
         match self.law.buckling_below_minus_one() {
             Some(pole) if rest < pole => {
-                let mut roots = self.interval(End::Plain(rest), End::Buckling(pole), None);
-                roots.extend(self.interval(End::Buckling(pole), upper, None));
+                let mut roots = self.interval(Endpoint::Regular(rest), Endpoint::Buckling(pole), None);
+                roots.extend(self.interval(Endpoint::Buckling(pole), upper, None));
                 roots
             }
-            _ => self.interval(End::Plain(rest), upper, None),
+            _ => self.interval(Endpoint::Regular(rest), upper, None),
         }
     }
 
@@ -115,23 +115,24 @@ impl Scan<'_> {
     }
 
     /// The roots of f in an interval in which it is concave, with `above` poles above the interval.
-    fn interval(&self, lo: End, hi: End, above: Option<usize>) -> Vec<Root> {
-        let inside = |end: End, side: f64| match end {
-            End::Plain(s) => s,
-            End::Buckling(s) => s + side * POLE_GAP * s.abs(),
+    fn interval(&self, lo: Endpoint, hi: Endpoint, above: Option<usize>) -> Vec<Root> {
+        let inside = |end: Endpoint, side: f64| match end {
+            Endpoint::Regular(s) => s,
+            Endpoint::Buckling(s) => s + side * POLE_GAP * s.abs(),
         };
         let (a, b) = (inside(lo, 1.0), inside(hi, -1.0));
         let (left, right) = (self.f(a) > 0.0, self.f(b) > 0.0);
-        let rising = |place| Root { place, unstable_directions: above, fold: false };
-        let falling = |place| Root { place, unstable_directions: above.map(|n| n.saturating_sub(1)), fold: false };
-        let between = |a, b| Place::Between(bisect(|s| self.f(s), a, b));
+        let rising = |position| Root { position, unstable_directions: above, fold: false };
+        let falling =
+            |position| Root { position, unstable_directions: above.map(|n| n.saturating_sub(1)), fold: false };
+        let between = |a, b| Position::Between(bisect(|s| self.f(s), a, b));
         match (left, right) {
             (true, true) => [self.at_pole(lo, 1.0).map(rising), self.at_pole(hi, -1.0).map(falling)],
             (false, true) => [Some(rising(between(a, b))), self.at_pole(hi, -1.0).map(falling)],
             (true, false) => [self.at_pole(lo, 1.0).map(rising), Some(falling(between(a, b)))],
             (false, false) => match self.maximum(a, b) {
                 Maximum::Positive(s) => [Some(rising(between(a, s))), Some(falling(between(s, b)))],
-                Maximum::Zero(s) => [Some(Root { fold: true, ..falling(Place::Between(s)) }), None],
+                Maximum::Zero(s) => [Some(Root { fold: true, ..falling(Position::Between(s)) }), None],
                 Maximum::Negative => [None, None],
             },
         }
@@ -141,10 +142,10 @@ impl Scan<'_> {
     }
 
     /// The root between a pole and the point next to it: f > 0 there, and f → -∞ at the pole.
-    fn at_pole(&self, end: End, side: f64) -> Option<Place> {
+    fn at_pole(&self, end: Endpoint, side: f64) -> Option<Position> {
         match end {
-            End::Plain(_) => None,
-            End::Buckling(s) => Some(Place::Buckling(s, side * self.law.sign_above(s))),
+            Endpoint::Regular(_) => None,
+            Endpoint::Buckling(s) => Some(Position::Buckling(s, side * self.law.sign_above(s))),
         }
     }
 
@@ -198,9 +199,9 @@ mod tests {
                     } else {
                         scan.roots_below_minus_one()
                     };
-                    let is_found = |root: &Root| match root.place {
-                        Place::Between(found) => (found / s - 1.0).abs() < 1e-9,
-                        Place::Buckling(..) => false,
+                    let is_found = |root: &Root| match root.position {
+                        Position::Between(found) => (found / s - 1.0).abs() < 1e-9,
+                        Position::Buckling(..) => false,
                     };
                     let found: Vec<&Root> = roots.iter().filter(|root| is_found(root)).collect();
                     assert_eq!(found.len(), 1, "{s}, rho {rho} of {law:?}: {roots:?}");
@@ -260,13 +261,17 @@ mod tests {
                 };
                 assert_eq!(found, expected, "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}");
             }
-            let fold = Scan { law: &law, beta, rho }.interval(End::Buckling(low), End::Buckling(high), Some(1));
-            let [Root { place: Place::Between(at), unstable_directions: Some(0), fold: true }] = fold[..] else {
+            let fold =
+                Scan { law: &law, beta, rho }.interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
+            let [Root { position: Position::Between(at), unstable_directions: Some(0), fold: true }] = fold[..] else {
                 panic!("{fold:?} of {law:?}");
             };
             assert!((at - s).abs() < 1e-6);
-            let apart =
-                Scan { law: &law, beta: beta - 1e-6, rho }.interval(End::Buckling(low), End::Buckling(high), Some(1));
+            let apart = Scan { law: &law, beta: beta - 1e-6, rho }.interval(
+                Endpoint::Buckling(low),
+                Endpoint::Buckling(high),
+                Some(1),
+            );
             let kinds = apart.iter().map(|root| (root.unstable_directions, root.fold)).collect::<Vec<_>>();
             assert_eq!(kinds, [(Some(1), false), (Some(0), false)], "{law:?}");
         }

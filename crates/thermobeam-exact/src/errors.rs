@@ -1,12 +1,13 @@
-//! Error norms of the contract at one time level, without quadrature in the time loop and without loss of digits.
+//! Error norms at one time level, without quadrature in the time loop and without cancellation.
 //!
-//! The error is `e = d + η`, `d = u_h - I u` a P1 function and `η = I u - u = Σ T_j η_j` the interpolation error, small
-//! functions both, known to full relative accuracy. Hence `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²` cancels nothing (unlike
-//! ‖u_h‖² - 2 (u_h, u) + ‖u‖²). The moments of η_j on each element and their Gram matrices are computed once.
+//! The error is `e = d + η`, with the P1 function `d = u_h - I u` and the interpolation error
+//! `η = I u - u = Σ T_j η_j`. Both are small and known to full relative accuracy, so `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²`
+//! does not cancel (unlike ‖u_h‖² - 2 (u_h, u) + ‖u‖²). The moments of η_j on each element and their Gram matrices are
+//! computed once.
 //!
-//! η vanishes at the nodes, so on an element with a constant c: `(c, η_x) = 0`, and by parts
-//! `(d, η_x) = -(d_x, η)`. That leaves `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p of u, φ,
-//! `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
+//! η vanishes at the nodes, so for a constant c on an element `(c, η_x) = 0`, and by parts `(d, η_x) = -(d_x, η)`.
+//! Hence `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p and interpolation errors η, ψ of u,
+//! φ, `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
 
 use crate::factors::Factors;
 use crate::norm::Norm;
@@ -21,7 +22,7 @@ use thermobeam::solve::Level;
 struct Interpolation {
     /// X at the nodes.
     nodal: Vec<f64>,
-    /// (η, left hat) and (η, right hat) on each element; empty where the interpolant is taken for exact.
+    /// (η, left hat) and (η, right hat) on each element; empty if the interpolant counts as exact.
     moments: Vec<[f64; 2]>,
 }
 
@@ -32,19 +33,19 @@ struct Sample {
     theta: Vec<[f64; 2]>,
 }
 
-/// Measures the errors of a level against the exact solution.
+/// Computes the errors of a level against the exact solution.
 pub struct ErrorMeter {
     lengths: Vec<f64>,
     u: Vec<Interpolation>,
     phi: Vec<Interpolation>,
     theta: Vec<Interpolation>,
-    /// Gram matrices of η, row by row: u, φ and θ in L².
+    /// Gram matrices of η in L², row by row, for u, φ and θ.
     gram_u: Vec<f64>,
     gram_phi: Vec<f64>,
     gram_theta: Vec<f64>,
-    /// Of η_x of φ.
+    /// Gram matrix of η_x for φ.
     gram_curvature: Vec<f64>,
-    /// Of the shear η_x - ψ, over the products of u and then those of φ.
+    /// Gram matrix of the shear η_x - ψ, for the products of u followed by those of φ.
     gram_shear: Vec<f64>,
     /// The solver's lifting θ_A (1 - x).
     lifting: Vec<f64>,
@@ -53,9 +54,9 @@ pub struct ErrorMeter {
 }
 
 impl ErrorMeter {
-    /// Against the exact solution itself, or, where `interpolant`, against its nodal interpolant.
+    /// For errors against the exact solution, or against its nodal interpolant if `interpolant`.
     ///
-    /// [`Self::lift`] has to say by which θ_A the solver's temperature is lifted.
+    /// The lifting is zero until [`Self::lift`] sets it.
     pub fn new(exact: &Manufactured, mesh: &Mesh, interpolant: bool) -> Self {
         let fields = [&exact.u, &exact.phi, &exact.theta];
         let [u, phi, theta] = fields.map(|products| {
@@ -81,13 +82,14 @@ impl ErrorMeter {
         meter
     }
 
-    /// Sets the solver's lifting θ_A (1 - x).
+    /// Sets the solver's lifting θ_A (1 - x), which is added to the temperature of a level.
     pub fn lift(&mut self, mesh: &Mesh, theta_a: f64) {
         for (lifting, x) in self.lifting.iter_mut().zip(mesh.nodes()) {
             *lifting = theta_a * (1.0 - x);
         }
     }
 
+    /// Computes moments and Gram matrices of the interpolation errors by quadrature.
     fn integrate(&mut self, exact: &Manufactured, mesh: &Mesh) {
         for field in [&mut self.u, &mut self.phi, &mut self.theta] {
             for interpolation in field {
@@ -111,6 +113,7 @@ impl ErrorMeter {
         }
     }
 
+    /// Adds the contribution of one quadrature point.
     fn add_sample(&mut self, element: usize, s: f64, weight: f64, sample: &Sample) {
         let fields = [(&mut self.u, &sample.u), (&mut self.phi, &sample.phi), (&mut self.theta, &sample.theta)];
         for (field, sample) in fields {
@@ -130,7 +133,7 @@ impl ErrorMeter {
         add_outer(&mut self.gram_shear, weight, &shear);
     }
 
-    /// The eight errors of `level`, in the order of [`Norm::ALL`], against the exact solution with these factors.
+    /// The eight errors of `level`, in the order of [`Norm::ALL`], against the exact solution with the given factors.
     pub fn measure(&mut self, level: &Level, factors: &Factors) -> [f64; 8] {
         let Factors { u, phi, theta } = factors;
         let [v_d, u_d, w_d, phi_d, theta_d] = &mut self.difference;
@@ -187,6 +190,7 @@ fn interpolation_error(product: &Product, field: &Interpolation, i: usize, h: f6
     [(1.0 - s) * left + s * right - value, (right - left) / h - slope]
 }
 
+/// Adds `weight vector vectorᵀ` to a Gram matrix.
 fn add_outer(gram: &mut [f64], weight: f64, vector: &[f64]) {
     for (row, a) in gram.chunks_mut(vector.len().max(1)).zip(vector) {
         for (entry, b) in row.iter_mut().zip(vector) {
@@ -205,7 +209,7 @@ fn difference_into(discrete: &[f64], field: &[Interpolation], factors: &[f64], d
     }
 }
 
-/// The element's moments of η = Σ T_j η_j; zero where the interpolant is taken for exact.
+/// The moments of η = Σ T_j η_j on an element; zero if the interpolant counts as exact.
 fn moment(field: &[Interpolation], factors: &[f64], element: usize) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for (interpolation, factor) in field.iter().zip(factors) {
@@ -226,6 +230,7 @@ fn correction(difference: &[f64], field: &[Interpolation], factors: &[f64], gram
     2.0 * product + quadratic(gram, factors)
 }
 
+/// The quadratic form of a Gram matrix.
 fn quadratic(gram: &[f64], factors: &[f64]) -> f64 {
     let row = |row: &[f64]| row.iter().zip(factors).map(|(a, b)| a * b).sum::<f64>();
     gram.chunks(factors.len().max(1)).zip(factors).map(|(entries, factor)| factor * row(entries)).sum()

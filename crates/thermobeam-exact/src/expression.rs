@@ -1,17 +1,17 @@
-//! Functions of one variable, written as mathematics writes them.
+//! Functions of one variable in mathematical notation.
 //!
-//! | written | means |
+//! | text | meaning |
 //! | --- | --- |
-//! | `-x^2` | -(x²): a power binds tighter than a sign |
-//! | `2^3^2` | 2⁹ = 512: powers are read from the right |
+//! | `-x^2` | -(x²): a power has precedence over a sign |
+//! | `2^3^2` | 2⁹ = 512: powers are right-associative |
 //! | `2^-1`, `2*-x` | a sign may follow an operator |
 //! | `1e-3`, `.5`, `2.` | numbers |
 //! | `pi`, `e` | constants |
 //! | `sin cos tan asin acos atan sinh cosh tanh exp ln log10 sqrt abs` | functions of one argument |
 //! | `min max` | functions of two arguments |
 //!
-//! A product needs its `*`: `2x` is an error. The same syntax tree is evaluated on `f64` and on second-order dual
-//! numbers, so that derivatives are exact and never typed in by hand.
+//! A product needs its `*`: `2x` is an error. The syntax tree is evaluated on `f64` and on second-order dual numbers,
+//! which give exact derivatives.
 
 mod error;
 mod parser;
@@ -25,7 +25,7 @@ use num_dual::Dual2_64;
 pub use error::{ExpressionError, ExpressionProblem, NotFinite};
 use syntax::Node;
 
-/// The name that stands for the argument of a function.
+/// The variable of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Variable {
     /// Position along the beam.
@@ -37,7 +37,7 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// How it is written.
+    /// Its name in the text.
     pub fn name(self) -> &'static str {
         match self {
             Variable::X => "x",
@@ -47,7 +47,7 @@ impl Variable {
     }
 }
 
-/// A function of one variable, together with the text that it was read from.
+/// A function of one variable and its text.
 ///
 /// ```
 /// use thermobeam_exact::expression::{Expression, Variable};
@@ -65,16 +65,19 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Samples of [`Self::check_finite`]: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
+    /// Number of sample intervals: a multiple of all numbers up to 10, so 1/3 and 0.1 are sampled exactly.
     const SAMPLES: u32 = 2520;
 
-    /// Reads a function of `variable`; the error points at the place.
+    /// Parses a function of `variable`.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] with the position of the error in the text.
     pub fn parse(source: &str, variable: Variable) -> Result<Self, ExpressionError> {
         let root = parser::parse(source, variable)?;
         Ok(Self { source: source.to_owned(), variable, root })
     }
 
-    /// The text that it was read from.
+    /// The text from which it was parsed.
     pub fn source(&self) -> &str {
         &self.source
     }
@@ -84,30 +87,33 @@ impl Expression {
         self.variable
     }
 
-    /// The value at `x`; not finite outside of the function's domain.
+    /// The value at `x`; infinite or NaN outside the domain of the function.
     pub fn eval(&self, x: f64) -> f64 {
         self.root.eval(x)
     }
 
     /// Value, first and second derivative at `x`.
     ///
-    /// At a kink (`abs`, `min`, `max`) these are the derivatives of one of the two sides.
+    /// At a kink (`abs`, `min`, `max`) the derivatives of one of the two sides.
     pub fn derivatives(&self, x: f64) -> [f64; 3] {
         let Dual2_64 { re, v1, v2 } = self.root.eval(Dual2_64::new(x, 1.0, 0.0));
         [re, v1, v2]
     }
 
-    /// Says where on [0, 1] the function is not finite, nor its derivatives up to `order` (0, 1 or 2).
+    /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on [0, 1].
     ///
-    /// The function is sampled: a pole between two samples goes unseen.
+    /// The function is sampled: a pole between two samples is not found.
+    ///
+    /// # Errors
+    /// [`NotFinite`] for the first sample with an infinite value or NaN.
     pub fn check_finite(&self, order: usize) -> Result<(), NotFinite> {
         self.check_finite_up_to(1.0, order)
     }
 
-    /// As [`Self::check_finite`], on [0, end].
+    /// As [`Self::check_finite`] on [0, end].
     pub fn check_finite_up_to(&self, end: f64, order: usize) -> Result<(), NotFinite> {
         for at in Self::samples(end) {
-            // Values are taken as `eval` gives them, because that is what the solver will see.
+            // The values of `eval`, because those are used by the solver.
             let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
             for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
                 if !found.is_finite() {
@@ -118,16 +124,16 @@ impl Expression {
         Ok(())
     }
 
-    /// The rounding error to expect of a value of this function on [0, end].
+    /// Bound on the rounding error of a value of this function on [0, end].
     ///
-    /// `8 ε max(|f| + |x f'|)`: the second term is what a rounding error in x alone does to the value.
+    /// `8 ε max(|f| + |x f'|)`; the second term is the effect of a rounding error of x.
     pub fn roundoff(&self, end: f64) -> f64 {
-        // A handful of operations, each with an error of half an ε, of operands about as large as the result.
+        // Several operations, each with an error of ε/2, on operands about as large as the result.
         const ROUNDINGS: f64 = 8.0;
         ROUNDINGS * f64::EPSILON * self.size(end)
     }
 
-    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is left out.
+    /// `max(|f| + |x f'|)` over samples of [0, end]; derivatives that are not finite are left out.
     pub fn size(&self, end: f64) -> f64 {
         let size_at = |at: f64| {
             let [value, first, _] = self.derivatives(at);

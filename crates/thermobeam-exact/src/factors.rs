@@ -1,4 +1,4 @@
-//! Time factors: T, T', T'' and their like at one time, exact or as a scheme sees them.
+//! Time factors: T, T', T'' and the like at one time, exact or in the time-discrete form of a scheme.
 
 use crate::solution::{Manufactured, Product};
 
@@ -37,11 +37,11 @@ impl FieldFactors {
         }
     }
 
-    /// What the scheme sees of a sequence of values: mean, difference quotient, and the inertia of `scheme.inertia`.
+    /// The time-discrete form of a sequence of values over a step: mean, difference quotient, and inertia term.
     ///
-    /// `old` and `new` hold the values at the ends of the step and the sequence's own velocities v, of which the new one
-    /// is `inertia * V + (1 - inertia) v_old` with `V = (T_n - T_{n-1})/dt`: V itself for the paper's scheme, `2 V -
-    /// v_old` for the midpoint rule. `(V - v_old) inertia/dt` is then the acceleration.
+    /// `old` and `new` contain the values at both ends of the step and the velocities v of the sequence. The new
+    /// velocity is set to `inertia * V + (1 - inertia) v_old` with `V = (T_n - T_{n-1})/dt`: V for the paper's scheme,
+    /// `2 V - v_old` for the midpoint rule. The acceleration is `(V - v_old) inertia/dt`.
     fn of_step(&mut self, old: &FieldFactors, new: &mut FieldFactors, inertia: f64, dt: f64) {
         self.value.clear();
         self.rate.clear();
@@ -57,15 +57,18 @@ impl FieldFactors {
 }
 
 impl Factors {
-    /// The exact factors at time t.
+    /// Sets the exact factors at time t.
     pub fn at(&mut self, exact: &Manufactured, t: f64) {
         self.u.at(&exact.u, t);
         self.phi.at(&exact.phi, t);
         self.theta.at(&exact.theta, t);
     }
 
-    /// The factors that the scheme's time-discrete operator sees between `old` and `new`; sets the velocities of `new`
-    /// to those of the sequence.
+    /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`, and the velocities of
+    /// `new`.
+    ///
+    /// * `inertia`: that of the [`Scheme`](thermobeam::scheme::Scheme).
+    /// * `dt`: the time step.
     pub fn of_step(&mut self, old: &Factors, new: &mut Factors, inertia: f64, dt: f64) {
         self.u.of_step(&old.u, &mut new.u, inertia, dt);
         self.phi.of_step(&old.phi, &mut new.phi, inertia, dt);

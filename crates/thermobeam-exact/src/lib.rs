@@ -1,18 +1,18 @@
-//! Exact solutions for the [`thermobeam`] solver: functions as text, sources that are derived from them, errors against them.
+//! Exact solutions for the [`thermobeam`] solver: functions given as text, loads derived from them, and errors.
 //!
-//! With `u = Σ X_j(x) T_j(t)`, `φ = Σ Y_k S_k`, `θ = Σ Z_l Q_l`, every load of the scheme is a sum of a time coefficient
-//! times a space vector that is computed once, and every error norm is a few dot products. A step then costs a few vector
-//! updates instead of quadrature.
+//! With `u = Σ X_j(x) T_j(t)`, `φ = Σ Y_k S_k`, `θ = Σ Z_l Q_l`, every load of the scheme is a sum of time coefficients
+//! times space vectors that are computed once, and every error norm is a few dot products. A step then needs a few
+//! vector operations instead of quadrature.
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
 //! * [`solution`]: the sums of products.
-//! * [`factors`]: T, T', T'' and their like at one time, exact or as the scheme sees them.
+//! * [`factors`]: T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
 //! * [`errors`]: the errors in each [`norm`].
-//! * [`quadrature`]: errors against functions that are no sum of products.
+//! * [`quadrature`]: integrals for errors against other functions.
 //!
-//! What runs in every step of a convergence study is here, in a crate of its own: this one is optimised for speed, and what
-//! reads files, draws and reports on it is not, which makes a clean build a fifth shorter.
+//! The code that runs in every step of a convergence study is a separate crate, because it is compiled with
+//! optimisation and the code that reads files and reports is not: a clean build takes a fifth less time.
 
 pub mod errors;
 pub mod expression;
@@ -23,7 +23,7 @@ pub mod quadrature;
 pub mod solution;
 pub mod sources;
 
-/// The code of the README, held by the doc tests.
+/// The code of the README, run by the doc tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,48 +1,32 @@
-//! The name that was probably meant: a typing error away from one that exists.
+//! Suggestions for misspelt names.
 
-/// The second half of a complaint about an unknown name.
+use strsim::osa_distance;
+
+/// The part of a message about an unknown name that suggests a known one; empty without a suggestion.
 pub fn did_you_mean(suggestion: &Option<String>) -> String {
     suggestion.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
 }
 
-/// The candidate closest to `name`, if it is close enough to be a typing error.
+/// The candidate closest to `name`; `None` if none is close enough to be a typing error.
 ///
-/// Upper and lower case count as equal; otherwise at most one edit for every three letters, and at least one edit is
-/// always granted. Of equally close candidates the first is taken.
+/// The distance is that of optimal string alignment, without regard to upper and lower case: the number of insertions,
+/// deletions, replacements and swaps of neighbours. It must be at most a third of the length of `name`, or 1, and less
+/// than the length of the candidate. The first of equally close candidates is returned.
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    // Nobody misspells a name this long; the distance costs the product of both lengths.
+    // The computation of the distance takes time proportional to the product of both lengths.
     const LONGEST: usize = 40;
-    let name: Vec<char> = name.chars().take(LONGEST + 1).flat_map(char::to_lowercase).collect();
-    if name.len() > LONGEST {
+    let length = name.chars().take(LONGEST + 1).flat_map(char::to_lowercase).count();
+    if length > LONGEST {
         return None;
     }
-    let granted = (name.len() / 3).max(1);
+    let (name, allowed) = (name.to_lowercase(), (length / 3).max(1));
     candidates
         .into_iter()
-        .map(|candidate| (edits(&name, &candidate.to_lowercase().chars().collect::<Vec<_>>()), candidate))
-        // A distance as long as the candidate itself means that nothing of it was written.
-        .filter(|&(distance, candidate)| distance <= granted && distance < candidate.chars().count())
+        .map(|candidate| (osa_distance(&name, &candidate.to_lowercase()), candidate))
+        // A distance of the candidate's length means that the names have nothing in common.
+        .filter(|&(distance, candidate)| distance <= allowed && distance < candidate.chars().count())
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
-}
-
-/// Optimal string alignment distance: insertions, deletions, replacements and swaps of neighbours.
-fn edits(from: &[char], to: &[char]) -> usize {
-    let mut before_last = vec![0; to.len() + 1];
-    let mut last: Vec<usize> = (0..=to.len()).collect();
-    for i in 1..=from.len() {
-        let mut row = vec![i];
-        for j in 1..=to.len() {
-            let replaced = last[j - 1] + usize::from(from[i - 1] != to[j - 1]);
-            let mut best = replaced.min(last[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1] {
-                best = best.min(before_last[j - 2] + 1);
-            }
-            row.push(best);
-        }
-        before_last = std::mem::replace(&mut last, row);
-    }
-    last[to.len()]
 }
 
 #[cfg(test)]
@@ -50,7 +34,7 @@ mod tests {
     use super::nearest;
 
     #[test]
-    fn a_typing_error_finds_the_name_and_a_different_word_does_not() {
+    fn a_misspelt_name_is_suggested_and_an_unrelated_word_is_not() {
         let names = ["sin", "sinh", "sqrt", "log10", "theta_a", "elements"];
         for (written, meant) in [
             ("sine", Some("sin")),
@@ -71,14 +55,14 @@ mod tests {
     }
 
     #[test]
-    fn a_very_long_name_is_near_nothing() {
+    fn no_suggestion_for_names_longer_than_forty_characters() {
         assert_eq!(nearest(&"s".repeat(1_000_000), ["sin"]), None);
         let [forty, more] = [40, 41].map(|count| "s".repeat(count));
         assert_eq!([&forty, &more].map(|name| nearest(name, [forty.as_str()])), [Some(forty.as_str()), None]);
     }
 
     #[test]
-    fn one_edit_for_every_three_letters_is_granted_but_not_the_whole_name() {
+    fn suggestions_allow_one_edit_per_three_letters() {
         let edited = ["abcdefghX", "abcdefgXX", "abcdefXXX", "abcdeXXXX"].map(|name| nearest(name, ["abcdefghi"]));
         assert_eq!(edited, [Some("abcdefghi"), Some("abcdefghi"), Some("abcdefghi"), None]);
         assert_eq!((nearest("y", ["x"]), nearest("xx", ["x"])), (None, None));

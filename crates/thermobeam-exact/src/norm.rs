@@ -1,6 +1,6 @@
 //! The norms in which an error is measured.
 
-/// A norm of the error, each the maximum over the time levels n = 1..N.
+/// A norm of the error at one time level. A convergence study takes its maximum over the time levels n = 1..N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Norm {
     /// ‖û - u_t‖.
@@ -13,11 +13,12 @@ pub enum Norm {
     Curvature,
     /// ‖θ_h - θ‖.
     Temperature,
-    /// Root of the sum of the squares of the five before, at the same n: the left-hand side of Theorem 3.4.
+    /// Root of the sum of these five squares at the same n: the left-hand side of (3.14), Theorem 3.4.
     Theorem34,
     /// ‖u_h - u‖.
     Displacement,
-    /// As [`Norm::Theorem34`], of the distance to the nodal interpolants of the exact solution: Z_n^½ of (3.16).
+    /// The norm of [`Norm::Theorem34`] of the distance to the nodal interpolants of the exact solution: Z_n^½ of
+    /// (3.16).
     Superclose,
 }
 

@@ -1,14 +1,15 @@
-//! Gauss-Legendre quadrature, element by element, for errors against functions that are not P1.
+//! Gauss-Legendre quadrature on each element, for errors against functions that are not piecewise linear.
 
 use thermobeam::mesh::Mesh;
 
-/// Points per element.
+/// Number of points per element.
 pub const POINTS: usize = 5;
 
 /// Gauss-Legendre with 5 points, exact to degree 9: `(s, weight)` on [0, 1], weights adding up to 1.
 ///
-/// On [-1, 1] the points are 0 and ±⅓√(5 ∓ 2√(10/7)), the weights 128/225 and (322 ± 13√70)/900; here they are shifted
-/// and halved. The error of ∫ e² for e = O(h²) is of relative size h^10: it never shows beside the error that is measured.
+/// On [-1, 1] the points are 0 and ±⅓√(5 ∓ 2√(10/7)), the weights 128/225 and (322 ± 13√70)/900; here they are
+/// transformed to [0, 1]. The relative error of ∫ e² for e = O(h²) is O(h^10), negligible for the errors that are
+/// measured.
 pub const RULE: [(f64, f64); POINTS] = [
     (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
     (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
@@ -17,7 +18,7 @@ pub const RULE: [(f64, f64); POINTS] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
 
-/// All quadrature points of a mesh, [`POINTS`] to an element, in order.
+/// The quadrature points of a mesh in increasing order, [`POINTS`] per element.
 pub fn points(mesh: &Mesh) -> Vec<f64> {
     let on_element = |ends: &[f64]| RULE.map(|(s, _)| ends[0] + s * (ends[1] - ends[0]));
     mesh.nodes().windows(2).flat_map(on_element).collect()
@@ -25,8 +26,8 @@ pub fn points(mesh: &Mesh) -> Vec<f64> {
 
 /// `∫₀¹ f dx`.
 ///
-/// * `lengths`: of the elements.
-/// * `f(element, s, point)`: the integrand at s in (0, 1) of an element; `point` counts through [`points`].
+/// * `lengths`: the element lengths.
+/// * `f(element, s, point)`: the integrand at s in (0, 1) of an element; `point` is the index into [`points`].
 pub fn integrate(lengths: &[f64], mut f: impl FnMut(usize, f64, usize) -> f64) -> f64 {
     let mut sum = 0.0;
     for (element, &h) in lengths.iter().enumerate() {
@@ -55,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_points_are_those_of_the_formula() {
+    fn the_quadrature_points_are_those_of_the_formula() {
         let far = (5.0 + 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0;
         let near = (5.0 - 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0;
         for (k, x) in [-far, -near, 0.0, near, far].into_iter().enumerate() {

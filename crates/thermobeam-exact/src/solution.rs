@@ -2,7 +2,7 @@
 
 use crate::expression::Expression;
 
-/// One term X(x) T(t).
+/// A product X(x) T(t).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
     /// X, a function of x; finite on [0, 1] with its first two derivatives.
@@ -11,7 +11,7 @@ pub struct Product {
     pub t: Expression,
 }
 
-/// An exact solution: a sum of products for each field, an empty one being 0.
+/// An exact solution: a sum of products for each field; an empty sum is 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Manufactured {
     /// Displacement; each X is 0 at x = 0.

@@ -1,6 +1,6 @@
-//! Loads of a manufactured solution.
+//! Loads for which a manufactured solution is the exact solution.
 //!
-//! From the strong form (1.1), with N = N(u(t)):
+//! From the strong form (1.1), with N = N(u(t)) of (2.3):
 //!
 //! ```text
 //! f_u = u_tt - (1 + N) u_xx + φ_x - ζ (u_xxt - φ_xt)
@@ -8,10 +8,10 @@
 //! f_θ = θ_t - θ_xx + a φ_xt
 //! ```
 //!
-//! tested with the hats, plus what (1.3) leaves at x = 1: `σ(1, t) + g(u(1, t))` in the first equation and
-//! `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, so the two paths share nothing but the problem.
-//! θ is the physical temperature; its lifting θ_A (1 - x) is harmonic and drops out of f_θ, and the solver's own term
-//! `a θ_A` is the part of `a θ_x` that it carries.
+//! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3): `σ(1, t) + g(u(1, t))`
+//! in the first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, so the two
+//! computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
+//! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
 
 use crate::factors::Factors;
 use crate::quadrature::RULE;
@@ -20,31 +20,31 @@ use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
-/// Panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
+/// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
 const PANELS: usize = 256;
 
-/// The time coefficient that a space vector is multiplied with; the index is that of the product.
+/// The time coefficient of a space vector; the number is the index of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Coefficient {
     /// T''.
     Inertia(usize),
-    /// T + ζ T' + N T: what the tension of (1.1) makes of u_x.
+    /// (1 + N) T + ζ T', the coefficient of u_xx in (1.1).
     Tension(usize),
-    /// T + ζ T': the shear's part of u_x.
+    /// T + ζ T', the coefficient of u_x in the second equation.
     Shear(usize),
     /// S''.
-    TurnInertia(usize),
+    RotationInertia(usize),
     /// S + ζ S'.
-    Turn(usize),
+    Rotation(usize),
     /// S'.
-    TurnRate(usize),
+    RotationRate(usize),
     /// Q.
-    Heat(usize),
+    Temperature(usize),
     /// Q'.
-    HeatRate(usize),
+    TemperatureRate(usize),
 }
 
-/// A space vector of one equation (0: u, 1: φ, 2: θ) with its coefficient.
+/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient.
 #[derive(Debug, Clone)]
 struct Term {
     equation: usize,
@@ -52,18 +52,18 @@ struct Term {
     vector: Vec<f64>,
 }
 
-/// Which of the two boundary loads at x = 1 to leave out; only a negative control leaves one out.
+/// The boundary loads at x = 1 that are included. Only a negative control leaves one out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryLoads {
-    /// Both are there.
+    /// Both.
     Both,
-    /// σ(1, t) + g is dropped.
+    /// Without σ(1, t) + g.
     WithoutStress,
-    /// φ_x + ζ φ_xt is dropped.
+    /// Without φ_x + ζ φ_xt.
     WithoutMoment,
 }
 
-/// All space vectors of a manufactured solution on a mesh.
+/// The space vectors of a manufactured solution on a mesh, with their time coefficients.
 #[derive(Debug, Clone)]
 pub struct Sources {
     beam: Beam,
@@ -75,7 +75,7 @@ pub struct Sources {
     boundary: Boundary,
 }
 
-/// Values at x = 1 that the boundary loads are made of; zero where the space vectors hold them already.
+/// Values at x = 1 for the boundary loads; zero if the space vectors contain them.
 #[derive(Debug, Clone, Default)]
 struct Boundary {
     /// X_j'(1).
@@ -90,15 +90,16 @@ struct Boundary {
 struct Vectors {
     value: Vec<f64>,
     slope: Vec<f64>,
-    /// `-(X'', N_i)`, which lacks `X'(1) δ_in` to be `(X', N_i')`.
+    /// `-(X'', N_i)`, equal to `(X', N_i') - X'(1) δ_in`.
     curvature: Vec<f64>,
-    /// X(1), and what the boundary loads still need of it.
+    /// X(1), and the values of X and X' at 1 for the boundary loads.
     tip: f64,
     boundary_value: f64,
     boundary_slope: f64,
 }
 
 impl Vectors {
+    /// The integrals by quadrature.
     fn strong(product: &Product, mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
         let zeros = vec![0.0; nodes.len()];
@@ -119,7 +120,7 @@ impl Vectors {
         Self { value, slope, curvature, tip, boundary_value: tip, boundary_slope: tip_slope }
     }
 
-    /// The same for the nodal interpolant, with the scheme's own matrices.
+    /// The integrals of the nodal interpolant, by the scheme's own matrices.
     fn discrete(product: &Product, matrices: &Matrices, mesh: &Mesh) -> Self {
         let nodal = nodal(product, mesh);
         let tip = nodal[nodal.len() - 1];
@@ -130,12 +131,13 @@ impl Vectors {
             tip,
             // -C φ = Cᵀ φ - φ(1) e for P1 functions too.
             boundary_value: tip,
-            // K u holds the derivative at the end already.
+            // K u contains the derivative at the end.
             boundary_slope: 0.0,
         }
     }
 }
 
+/// The matrices of (3.7).
 struct Matrices {
     mass: Tridiagonal,
     stiffness: Tridiagonal,
@@ -143,10 +145,10 @@ struct Matrices {
     slope: Tridiagonal,
 }
 
-/// X of a product at the nodes of a mesh; exactly zero at x = 0 where it is zero up to its rounding error.
+/// X of a product at the n + 1 nodes, exactly zero at x = 0 if it is zero there up to its rounding error.
 pub fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
     let mut values: Vec<f64> = mesh.nodes().iter().map(|&x| product.x.eval(x)).collect();
-    // Zero up to round-off by the boundary condition of u and φ; θ may start at θ_A.
+    // u and φ satisfy X(0) = 0 up to round-off; θ may start at θ_A.
     if values[0].abs() < product.x.roundoff(1.0) {
         values[0] = 0.0;
     }
@@ -156,7 +158,7 @@ pub fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
 /// The products of a manufactured solution at the nodes of a mesh.
 #[derive(Debug, Clone)]
 pub struct Nodal {
-    /// X_j of the displacement, n + 1 values each.
+    /// X_j of the displacement, n + 1 values for each product.
     pub u: Vec<Vec<f64>>,
     /// Y_k of the rotation.
     pub phi: Vec<Vec<f64>>,
@@ -173,13 +175,13 @@ impl Nodal {
 }
 
 impl Sources {
-    /// From the strong form.
+    /// The loads from the strong form (1.1) and the boundary conditions (1.3).
     pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let vectors = |products: &[Product]| products.iter().map(|p| Vectors::strong(p, mesh)).collect::<Vec<_>>();
         Self::assemble(exact, beam, vectors, continuous_gram(&exact.u))
     }
 
-    /// From the discrete matrices applied to the nodal interpolant: the space error is then exactly zero.
+    /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let matrices = Matrices { mass: mass(mesh), stiffness: stiffness(mesh), slope: coupling(mesh).transpose() };
         let vectors =
@@ -216,21 +218,21 @@ impl Sources {
             add(1, Coefficient::Shear(j), v.slope.iter().map(|s| -s).collect());
         }
         for (k, v) in phi.into_iter().enumerate() {
-            add(1, Coefficient::Turn(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
-            add(1, Coefficient::TurnInertia(k), v.value);
-            add(2, Coefficient::TurnRate(k), v.slope.iter().map(|s| beam.a * s).collect());
-            add(0, Coefficient::Turn(k), v.slope);
+            add(1, Coefficient::Rotation(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
+            add(1, Coefficient::RotationInertia(k), v.value);
+            add(2, Coefficient::RotationRate(k), v.slope.iter().map(|s| beam.a * s).collect());
+            add(0, Coefficient::Rotation(k), v.slope);
         }
         for (l, v) in vectors(&exact.theta).into_iter().enumerate() {
-            add(1, Coefficient::Heat(l), v.slope.iter().map(|s| beam.a * s).collect());
-            // θ's test functions vanish at both ends: no boundary load.
-            add(2, Coefficient::Heat(l), v.curvature);
-            add(2, Coefficient::HeatRate(l), v.value);
+            add(1, Coefficient::Temperature(l), v.slope.iter().map(|s| beam.a * s).collect());
+            // The test functions of θ vanish at both ends: no boundary load.
+            add(2, Coefficient::Temperature(l), v.curvature);
+            add(2, Coefficient::TemperatureRate(l), v.value);
         }
         Self { beam: *beam, terms, gram, tip, boundary }
     }
 
-    /// N(u) of the exact solution with the factors T_j.
+    /// N(u) of the exact solution with the factors T_j, (2.3).
     pub fn axial_force(&self, factors: &[f64]) -> f64 {
         let n = factors.len();
         let mut slope_squared = 0.0;
@@ -247,7 +249,12 @@ impl Sources {
         factors.iter().zip(&self.tip).map(|(t, x)| t * x).sum()
     }
 
-    /// Writes `(F_u, F_φ, F_θ)` for the given factors, axial force N and contact force.
+    /// Writes the loads `(F_u, F_φ, F_θ)`.
+    ///
+    /// * `factors`: the time factors.
+    /// * `n_value`, `contact_force`: axial force N and contact force of the exact solution.
+    /// * `loads`: the boundary loads to include.
+    /// * `load`: overwritten, n + 1 entries.
     pub fn fill(
         &self,
         factors: &Factors,
@@ -275,7 +282,7 @@ impl Sources {
     /// σ(1, t).
     fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
         let u = |j| self.coefficient(Coefficient::Tension(j), factors, n_value);
-        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, n_value);
+        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, n_value);
         let Boundary { u_slope, phi: phi_tip, .. } = &self.boundary;
         let stretch: f64 = u_slope.iter().enumerate().map(|(j, slope)| slope * u(j)).sum();
         stretch - phi_tip.iter().enumerate().map(|(k, value)| value * phi(k)).sum::<f64>()
@@ -283,10 +290,11 @@ impl Sources {
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
     fn tip_moment(&self, factors: &Factors) -> f64 {
-        let phi = |k| self.coefficient(Coefficient::Turn(k), factors, 0.0);
+        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, 0.0);
         self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * phi(k)).sum()
     }
 
+    /// The value of a time coefficient.
     fn coefficient(&self, coefficient: Coefficient, factors: &Factors, n_value: f64) -> f64 {
         let zeta = self.beam.zeta;
         let Factors { u, phi, theta } = factors;
@@ -294,11 +302,11 @@ impl Sources {
             Coefficient::Inertia(j) => u.acceleration[j],
             Coefficient::Tension(j) => (1.0 + n_value) * u.value[j] + zeta * u.rate[j],
             Coefficient::Shear(j) => u.value[j] + zeta * u.rate[j],
-            Coefficient::TurnInertia(k) => phi.acceleration[k],
-            Coefficient::Turn(k) => phi.value[k] + zeta * phi.rate[k],
-            Coefficient::TurnRate(k) => phi.rate[k],
-            Coefficient::Heat(l) => theta.value[l],
-            Coefficient::HeatRate(l) => theta.rate[l],
+            Coefficient::RotationInertia(k) => phi.acceleration[k],
+            Coefficient::Rotation(k) => phi.value[k] + zeta * phi.rate[k],
+            Coefficient::RotationRate(k) => phi.rate[k],
+            Coefficient::Temperature(l) => theta.value[l],
+            Coefficient::TemperatureRate(l) => theta.rate[l],
         }
     }
 }

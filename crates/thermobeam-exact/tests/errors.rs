@@ -1,4 +1,4 @@
-//! Errors against sums of products, held against a quadrature that knows nothing of them.
+//! The error meter against an independent quadrature.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
@@ -8,7 +8,7 @@ use thermobeam_exact::factors::Factors;
 use thermobeam_exact::norm::Norm;
 use thermobeam_exact::solution::{Manufactured, Product};
 
-/// The root of `∫ f²` over [0, 1], by the midpoint rule on many panels of each element: nothing in common with the meter.
+/// The root of `∫ f²` over [0, 1], by the midpoint rule on many panels of each element.
 fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
     const PANELS: usize = 2000;
     let on_element = |(i, ends): (usize, &[f64])| {
@@ -19,7 +19,7 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
 }
 
 #[test]
-fn the_errors_are_those_of_brute_force_far_from_the_solution() {
+fn the_errors_agree_with_fine_quadrature() {
     let product = |x: &str, t: &str| Product {
         x: Expression::parse(x, Variable::X).unwrap(),
         t: Expression::parse(t, Variable::T).unwrap(),
@@ -46,7 +46,7 @@ fn the_errors_are_those_of_brute_force_far_from_the_solution() {
         y[i] + (y[i + 1] - y[i]) * (x - a) / (b - a)
     };
     let slope = |y: &[f64], i: usize| (y[i + 1] - y[i]) / (mesh.nodes()[i + 1] - mesh.nodes()[i]);
-    // The kth derivative in x, with the jth of the time factors.
+    // The k-th derivative in x, with the j-th derivative of the time factors.
     let sum = |products: &[Product], x: f64, k: usize, j: usize| -> f64 {
         products.iter().map(|p| p.x.derivatives(x)[k] * p.t.derivatives(t)[j]).sum()
     };
@@ -66,14 +66,14 @@ fn the_errors_are_those_of_brute_force_far_from_the_solution() {
     for (k, expected) in parts.into_iter().chain([norm, displacement]).enumerate() {
         assert!((found[k] / expected - 1.0).abs() < 2e-6, "{:?}: {} {expected}", Norm::ALL[k], found[k]);
     }
-    // Against the interpolant only nodal values count.
+    // Only nodal values enter the errors against the interpolant.
     let mut nodal = ErrorMeter::new(&exact, &mesh, true);
     nodal.lift(&mesh, theta_a);
     assert!((nodal.measure(&level, &factors)[5] / found[7] - 1.0).abs() < 1e-14);
 }
 
 #[test]
-fn norms_go_by_the_names_of_the_contract() {
+fn norm_names_are_those_of_the_study_files() {
     let names = Norm::ALL.map(Norm::name);
     let expected =
         ["velocity", "shear", "rotation-rate", "curvature", "temperature", "theorem-3.4", "displacement", "superclose"];

@@ -1,18 +1,18 @@
-//! Functions as text: what they mean, their derivatives, and what is said when they are wrong.
+//! Values and derivatives of expressions, and error messages.
 
 use std::f64::consts::{E, PI};
 
 use proptest::prelude::*;
 use thermobeam_exact::expression::{Expression, Variable};
 
-/// Asserts that a message holds each of these pieces, in this order.
+/// Asserts that a message contains these pieces in this order.
 #[track_caller]
-fn says(message: &str, pieces: &[&str]) {
+fn contains_in_order(message: &str, pieces: &[&str]) {
     let mut rest = message;
     for piece in pieces {
         match rest.split_once(piece) {
             Some((_, after)) => rest = after,
-            None => panic!("not said, or not in this order: {piece:?}\n{message}"),
+            None => panic!("missing, or not in this order: {piece:?}\n{message}"),
         }
     }
 }
@@ -22,12 +22,12 @@ fn function(text: &str) -> Expression {
 }
 
 #[track_caller]
-fn refusal(text: &str) -> String {
+fn rejection(text: &str) -> String {
     Expression::parse(text, Variable::X).expect_err(text).to_string()
 }
 
 #[test]
-fn expressions_mean_what_mathematics_means() {
+fn expressions_follow_mathematical_precedence() {
     let x = 0.7;
     for (text, value) in [
         ("-x^2", -(x * x)),
@@ -83,7 +83,7 @@ fn expressions_mean_what_mathematics_means() {
 }
 
 #[test]
-fn each_variable_goes_by_its_own_name_only() {
+fn each_variable_is_known_by_its_own_name_only() {
     for (variable, name) in [(Variable::X, "x"), (Variable::T, "t"), (Variable::S, "s")] {
         for other in ["x", "t", "s"] {
             let read = Expression::parse(other, variable);
@@ -138,7 +138,7 @@ fn derivatives_agree_with_finite_differences() {
     ] {
         let f = function(text);
         for x in [0.2, 0.45, 0.8] {
-            // Central differences: the error is a sixth and a twelfth of the next derivatives, times the step squared.
+            // The errors of the central differences are h²/6 and h²/12 times the next derivatives.
             let h = 1e-4;
             let (minus, middle, plus) = (f.eval(x - h), f.eval(x), f.eval(x + h));
             let expected = [middle, (plus - minus) / (2.0 * h), (plus - 2.0 * middle + minus) / (h * h)];
@@ -166,12 +166,12 @@ fn minimum_and_maximum_keep_nan() {
 }
 
 #[test]
-fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
+fn a_syntax_error_gives_its_position_and_the_expected_input() {
     for (text, offset, pieces) in [
-        ("", 0, &["an empty text", "allowed is a number, x, pi, e, a function or `(`"][..]),
+        ("", 0, &["expected a number, x, pi, e, a function or `(`", "found an empty text"][..]),
         ("  ", 2, &["an empty text"]),
-        ("x +", 3, &["found the end", "allowed is a number"]),
-        ("x $ 2", 2, &["found `$`", "operators + - * / ^"]),
+        ("x +", 3, &["expected a number", "found the end"]),
+        ("x $ 2", 2, &["operators + - * / ^", "found `$`"]),
         ("2x", 1, &["found `x`", "a product needs its *"]),
         ("2(x)", 1, &["found `(`", "a product needs its *"]),
         ("2e", 1, &["found `e`", "a product needs its *"]),
@@ -182,33 +182,33 @@ fn a_mistake_is_shown_where_it_is_with_what_is_allowed() {
         ("π*x", 0, &["found `π`", "write pi"]),
         ("2×x", 1, &["found `×`", "a product is written *"]),
         ("2·x", 1, &["found `·`", "a product is written *"]),
-        ("(x", 2, &["found the end", "`)`, which closes the bracket at byte 0"]),
-        ("sin(x", 5, &["found the end", "closes the bracket at byte 3"]),
-        ("sin(x]", 5, &["found `]`", "closes the bracket at byte 3"]),
-        ("x)", 1, &["found `)`", "no bracket is open"]),
-        ("(x, 1)", 2, &["found `,`", "no function is being called"]),
-        ("()", 1, &["found `)`", "a number"]),
-        ("sin x", 4, &["found `x`", "`(` after the function `sin`"]),
+        ("(x", 2, &["an operator or `)` for the bracket at byte 0", "found the end"]),
+        ("sin(x", 5, &["for the bracket at byte 3", "found the end"]),
+        ("sin(x]", 5, &["for the bracket at byte 3", "found `]`"]),
+        ("x)", 1, &["no bracket is open", "found `)`"]),
+        ("(x, 1)", 2, &["no function is being called", "found `,`"]),
+        ("()", 1, &["expected a number", "found `)`"]),
+        ("sin x", 4, &["`(` after the function `sin`", "found `x`"]),
         ("sin()", 4, &["found `)`"]),
-        ("sin(x, 1)", 0, &["found 2 argument(s) of `sin`", "allowed is 1"]),
-        ("1+max(x)", 2, &["found 1 argument(s) of `max`", "allowed is 2"]),
-        ("min(1,2,3)", 0, &["found 3 argument(s) of `min`", "allowed is 2"]),
+        ("sin(x, 1)", 0, &["`sin`: expected 1 argument(s), found 2"]),
+        ("1+max(x)", 2, &["`max`: expected 2 argument(s), found 1"]),
+        ("min(1,2,3)", 0, &["`min`: expected 2 argument(s), found 3"]),
         ("x(2)", 1, &["found `(`"]),
-        ("1 + sine(x)", 4, &["unknown name `sine`, did you mean `sin`?", "allowed is x pi e sin cos"]),
+        ("1 + sine(x)", 4, &["unknown name `sine`, did you mean `sin`?", "expected one of x pi e sin cos"]),
         ("Sqrt(x)", 0, &["unknown name `Sqrt`, did you mean `sqrt`?"]),
-        ("x*t", 2, &["unknown name `t`; allowed is x pi e"]),
-        ("1e400", 0, &["found the number 1e400", "at most 1.797"]),
+        ("x*t", 2, &["unknown name `t`; expected one of x pi e"]),
+        ("1e400", 0, &["at most 1.797", "found 1e400"]),
     ] {
         let error = Expression::parse(text, Variable::X).expect_err(text);
         assert_eq!(error.offset, offset, "{text}");
-        says(&error.to_string(), pieces);
+        contains_in_order(&error.to_string(), pieces);
     }
 }
 
 #[test]
-fn a_product_is_only_missed_where_two_operands_meet() {
-    for (text, is_missed) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
-        assert_eq!(refusal(text).contains("a product needs its *"), is_missed, "{text}");
+fn the_hint_about_a_missing_product_sign_appears_only_between_two_operands() {
+    for (text, has_hint) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
+        assert_eq!(rejection(text).contains("a product needs its *"), has_hint, "{text}");
     }
 }
 
@@ -218,20 +218,20 @@ fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
 }
 
 #[test]
-fn the_caret_stands_below_the_mistake() {
-    assert_eq!(refusal("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
+fn the_caret_points_at_the_error() {
+    assert_eq!(rejection("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
     let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
-    let lines: Vec<String> = refusal(&long).lines().map(str::to_owned).collect();
+    let lines: Vec<String> = rejection(&long).lines().map(str::to_owned).collect();
     assert_eq!(lines.len(), 3);
     assert!(lines[1].starts_with("    ...") && lines[1].ends_with("..."), "{lines:?}");
-    assert_eq!(refusal("ä + 2x").lines().nth(1), Some("    ä + 2x"));
+    assert_eq!(rejection("ä + 2x").lines().nth(1), Some("    ä + 2x"));
     assert!(lines.iter().all(|line| line.chars().count() < 120), "{lines:?}");
     let column = lines[2].find('^').expect("a caret");
     assert!(lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"), "{lines:?}");
 }
 
 #[test]
-fn deep_nesting_is_an_error_and_not_a_crash() {
+fn deep_nesting_is_rejected_without_stack_overflow() {
     let many = 1_000_000;
     for text in [
         format!("{}x{}", "(".repeat(many), ")".repeat(many)),
@@ -241,9 +241,9 @@ fn deep_nesting_is_an_error_and_not_a_crash() {
         format!("x{}", "^x".repeat(many)),
         "(".repeat(many),
     ] {
-        says(&refusal(&text), &["operations inside one another", "allowed is 256"]);
+        contains_in_order(&rejection(&text), &["expected at most 256 nested operations"]);
     }
-    // Wide is not deep.
+    // A wide tree is not deep.
     let block = format!("(x{})", "+x".repeat(200));
     let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
     assert_eq!(sum.eval(1.0), 201.0 * 41.0);
@@ -251,7 +251,7 @@ fn deep_nesting_is_an_error_and_not_a_crash() {
 }
 
 #[test]
-fn a_function_that_is_not_finite_is_refused_at_the_place() {
+fn a_value_that_is_not_finite_is_rejected_with_its_position() {
     for (text, order, pieces) in [
         ("1/x", 0, &["the value is inf at x = 0;", "finite value on all of [0, 1]"][..]),
         ("ln(x)", 0, &["the value is -inf at x = 0"]),
@@ -262,41 +262,41 @@ fn a_function_that_is_not_finite_is_refused_at_the_place() {
         ("x^1.5", 2, &["the second derivative is inf at x = 0"]),
         ("1/0", 0, &["the value is inf at x = 0"]),
     ] {
-        says(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
+        contains_in_order(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
     }
     assert_eq!(function("sqrt(x)").check_finite(0), Ok(()));
     assert_eq!(function("x^1.5").check_finite(1), Ok(()));
     assert_eq!(function("x^3").check_finite(2), Ok(()));
     let late = Expression::parse("1/(2-t)", Variable::T).expect("a function");
     assert_eq!(late.check_finite(2), Ok(()));
-    says(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
+    contains_in_order(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
 }
 
 #[test]
-fn an_expression_shows_the_text_it_was_read_from() {
+fn an_expression_displays_its_source_text() {
     assert_eq!(function(" 0.01*x * (x-2)").to_string(), " 0.01*x * (x-2)");
     assert_eq!(function("2 * x").source(), "2 * x");
 }
 
 #[test]
-fn the_size_of_a_function_is_what_rounding_errors_of_it_and_of_its_argument_grow_with() {
+fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
     // max (|f| + |x f'|): of x² it is 3x² at the end, of 1 + x/2 it is 1 + x.
     for (text, size) in [("x^2", 12.0), ("-x^2", 12.0), ("1 + x/2", 3.0), ("7", 7.0)] {
         let function = function(text);
         assert_eq!((function.size(2.0), function.roundoff(2.0)), (size, 8.0 * f64::EPSILON * size), "{text}");
     }
-    // The slope of the root is infinite at 0 and is left out there.
+    // The slope of the root is infinite at 0 and left out.
     assert!((function("sqrt(x)").size(4.0) - 3.0).abs() < 1e-12);
 }
 
-/// Texts that are more often nearly right than arbitrary characters are.
-fn nearly_right() -> impl Strategy<Value = String> {
+/// Texts that are often nearly valid.
+fn nearly_valid() -> impl Strategy<Value = String> {
     let pieces = ["x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^", " ", "ä"];
     prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40).prop_map(|pieces| pieces.concat())
 }
 
-/// Reads, and uses whatever comes back.
-fn digest(text: &str) {
+/// Parses a text, and evaluates the expression or checks the error.
+fn parse_and_use(text: &str) {
     match Expression::parse(text, Variable::X) {
         Ok(f) => {
             assert_eq!(f.to_string(), text);
@@ -311,13 +311,13 @@ fn digest(text: &str) {
 
 proptest! {
     #[test]
-    fn any_text_is_read_or_refused_without_a_panic(text in any::<String>()) {
-        digest(&text);
+    fn any_text_parses_or_is_rejected_without_panic(text in any::<String>()) {
+        parse_and_use(&text);
     }
 
     #[test]
-    fn any_nearly_right_text_is_read_or_refused_without_a_panic(text in nearly_right()) {
-        digest(&text);
+    fn any_nearly_valid_text_parses_or_is_rejected_without_panic(text in nearly_valid()) {
+        parse_and_use(&text);
     }
 
     #[test]
@@ -325,7 +325,7 @@ proptest! {
         let [c0, c1, c2, c3] = c;
         let [value, first, second] = function(&format!("{c0} + {c1}*x + {c2}*x^2 + {c3}*x^3")).derivatives(x);
         let c = c.map(f64::from);
-        // Sums of four terms, each below 9 * 2^3 * 6 and rounded a few times.
+        // Sums of four terms, each below 9 * 2³ * 6 and rounded a few times.
         let slack = 16.0 * f64::EPSILON * 432.0;
         prop_assert!((value - (c[0] + x * (c[1] + x * (c[2] + x * c[3])))).abs() <= slack);
         prop_assert!((first - (c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]))).abs() <= slack);

@@ -1,4 +1,4 @@
-//! Loads, held against the weak form of (1.1) with (1.3): with a load `F`, the solution satisfies it for every hat function.
+//! Loads against the weak form of (1.1) and (1.3), which the solution satisfies for every hat function.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
@@ -30,7 +30,7 @@ fn mesh() -> Mesh {
 /// Value and slope in x of each product of a field.
 type Shape<'a> = dyn Fn(&[Product], usize, f64) -> [f64; 2] + 'a;
 
-/// Of a field at x, the jth derivative in time: its value and its slope.
+/// Value and slope at x of the j-th time derivative of a field.
 fn field(products: &[Product], shape: &Shape<'_>, x: f64, j: usize) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for (k, product) in products.iter().enumerate() {
@@ -89,7 +89,7 @@ fn factors(exact: &Manufactured) -> Factors {
     factors
 }
 
-/// The sources as loads; the temperature's equation holds at the inner nodes only.
+/// The loads; the equation of the temperature holds at the inner nodes only.
 fn fill(sources: &Sources, loads: BoundaryLoads) -> Vec<[f64; 3]> {
     let factors = factors(&exact());
     let mut load = vec![[f64::NAN; 3]; mesh().nodes().len()];
@@ -137,7 +137,7 @@ fn sources_from_the_matrices_are_those_of_the_weak_form_of_the_interpolant() {
 }
 
 #[test]
-fn a_boundary_load_left_out_is_the_stress_or_the_moment_at_the_end() {
+fn omitting_a_boundary_load_removes_the_stress_or_the_moment_at_the_tip() {
     let (exact, mesh) = (exact(), mesh());
     let sources = Sources::strong(&exact, &BEAM, &mesh);
     let whole = fill(&sources, BoundaryLoads::Both);
@@ -161,7 +161,7 @@ fn a_boundary_load_left_out_is_the_stress_or_the_moment_at_the_end() {
 }
 
 #[test]
-fn nodal_values_are_those_of_the_products_and_exactly_zero_where_the_beam_is_clamped() {
+fn nodal_values_are_exact_and_zero_at_the_clamped_end() {
     let mesh = mesh();
     let mut exact = exact();
     // sin(1000π(x + 1)) is 1e-13 at x = 0.

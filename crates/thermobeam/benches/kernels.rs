@@ -1,4 +1,4 @@
-//! Times of the parts of a step over the number of elements: `cargo bench -p thermobeam`.
+//! Run times of the parts of a step against the number of elements: `cargo bench -p thermobeam`.
 //!
 //! Items are elements: a throughput of 100 Mitem/s is 10 ns per element.
 
@@ -14,7 +14,7 @@ use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 use thermobeam::tridiagonal::TridiagonalFactor;
 
-/// Elements of a mesh.
+/// Numbers of elements.
 const SIZES: [usize; 4] = [10, 100, 1_000, 10_000];
 const DT: f64 = 1e-4;
 
@@ -22,8 +22,8 @@ fn main() {
     divan::main();
 }
 
-/// The paper's beam, heated and thrown against its upper obstacle.
-fn thrown(elements: usize) -> Problem {
+/// The paper's beam, heated and moving towards its upper obstacle.
+fn moving_beam(elements: usize) -> Problem {
     let mesh = Mesh::uniform(elements).expect("a mesh");
     let mut initial = Initial::at_rest(&mesh, 0.0);
     for (i, &x) in mesh.nodes().iter().enumerate() {
@@ -35,10 +35,10 @@ fn thrown(elements: usize) -> Problem {
 
 fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
     let settings = Settings { solver, ..Settings::default() };
-    Simulation::new(thrown(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
+    Simulation::new(moving_beam(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
 }
 
-/// A simulation that has moved, and its two last levels.
+/// A simulation after eleven steps, and its last two levels.
 fn moved(elements: usize) -> (Simulation, Level, Level) {
     let mut simulation = simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
     for _ in 0..10 {
@@ -73,7 +73,7 @@ fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![thrown(elements); 4];
+    let problems = vec![moving_beam(elements); 4];
     let mut ensemble =
         Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
     bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.advance());
@@ -82,7 +82,7 @@ fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![thrown(elements); 4];
+    let problems = vec![moving_beam(elements); 4];
     let mut ensemble =
         Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
     ensemble.advance();

@@ -1,4 +1,4 @@
-//! An observer of one's own: when does the free end meet an obstacle, and what does each impact cost?
+//! An observer that finds the impacts of the tip and the energy that each of them dissipates.
 //!
 //! `cargo run -p thermobeam --example own_observer`
 
@@ -10,7 +10,7 @@ use thermobeam::scheme::MIDPOINT;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
-/// An observer is what you make of the levels that the time loop hands out.
+/// Collects the impacts from the levels of a run.
 #[derive(Default)]
 struct Impacts {
     touching: bool,
@@ -19,7 +19,7 @@ struct Impacts {
 }
 
 impl Impacts {
-    /// Time and loss of energy of each impact.
+    /// Updates the list of impacts: time of separation, and loss of energy.
     fn observe(&mut self, t: f64, level: &Level, energy: f64) {
         let touching = level.contact_force != 0.0;
         match (self.touching, touching) {
@@ -45,9 +45,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         impacts.observe(simulation.t(), &level, simulation.energy(&level).total());
     }
     for (t, loss) in &impacts.found {
-        println!("left the obstacle at t = {t:.3}, {loss:.3e} of energy the poorer");
+        println!("separation at t = {t:.3}, energy loss {loss:.3e}");
     }
-    // Nothing gains energy, not even an impact.
+    // No impact increases the energy.
     assert!(!impacts.found.is_empty() && impacts.found.iter().all(|(_, loss)| *loss > 0.0));
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! A scene in Rust: a beam, thrown upwards, swings between two obstacles.
+//! A scene in Rust: a beam with an upward initial velocity between two obstacles.
 //!
 //! `cargo run -p thermobeam --example own_scene`
 

@@ -1,23 +1,23 @@
-//! The matrices of (3.7) on P1 hats N_0..N_n, tridiagonal, over all n + 1 nodes.
+//! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
 //!
-//! The solver's sweeps work element by element and need none of them; they serve the designs that isolate the time
-//! error, the studies of vibration, and the tests.
+//! The solver works element by element without them. They serve the manufactured solutions that isolate the time error,
+//! the studies of vibrations, and the tests.
 
 use crate::mesh::Mesh;
 
 /// A tridiagonal matrix of n + 1 rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tridiagonal {
-    /// Entry (i, i - 1); entry 0 is unused and zero.
+    /// Entries (i, i - 1); entry 0 is unused and zero.
     pub lower: Vec<f64>,
-    /// Entry (i, i).
+    /// Entries (i, i).
     pub diagonal: Vec<f64>,
-    /// Entry (i, i + 1); the last is unused and zero.
+    /// Entries (i, i + 1); the last is unused and zero.
     pub upper: Vec<f64>,
 }
 
 impl Tridiagonal {
-    /// Adds up the 2 x 2 matrix that `local` gives for an element of length h.
+    /// Assembles the 2 x 2 matrices that `local` returns for an element of length h.
     fn assemble(mesh: &Mesh, local: impl Fn(f64) -> [[f64; 2]; 2]) -> Self {
         let zeros = vec![0.0; mesh.nodes().len()];
         let mut matrix = Self { lower: zeros.clone(), diagonal: zeros.clone(), upper: zeros };
@@ -41,7 +41,7 @@ impl Tridiagonal {
         }
     }
 
-    /// `A vector` as a new vector.
+    /// `A vector`.
     pub fn multiply(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];
         self.multiply_into(vector, &mut product);
@@ -74,7 +74,7 @@ pub fn stiffness(mesh: &Mesh) -> Tridiagonal {
 
 /// Coupling matrix, `C_ij = (N_j, N_i')`.
 ///
-/// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the terms of (3.7) that join u, φ and θ.
+/// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the coupling terms of (3.7) between u, φ and θ.
 pub fn coupling(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |_| [[-0.5, -0.5], [0.5, 0.5]])
 }
@@ -138,8 +138,8 @@ mod tests {
                 };
                 let (ni, nj) = (hat(i), hat(j));
                 assert!((entry(&m) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
-                // N_i' is constant on each element: its exact integral against N_j is a difference of N_i times the
-                // mean of N_j.
+                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of
+                // N_j.
                 let exact: f64 = x.windows(2).map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1]))).sum();
                 assert!((entry(&c) - exact).abs() < 1e-15);
             }

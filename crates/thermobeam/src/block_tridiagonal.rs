@@ -1,9 +1,9 @@
-//! Symmetric block tridiagonal factorisation without pivoting, one block a node.
+//! Symmetric block tridiagonal factorisation without pivoting, one block per node.
 //!
 //! `S_1 = D_1`, `S_i = D_i - O_i S_{i-1}⁻¹ O_iᵀ`; a solve is `y_i = r_i - G_i y_{i-1}` forward with
-//! `G_i = O_i S_{i-1}⁻¹`, then `x_i = S_i⁻¹ y_i - G_{i+1}ᵀ x_{i+1}` backward. Pivots need no exchange because the matrix
+//! `G_i = O_i S_{i-1}⁻¹`, then `x_i = S_i⁻¹ y_i - G_{i+1}ᵀ x_{i+1}` backward. No pivoting is needed because the matrix
 //! is quasi-definite: its displacement part is positive definite, its temperature part negative definite. A pivot of
-//! the wrong sign is therefore a finding (the beam is beyond its buckling force), not an accident of the order.
+//! the wrong sign therefore shows that the matrix is not: the beam is beyond its buckling force.
 
 use crate::error::StepFailure;
 use crate::lanes::Lane;
@@ -11,7 +11,7 @@ use crate::lanes::Lane;
 /// A block, row by row.
 pub(crate) type Block<T, const B: usize> = [[T; B]; B];
 
-/// What a solve needs at one node.
+/// The factors at one node.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Node<T, const B: usize> {
     /// `G_i = O_i S_{i-1}⁻¹`, zero at the first node.
@@ -26,8 +26,7 @@ pub(crate) struct Factor<T, const B: usize> {
     pub(crate) nodes: Vec<Node<T, B>>,
 }
 
-// Loops over arrays that are written in place: the compiler keeps them in registers, which it does not do with
-// `std::array::from_fn`.
+// The loops below write arrays in place, which the compiler keeps in registers; with `std::array::from_fn` it does not.
 
 /// `matrix * vector`.
 #[inline(always)]
@@ -71,14 +70,14 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
     result
 }
 
-/// Inverse of a symmetric block by Gauss-Jordan elimination on the diagonal, with the pivots met.
+/// Inverse of a symmetric block by Gauss-Jordan elimination with diagonal pivots.
 ///
-/// Pivot k must have the sign of `signs[k]`; the first that has not is returned as an error (NaN included).
-#[inline(always)] // Unrolled for the constant signs of its caller; as a call it makes a factorisation half as slow again.
+/// Pivot k must have the sign of `signs[k]`; the first that does not (NaN included) is returned as an error.
+#[inline(always)] // Unrolled for the constant signs of its caller; not inlined, a factorisation takes half as long again.
 fn invert<const B: usize>(mut block: Block<f64, B>, signs: [f64; B]) -> Result<Block<f64, B>, f64> {
     for k in 0..B {
         let pivot = block[k][k];
-        // NaN fails this comparison, and so does a pivot of the wrong sign.
+        // Also true for NaN.
         if !(pivot * signs[k] > 0.0) {
             return Err(pivot);
         }
@@ -104,7 +103,7 @@ fn signs<const B: usize>() -> [f64; B] {
 }
 
 impl<T: Lane, const B: usize> Factor<T, B> {
-    /// Room for n elements.
+    /// An uninitialised factorisation for n elements.
     pub(crate) fn new(elements: usize) -> Self {
         let zero = [[T::splat(0.0); B]; B];
         Self { nodes: vec![Node { multiplier: zero, inverse: zero }; elements + 1] }
@@ -123,7 +122,7 @@ impl<T: Lane, const B: usize> Factor<T, B> {
         let mut inverse = [[0.0; B]; B];
         for (node, stored) in self.nodes.iter_mut().enumerate().skip(1) {
             let (lower, mut pivot_block) = blocks(node);
-            // At the first node `inverse` is zero: its left neighbour is clamped.
+            // `inverse` is zero at the first node, whose left neighbour is clamped.
             let mut multiplier = [[0.0; B]; B];
             for row in 0..B {
                 for column in 0..B {
@@ -173,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_that_is_zero_or_of_the_wrong_sign_or_no_number_is_refused() {
+    fn a_pivot_that_is_zero_or_nan_or_of_the_wrong_sign_is_rejected() {
         for pivot in [0.0, -1.0, f64::NAN] {
             let refused = invert([[1.0, 0.0], [0.0, pivot]], [1.0, 1.0]).unwrap_err();
             assert_eq!(refused.to_bits(), pivot.to_bits());

@@ -1,18 +1,19 @@
-//! One-variable search inside a bracket: a root between two signs, the top of a hump between two flanks.
+//! Bisection for a root in a bracket, and golden section search for a maximum in a bracket.
 //!
-//! Both are the slowest methods with a proof, and are used only where the bracket itself comes from a proof:
-//! a faster method would save microseconds here and need a reason why it cannot leave the bracket.
+//! Both methods are slow and cannot fail. They are used where the bracket comes from a proof; faster methods would save
+//! microseconds there and need safeguards.
 
-/// More halvings than any bracket of two floats can take: the exponent range and the mantissa.
+/// More bisections than any bracket of two floats allows: exponent range and mantissa.
 const HALVINGS: usize = 2200;
 
-/// 0.618^90 is 1e-19: past it the golden section has nothing left to divide.
+/// Number of golden sections: 0.618^90 is 1e-19, below round-off.
 const SECTIONS: usize = 90;
 
-/// The point between `lo` and `hi` where f changes sign, down to two neighbouring floats.
+/// The point between `lo` and `hi` where f changes sign, to two neighbouring floats.
 ///
-/// * f must have one sign at `lo` and the other, or zero, at `hi`; neither is evaluated again apart from the sign at `lo`.
-///   Zero counts with the negative numbers: of a function that is zero on one side, this is where it ceases to be.
+/// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for a function that
+///   vanishes on one side of the point, the boundary of the zero set is returned.
+/// * `lo` may be larger than `hi`. f is evaluated at `lo` and inside the bracket, not at `hi`.
 /// * Returns one of the two floats between which the sign changes.
 pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
     let starts_positive = f(lo) > 0.0;
@@ -30,10 +31,10 @@ pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
     hi
 }
 
-/// Golden section search for the top of f, which rises to it and falls behind it.
+/// Golden section search for the maximum of a unimodal function f between `lo` and `hi`.
 ///
-/// * Returns the point and f there. Near a smooth top the point is exact to √ε only, the value to ε.
-pub(crate) fn climb(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
+/// * Returns the point and f there. Near a smooth maximum the point has an error of √ε, the value one of ε.
+pub(crate) fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let at = |x: f64| (x, f(x));
     let (mut left, mut right) = (at(hi - ratio * (hi - lo)), at(lo + ratio * (hi - lo)));
@@ -64,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_counts_with_the_negative_numbers() {
+    fn bisection_treats_zero_as_negative() {
         let above = |x: f64| (x - 1.0).max(0.0);
         for (lo, hi) in [(0.0, 2.0), (0.0, 3.0), (2.0, 0.0), (3.0, -1.0)] {
             assert!((bisect(above, lo, hi) - 1.0).abs() <= 2.0 * f64::EPSILON, "{lo} {hi}");
@@ -72,9 +73,9 @@ mod tests {
     }
 
     #[test]
-    fn golden_section_finds_a_top_close_to_a_pole() {
+    fn golden_section_finds_a_maximum_close_to_a_pole() {
         // x - 1e-24 / x² is largest where x³ = -2e-24 from the left: x = -1.26e-8.
-        let (x, _) = climb(|x| x - 1e-24 / (x * x), -1.0, -1e-11);
+        let (x, _) = maximize(|x| x - 1e-24 / (x * x), -1.0, -1e-11);
         assert!((x + 2e-24_f64.cbrt()).abs() < 1e-11, "{x}");
     }
 }

@@ -1,12 +1,12 @@
-//! The contact law at the free end: its force g, its energy G, and the tip equation in closed form.
+//! The contact law at the free end: its force g of (1.3), its energy G of (2.5), and the tip equation in closed form.
 //!
-//! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, so that G' = g (the paper's
-//! definitions after (2.3) and (2.5)).
+//! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, hence G' = g (the paper defines
+//! them after (2.3) and (2.5)).
 //!
-//! A step reduces to one scalar equation at the tip, `u + c F(u) = r`, in which r is where the tip would go without
-//! obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is piecewise linear for the
-//! implicit rule and a quotient of quadratics for the discrete gradient; it never decreases, so the root is unique and
-//! lies in the piece which r selects. No iteration, whatever ε.
+//! For given mean axial force a step is linear except for one scalar equation at the tip, `u + c F(u) = r`: r is the
+//! tip's position without obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is
+//! piecewise linear for the implicit rule and a quotient of quadratics for the discrete gradient. It is nondecreasing,
+//! so the root is unique and r determines the piece that contains it: for every ε it is computed without iteration.
 
 use crate::parameters::Obstacles;
 use crate::scheme::ContactRule;
@@ -16,14 +16,14 @@ use crate::scheme::ContactRule;
 pub struct Tip {
     /// u(1).
     pub u: f64,
-    /// The force F, positive when the upper obstacle pushes down.
+    /// The force F, positive at the upper obstacle.
     pub force: f64,
-    /// dF/du(1), for the tangent of Newton's method.
+    /// dF/du(1), for the derivative in Newton's method.
     pub stiffness: f64,
 }
 
 impl Obstacles {
-    /// Contact force g(u(1)); it enters (1.3) as σ(1, t) = -g.
+    /// Contact force g(u(1)); the boundary condition of (1.3) is σ(1, t) = -g.
     pub fn force(&self, u: f64) -> f64 {
         self.depth(u) / self.epsilon
     }
@@ -34,7 +34,7 @@ impl Obstacles {
         0.5 * depth * depth / self.epsilon
     }
 
-    /// How far the tip is beyond an obstacle: positive above g2, negative below g1, NaN kept.
+    /// Penetration: positive above g2, negative below g1, zero between them; NaN for NaN.
     fn depth(&self, u: f64) -> f64 {
         if u > self.g2 {
             u - self.g2
@@ -45,9 +45,9 @@ impl Obstacles {
         }
     }
 
-    /// The discrete gradient `(G(u) - G(u0))/(u - u0)`, without cancellation; g(u) where u = u0.
+    /// The discrete gradient `(G(u) - G(u0))/(u - u0)`, without cancellation; g(u) for u = u0.
     ///
-    /// Exact but for a few rounding errors of u, u0 and the obstacles' positions, divided by ε.
+    /// Exact up to a few rounding errors of u, u0, g1 and g2, divided by ε.
     pub fn discrete_gradient(&self, u: f64, u0: f64) -> f64 {
         let (depth, depth0) = (self.depth(u), self.depth(u0));
         let double = 2.0 * self.epsilon;
@@ -58,12 +58,16 @@ impl Obstacles {
         } else if depth == 0.0 && depth0 == 0.0 {
             0.0
         } else {
-            // An obstacle lies between u and u0: their difference is not zero, and neither depth exceeds it.
+            // One obstacle lies between u and u0: their difference is not zero and at least as large as each depth.
             (depth.abs() - depth0.abs()) * (depth.abs() + depth0.abs()) / (double * (u - u0))
         }
     }
 
-    /// Solves `u + c F(u) = r` for the rule's force F; `u0` is the tip at the start of the step.
+    /// Solves `u + c F(u) = r` for u and F.
+    ///
+    /// * `rule`: the contact rule of the scheme, which defines F.
+    /// * `r`, `c`: position without obstacles, and compliance c > 0.
+    /// * `u0`: the tip at the start of the step.
     pub fn solve_tip(&self, rule: ContactRule, r: f64, c: f64, u0: f64) -> Tip {
         match rule {
             ContactRule::Implicit => self.solve_implicit(r, c),
@@ -80,12 +84,12 @@ impl Obstacles {
         } else {
             return Tip { u: r, force: 0.0 * r, stiffness: 0.0 };
         };
-        // Written with ε + c so that the force keeps all its digits for stiff obstacles.
+        // With ε + c the force has full relative accuracy for small ε.
         let force = (r - wall) / (self.epsilon + c);
         Tip { u: wall + self.epsilon * force, force, stiffness: 1.0 / self.epsilon }
     }
 
-    /// F = discrete gradient: the piece is found from the left-hand side at both obstacles.
+    /// F = discrete gradient: the values of the left-hand side at both obstacles select the piece.
     fn solve_gradient(&self, r: f64, c: f64, u0: f64) -> Tip {
         let mirrored = Obstacles { epsilon: self.epsilon, g1: -self.g2, g2: -self.g1 };
         let flip = |tip: Tip| Tip { u: -tip.u, force: -tip.force, stiffness: tip.stiffness };
@@ -107,15 +111,15 @@ impl Obstacles {
         let double = 2.0 * self.epsilon;
         let p0 = u0 - self.g2;
         if p0 >= 0.0 {
-            // Above before and after: F = (p + p0)/(2ε), linear in p.
+            // Above g2 before and after the step: F = (p + p0)/(2ε), linear in p.
             let force = (r - self.g2 + p0) / (double + c);
             return Tip { u: self.g2 + (double * force - p0), force, stiffness: 1.0 / double };
         }
-        // Coming from d = -p0 below: F = (p² - q²)/(2ε (p + d)), q how deep u0 was below g1. With s = r - g2 = p + c F
+        // From d = -p0 below g2: F = (p² - q²)/(2ε (p + d)), q the depth of u0 below g1. With s = r - g2 = p + c F
         //   (2ε + c) p² + 2ε (d - s) p - (2ε s d + c q²) = 0, of which p is the root >= 0.
-        // F from p would lose the digits that p² and q² share. It is the smaller root of
+        // F computed from p would lose the digits common to p² and q². It is the smaller root of
         //   c (2ε + c) F² - 2 b F + (s - q) (s + q) = 0,   2 b = 2ε (s + d) + 2 c s,
-        // whose discriminant is that of p.
+        // with the same discriminant as p.
         let (d, s, q) = (-p0, r - self.g2, (self.g1 - u0).max(0.0));
         let p = positive_root(double + c, double * (d - s), (double * s * d + c * q * q).max(0.0));
         let root = (double + c) * p + self.epsilon * (d - s);
@@ -124,7 +128,7 @@ impl Obstacles {
         Tip { u: self.g2 + p, force, stiffness: (p / self.epsilon - force) / (p + d) }
     }
 
-    /// The tip was above g2 and ends between the obstacles, d below where it was: F = G0/d, d² - (u0 - r) d = c G0.
+    /// The tip starts above g2 and ends between the obstacles, d below its start: F = G0/d, d² - (u0 - r) d = c G0.
     fn solve_leaving(&self, r: f64, c: f64, u0: f64) -> Tip {
         let g0 = self.potential(u0);
         let d = positive_root(1.0, r - u0, c * g0);
@@ -144,7 +148,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The tip before the step: anywhere, or within a few rounding errors of an obstacle of the default pair.
+    /// The tip at the start of a step: arbitrary, or within a few rounding errors of an obstacle of the default pair.
     fn start() -> impl Strategy<Value = f64> {
         let Obstacles { g1, g2, .. } = Obstacles::default();
         let near = (any::<bool>(), -4..5i32)
@@ -156,19 +160,19 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
         #[test]
-        fn the_tip_equation_is_solved_whatever_the_start(
+        fn the_tip_equation_is_solved_from_any_start(
             r in -0.5..0.5f64, log_c in -12.0..2.0f64, u0 in start(), log_epsilon in -8.0..0.0f64, gradient: bool,
         ) {
             let obstacles = Obstacles { epsilon: 10f64.powf(log_epsilon), ..Obstacles::default() };
             let rule = if gradient { ContactRule::DiscreteGradient } else { ContactRule::Implicit };
             let c = 10f64.powf(log_c);
             let tip = obstacles.solve_tip(rule, r, c, u0);
-            // All lengths are below 1, so a rounding error of any is at most this.
+            // All lengths are below 1, which bounds their rounding errors.
             let rounding = f64::EPSILON;
-            // The equation itself, with the force that was returned.
+            // The residual of the equation with the returned force.
             let residual = tip.u + c * tip.force - r;
             prop_assert!(residual.abs() <= 8.0 * rounding * (1.0 + c * tip.force.abs()), "{:e}", residual);
-            // The force is that of the law, up to a few rounding errors of u(1): the law magnifies them by 1/ε.
+            // The force agrees with the law up to a few rounding errors of u(1), which the law amplifies by 1/ε.
             let law = if gradient { obstacles.discrete_gradient(tip.u, u0) } else { obstacles.force(tip.u) };
             let lost = 4.0 * rounding / obstacles.epsilon + 8.0 * rounding * tip.force.abs();
             prop_assert!((law - tip.force).abs() <= lost, "{} {}, {:e}", law, tip.force, lost);
@@ -182,7 +186,7 @@ mod tests {
             let rule = if gradient { ContactRule::DiscreteGradient } else { ContactRule::Implicit };
             let tip = |r| obstacles.solve_tip(rule, r, 10f64.powf(log_c), u0);
             let (low, high) = (tip(r - 1e-7), tip(r + 1e-7));
-            // A kink between the two has no derivative, and a start next to the end only a one-sided one.
+            // No derivative at a kink, and only a one-sided one where the end of the step coincides with its start.
             let side = |u: f64| (u > obstacles.g2, u < obstacles.g1);
             prop_assume!(side(low.u) == side(high.u) && (tip(r).u - u0).abs() > 1e-2);
             let quotient = (high.force - low.force) / (high.u - low.u);
@@ -200,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn the_positive_root_cancels_nothing_and_may_be_zero() {
+    fn the_positive_root_is_computed_without_cancellation() {
         // x² + b x = c, for large b of either sign.
         for (b, c, root) in
             [(1e9, 1.0, 1e-9), (-1e9, 1.0, 1e9), (0.0, 4.0, 2.0), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (3.0, 4.0, 1.0)]
@@ -211,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_between_the_obstacles_is_free_even_where_it_stands_at_zero() {
+    fn a_tip_between_the_obstacles_has_no_contact_force() {
         for rule in [ContactRule::Implicit, ContactRule::DiscreteGradient] {
             for r in [0.0, -0.0, 0.05, -0.005] {
                 let tip = Obstacles::default().solve_tip(rule, r, 1.0, 0.0);
@@ -221,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_that_is_not_a_number_stays_visible() {
+    fn a_nan_at_the_tip_propagates() {
         let tip = Obstacles::default().solve_tip(ContactRule::Implicit, f64::NAN, 1.0, 0.0);
         assert!(tip.u.is_nan() && tip.force.is_nan());
         assert!(Obstacles::default().force(f64::NAN).is_nan());

@@ -1,18 +1,18 @@
-//! The discrete energy (3.9) and its exact balance, term by term.
+//! The discrete energy (3.9) and its exact balance over a step, term by term.
 //!
-//! For an exactly solved step without loads
+//! For an exactly solved step without loads:
 //!
 //! ```text
 //! E^n - E^{n-1} + dt ζ (‖V_x - W‖² + ‖W_x‖²) + dt ‖θ~_x‖²(n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
 //! gap = F (u(1) - u0(1)) - (G(u(1)) - G(u0(1))) >= 0,
 //! ```
 //!
-//! V and W being the velocities that carry the step and F its contact force. It is obtained from (3.7) with the test
-//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, but with every inequality kept as an
-//! equation. In the `midpoint` scheme the third term and the gap vanish. With θ_A ≠ 0 the energy is that of the lifted
-//! temperature plus `-a θ_A ∫φ`, which is what makes it fall.
+//! V and W are the velocities that carry the step, F is its contact force. The balance follows from (3.7) with the test
+//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with each inequality kept as an equation.
+//! In the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w - w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with
+//! the lifted temperature θ~ plus the term `-a θ_A ∫φ`, without which it need not decrease.
 //!
-//! Monotony can hold by luck; this balance to round-off cannot.
+//! A wrong step may still lose energy, but its balance does not close to round-off.
 
 mod rounding;
 pub(crate) mod sums;
@@ -25,7 +25,7 @@ use crate::scheme::Scheme;
 use crate::solve::Level;
 use sums::Sums;
 
-/// The terms of E^n, (3.9).
+/// The terms of the discrete energy E^n, (3.9).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
     /// ½ (‖û‖² + ‖φ̂‖²).
@@ -36,7 +36,7 @@ pub struct Energy {
     pub bending: f64,
     /// ½ ‖θ~‖².
     pub thermal: f64,
-    /// N(u)²/(4ρ), or β/2 ‖u_x‖² where ρ = 0.
+    /// N(u)²/(4ρ), or β/2 ‖u_x‖² for ρ = 0.
     pub kirchhoff: f64,
     /// G(u)(1).
     pub contact: f64,
@@ -45,7 +45,7 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Of a level; `lengths` are the elements' lengths.
+    /// The energy of `level`; `lengths` are the n element lengths.
     pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> Self {
         Self {
             kinetic: 0.5 * (l2_squared(lengths, &level.v) + l2_squared(lengths, &level.w)),
@@ -58,7 +58,7 @@ impl Energy {
         }
     }
 
-    /// E^n.
+    /// E^n, the sum of the terms.
     pub fn total(&self) -> f64 {
         self.kinetic + self.shear + self.bending + self.thermal + self.kirchhoff + self.contact + self.lifting
     }
@@ -69,7 +69,7 @@ fn mean(lengths: &[f64], y: &[f64]) -> f64 {
     lengths.iter().zip(y.windows(2)).map(|(h, y)| 0.5 * h * (y[0] + y[1])).sum()
 }
 
-/// What the contact's part of the balance is made of.
+/// The tip over a step, for the contact terms of the balance.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tip {
     /// u0(1).
@@ -80,25 +80,25 @@ pub(crate) struct Tip {
     pub(crate) force: f64,
 }
 
-/// The balance of one step; the terms add up to `residual`, round-off for an exactly solved step.
+/// The balance of one step; `residual` is the sum of the other terms and round-off for an exactly solved step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
-    /// E^n - E^{n-1}, from the differences of the fields: no digits are lost to the size of E.
+    /// E^n - E^{n-1}, computed from the differences of the fields, without cancellation.
     pub change: f64,
     /// dt ζ (‖V_x - W‖² + ‖W_x‖²).
     pub viscous: f64,
     /// dt ‖θ~_x‖² at n-½.
     pub thermal: f64,
-    /// ½ (‖v - v0‖² + ‖w - w0‖²): what backward Euler takes.
+    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`.
     pub inertial: f64,
-    /// The contact's gap.
+    /// The gap of the contact energy.
     pub contact: f64,
-    /// The sum of the five.
+    /// The sum of the five terms.
     pub residual: f64,
 }
 
 impl Balance {
-    /// That of no step.
+    /// The balance where no step was done.
     pub(crate) const NAN: Self = Self {
         change: f64::NAN,
         viscous: f64::NAN,
@@ -108,7 +108,10 @@ impl Balance {
         residual: f64::NAN,
     };
 
-    /// Of the step from `old` to `new` by `scheme` with step `dt`.
+    /// The balance of the step from `old` to `new`.
+    ///
+    /// * `scheme`, `dt`: the scheme and the time step.
+    /// * `lengths`: the n element lengths.
     pub fn of(
         beam: &Beam,
         obstacles: Option<&Obstacles>,
@@ -123,7 +126,7 @@ impl Balance {
         Self::from_sums(beam, obstacles, scheme, dt, &sums, tip)
     }
 
-    /// Puts the balance together.
+    /// The balance from the sums over the elements.
     pub(crate) fn from_sums(
         beam: &Beam,
         obstacles: Option<&Obstacles>,
@@ -137,25 +140,26 @@ impl Balance {
         let gap = obstacles.map_or(0.0, |_| tip.force * (tip.new - tip.old) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
-        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule nothing.
+        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
+        // none.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
     }
 
     /// [`Balance::change`] alone, at half the cost.
     pub fn change_of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], old: &Level, new: &Level) -> f64 {
-        // The weight is about the losses.
+        // The weight only enters the dissipation, which is not computed here.
         change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, tip(old), tip(new)))
     }
 }
 
-/// E^n - E^{n-1}; `stored` is the contact's part.
+/// E^n - E^{n-1}; `stored` is the change of the contact energy.
 fn change(beam: &Beam, sums: &Sums<f64>, stored: f64) -> f64 {
     sums.quadratic + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0]) + stored
         - beam.a * beam.theta_a * sums.rotation_change
 }
 
-/// G(u(1)) - G(u0(1)).
+/// G(u(1)) - G(u0(1)), without cancellation.
 fn contact_change(obstacles: Option<&Obstacles>, u0: f64, u: f64) -> f64 {
     obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0))
 }

@@ -1,69 +1,74 @@
-//! Failure as a value: why a step could not be done, when, and the numbers that tell what to change.
+//! The errors of a simulation: what failed, where and when, and what to change.
 
 use crate::mesh::MeshError;
 use crate::parameters::ParameterError;
 use thiserror::Error;
 
-/// A step that could not be done. Everything up to the time level before it stands.
+/// A step that failed. The simulation stays at the previous time level.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("step {step} (to t = {t}): {failure}")]
 pub struct StepError {
     /// Number n of the step, counted from 1.
     pub step: usize,
-    /// The time t_n that the step should have reached.
+    /// The time t_n at the end of the step.
     pub t: f64,
-    /// What went wrong.
+    /// The cause.
     pub failure: StepFailure,
 }
 
-/// What went wrong in a step.
+/// The cause of a failed step.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepFailure {
-    /// The increments of the iteration do not shrink.
+    /// The increments of the iteration do not decrease.
     #[error(
-        "the iteration diverges: increment {increment:.3e} after {iterations} iterations, contraction factor \
-         {contraction:.3e} (it must be below 1: take a smaller dt, a larger epsilon, or the solver \"newton\")"
+        "the iteration diverges: expected a contraction factor below 1, found {contraction:.3e} (increment \
+         {increment:.3e} after {iterations} iterations): take a smaller dt, a larger epsilon, or the solver \"newton\""
     )]
     Diverged {
-        /// Iterations done.
+        /// Number of iterations done.
         iterations: usize,
         /// The last increment.
         increment: f64,
         /// Ratio of the last two increments.
         contraction: f64,
     },
-    /// The increments shrink, but not below the tolerance within the iterations allowed.
+    /// The increments decrease, but not below the tolerance within the allowed number of iterations.
     #[error(
-        "increment {increment:.3e} is still above the tolerance after {iterations} iterations, contraction factor \
-         {contraction:.3e} (allow more iterations, or take a larger tolerance or a smaller dt)"
+        "the iteration is too slow: expected an increment below the tolerance, found {increment:.3e} after \
+         {iterations} iterations (contraction factor {contraction:.3e}): allow more iterations, or take a larger \
+         tolerance or a smaller dt"
     )]
     IterationLimit {
-        /// Iterations done.
+        /// Number of iterations done.
         iterations: usize,
         /// The last increment.
         increment: f64,
         /// Ratio of the last two increments.
         contraction: f64,
     },
-    /// An infinity or a NaN turned up.
-    #[error("the solution is not finite after {iterations} iterations (last finite increment {increment:.3e})")]
+    /// The solution is infinite or NaN.
+    #[error(
+        "expected a finite solution, found an infinite value or NaN after {iterations} iterations (last finite \
+         increment {increment:.3e}): check the loads, or take a smaller dt"
+    )]
     NonFinite {
-        /// Iterations done.
+        /// Number of iterations done.
         iterations: usize,
-        /// The last finite increment; NaN where there is none.
+        /// The last finite increment; NaN if there is none.
         increment: f64,
     },
-    /// The operator of the step is not positive definite.
+    /// The matrix of the step is not positive definite, or not quasi-definite with the temperature.
     #[error(
-        "the operator of the step has lost its definiteness: pivot {pivot:.3e} at node {node} for the axial force \
-         {n_value:.6} (take a smaller dt: the beam is loaded beyond its buckling force)"
+        "the matrix of the step is not positive definite: expected a pivot of the right sign, found {pivot:.3e} at \
+         node {node} for the axial force {n_value:.6}: take a smaller dt, because the beam is loaded beyond its \
+         buckling force"
     )]
     Indefinite {
         /// Node of the pivot.
         node: usize,
         /// The pivot.
         pivot: f64,
-        /// The mean axial force that the operator was built with.
+        /// The mean axial force of the matrix.
         n_value: f64,
     },
 }
@@ -74,33 +79,33 @@ pub enum SetupError {
     /// A coefficient out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// Nodes that are no mesh.
+    /// Nodes that do not form a mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// A vector of initial data with a value for every node was asked for.
-    #[error("initial {field}: {found} values for {expected} nodes")]
+    /// A vector with the wrong number of entries.
+    #[error("{field}: expected {expected} values, found {found}")]
     Length {
-        /// Which field.
+        /// Name of the vector.
         field: &'static str,
-        /// Values given.
+        /// Number of values given.
         found: usize,
-        /// Values needed.
+        /// Number of values needed.
         expected: usize,
     },
     /// Initial data that are not finite.
-    #[error("initial {field} at node {node} is {found}: allowed is a finite number")]
+    #[error("initial {field} at node {node}: expected a finite number, found {found}")]
     NotFinite {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// At which node.
+        /// Index of the node.
         node: usize,
         /// The value.
         found: f64,
     },
-    /// Initial data that break a boundary condition.
-    #[error("initial {field} at x = {x} is {found}: allowed is {allowed}")]
+    /// Initial data that violate a boundary condition of (1.3).
+    #[error("initial {field} at x = {x}: expected {allowed} from the boundary condition, found {found}")]
     Boundary {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
         /// The end of the beam.
         x: f64,
@@ -110,15 +115,15 @@ pub enum SetupError {
         allowed: f64,
     },
     /// A time step that is not a positive number.
-    #[error("dt = {found}: allowed is a finite number > 0")]
+    #[error("dt: expected a finite number > 0, found {found}")]
     TimeStep {
         /// The value.
         found: f64,
     },
-    /// A tolerance or an iteration limit that stops nothing.
-    #[error("{name} = {found}: allowed is {allowed}")]
+    /// A tolerance or an iteration limit out of range.
+    #[error("{name}: expected {allowed}, found {found}")]
     Setting {
-        /// Which setting.
+        /// Name of the setting.
         name: &'static str,
         /// The value.
         found: f64,

@@ -1,11 +1,11 @@
-//! Numbers that a time step is computed in: one case (`f64`) or several side by side ([`Lanes`]).
+//! The numbers with which a time step is computed: one case (`f64`) or several cases side by side ([`Lanes`]).
 //!
-//! Where cases lie side by side, lanes never mix: the operations of lane k are those of a run of case k alone, in the
-//! same order, so that both give the same bits.
+//! Lanes do not interact: the operations of lane k are those of a single run of case k, in the same order, so the
+//! results are bitwise equal.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// `a * b + c`, rounded once where the machine can, twice elsewhere.
+/// `a * b + c`, with one rounding on a machine with fused multiply-add, else with two.
 ///
 /// `f64::mul_add` without the instruction is a library call, a hundred times slower.
 #[inline(always)]
@@ -13,7 +13,7 @@ pub(crate) fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// A number of each of `WIDTH` cases.
+/// A number for each of `WIDTH` cases.
 pub trait Lane:
     Copy + std::fmt::Debug + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -26,7 +26,7 @@ pub trait Lane:
     /// The first `WIDTH` of the values.
     ///
     /// # Panics
-    /// Where there are fewer.
+    /// If there are fewer than `WIDTH`.
     fn load(values: &[f64]) -> Self;
     /// The value of case k < WIDTH.
     fn lane(&self, k: usize) -> f64;

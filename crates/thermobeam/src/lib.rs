@@ -1,11 +1,12 @@
 //! Finite elements for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two obstacles.
 //!
 //! The scheme is that of C. Bernardi and M. I. M. Copetti, *Discretization of a dynamic thermoviscoelastic Timoshenko
-//! beam*; equation numbers in this crate are theirs. Everything is dimensionless.
+//! beam* ([hal-00874579](https://hal.science/hal-00874579)); equation numbers in this crate are those of that paper.
+//! All quantities are dimensionless.
 //!
 //! # The problem
 //!
-//! On 0 < x < 1, with the axial force `N(u) = β + ρ ∫ u_x²`, (1.1):
+//! On 0 < x < 1, with the axial force `N(u) = β + ρ ∫ u_x²`, (2.3), the equations (1.1) are
 //!
 //! ```text
 //! u_tt = u_xx - φ_x + ζ (u_xxt - φ_xt) + N(u) u_xx
@@ -13,24 +14,38 @@
 //! θ_t  = θ_xx - a φ_xt
 //! ```
 //!
-//! Clamped at x = 0, `u = φ = 0` and `θ = θ_A`; at x = 1 `θ = 0`, `φ_x + ζ φ_xt = 0`, and the stress balances the
-//! obstacles, `σ = -g(u)`, `g(u) = ([u - g_2]_+ - [g_1 - u]_+)/ε`, (1.3).
+//! with initial values of u, u_t, φ, φ_t and θ, (1.2), and the boundary conditions (1.3): `u = φ = 0` and `θ = θ_A` at
+//! x = 0; `θ = 0`, `φ_x + ζ φ_xt = 0` and `σ = -g(u)` at x = 1, with the stress
+//! `σ = u_x - φ + ζ (u_xt - φ_t) + N(u) u_x` and the contact force `g(u) = ([u - g_2]_+ - [g_1 - u]_+)/ε`.
 //!
 //! | symbol | in the code | meaning |
 //! | --- | --- | --- |
 //! | u, û | `u`, `v` | displacement and its velocity |
 //! | φ, φ̂ | `phi`, `w` | rotation of the cross section and its velocity |
 //! | θ, θ~ | `theta` | temperature; in a [`Level`](solve::Level) lifted, `θ~ = θ - θ_A (1 - x)` |
-//! | ζ, a, ρ, β, θ_A | [`Beam`](parameters::Beam) | viscosity, thermal coupling, Kirchhoff coefficient, axial force at rest, clamped end's temperature |
+//! | ζ, a, ρ, β, θ_A | [`Beam`](parameters::Beam) | viscosity, thermal coupling, Kirchhoff coefficient, axial force at rest, temperature at x = 0 |
 //! | ε, g_1, g_2 | [`Obstacles`](parameters::Obstacles) | compliance and positions of the obstacles |
 //! | h, δt | `lengths`, `dt` | element lengths, time step |
+//!
+//! # Where the equations are
+//!
+//! | equation | meaning | in |
+//! | --- | --- | --- |
+//! | (1.1), (1.3) | coefficients of the equations, of the boundary conditions and of the obstacles | [`parameters`] |
+//! | (1.2), (3.6) | initial data, and their interpolation | [`simulation`] |
+//! | (2.3), (2.5) | axial force, energy of the beam and of the obstacles | [`kirchhoff`], [`contact`] |
+//! | (3.7), (3.8) | the scheme, solved by Newton's method | [`scheme`], `solve/sweeps.rs`, `solve/newton.rs` |
+//! | (3.9) | discrete energy, and its exact balance | [`energy`] |
+//! | (3.14) | the norm of Theorem 3.4 | [`norms`] |
+//! | (4.1)-(4.3), (4.5) | the fixed-point iteration, and its contraction factors | `solve/fixed_point.rs`, [`contraction`] |
 //!
 //! # From data to levels
 //!
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
-//! one [`scheme`] by one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Beside it, exact
-//! answers: [`equilibrium`], [`vibration`], [`contraction`]. What all of them must obey is derived in [`theory`]. The crate does no input or output and starts no threads; a
-//! failure is a value ([`error`]), and after it the simulation stands where it stood.
+//! one [`scheme`] and one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Exact solutions for
+//! comparison: [`equilibrium`], [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The
+//! crate does no input or output and starts no threads. Every failure is a value of a type in [`error`], and a failed
+//! step leaves the simulation at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;
@@ -39,7 +54,7 @@
 //! use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 //! use thermobeam::solve::Settings;
 //!
-//! // The paper's beam, pushed upwards, meets its upper obstacle.
+//! // The paper's beam with an upward initial velocity reaches its upper obstacle.
 //! let mesh = Mesh::uniform(50)?;
 //! let mut initial = Initial::at_rest(&mesh, 0.0);
 //! initial.u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();
@@ -85,6 +100,6 @@ pub mod vibration;
 /// [contraction]: crate::contraction
 /// [equilibrium]: crate::equilibrium
 /// [vibration]: crate::vibration
-// The links above are for rustdoc; those at the end of the file are for readers of the file.
+// The links above are for rustdoc, those at the end of THEORY.md for readers of that file.
 #[doc = include_str!("../THEORY.md")]
 pub mod theory {}

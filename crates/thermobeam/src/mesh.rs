@@ -1,59 +1,65 @@
-//! The triangulation of [0, 1].
+//! Meshes of [0, 1]: the triangulation T_h of the paper's section 3.1.
 
 use thiserror::Error;
 
-/// Why a list of nodes is not a mesh of [0, 1].
+/// An invalid list of nodes.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// Fewer than one element.
-    #[error("a mesh needs at least 1 element, found {elements}")]
+    #[error("mesh: expected at least 1 element, found {elements}")]
     TooFew {
         /// Elements asked for.
         elements: usize,
     },
     /// The first node is not 0 or the last not 1.
-    #[error("node {index} is {found}, and must be {expected}")]
+    #[error("node {index}: expected {expected}, found {found}")]
     Ends {
         /// Index of the node.
         index: usize,
-        /// Where it is.
+        /// Its position.
         found: f64,
-        /// Where it has to be.
+        /// The expected position.
         expected: f64,
     },
-    /// Two neighbours are not in increasing order, or not finite.
-    #[error("nodes {} and {index} are {previous} and {found}: nodes must increase strictly", index - 1)]
+    /// Two neighbouring nodes that do not increase, or are not finite.
+    #[error("nodes {} and {index}: expected strictly increasing nodes, found {previous} and {found}", index - 1)]
     NotIncreasing {
         /// Index of the second of the two nodes.
         index: usize,
-        /// The node before it.
+        /// Position of the first node.
         previous: f64,
-        /// The node.
+        /// Position of the second node.
         found: f64,
     },
 }
 
-/// Nodes 0 = x_0 < x_1 < ... < x_n = 1 of n elements.
+/// A mesh of n elements with nodes 0 = x_0 < x_1 < ... < x_n = 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     nodes: Vec<f64>,
 }
 
 impl Mesh {
-    /// n elements of equal length.
+    /// A uniform mesh of n elements.
+    ///
+    /// # Errors
+    /// [`MeshError::TooFew`] for n = 0.
     pub fn uniform(elements: usize) -> Result<Self, MeshError> {
         Self::mapped(elements, |s| s)
     }
 
-    /// Nodes `map(i / n)`; `map` must increase strictly from 0 to 1.
+    /// The mesh with nodes `map(i/n)`; `map` must increase strictly from 0 to 1.
     ///
-    /// Both ends are set to 0 and 1 exactly where the map meets them up to round-off.
+    /// Ends that the map misses by round-off are set to 0 and 1 exactly.
+    ///
+    /// # Errors
+    /// [`MeshError`] for n = 0, wrong ends, or nodes that do not increase.
     pub fn mapped(elements: usize, map: impl Fn(f64) -> f64) -> Result<Self, MeshError> {
         if elements == 0 {
             return Err(MeshError::TooFew { elements });
         }
         let mut nodes: Vec<f64> = (0..=elements).map(|i| map(i as f64 / elements as f64)).collect();
-        // A map such as s + sin(2 pi s)/10 misses the ends by a rounding error or two.
+        // A map such as s + sin(2 pi s)/10 misses the ends by a few rounding errors.
         let slack = 8.0 * f64::EPSILON;
         for (index, end) in [(0, 0.0), (elements, 1.0)] {
             if (nodes[index] - end).abs() <= slack {
@@ -64,6 +70,9 @@ impl Mesh {
     }
 
     /// The mesh with the given nodes, which must increase strictly from 0 to 1.
+    ///
+    /// # Errors
+    /// [`MeshError`] for fewer than two nodes, wrong ends, or nodes that do not increase.
     pub fn from_nodes(nodes: Vec<f64>) -> Result<Self, MeshError> {
         if nodes.len() < 2 {
             return Err(MeshError::TooFew { elements: nodes.len().saturating_sub(1) });
@@ -76,7 +85,7 @@ impl Mesh {
         }
         for index in 1..nodes.len() {
             let (previous, found) = (nodes[index - 1], nodes[index]);
-            // No order at all, as with a NaN, is refused too.
+            // NaN is not ordered, and is rejected here too.
             if previous.partial_cmp(&found) != Some(std::cmp::Ordering::Less) {
                 return Err(MeshError::NotIncreasing { index, previous, found });
             }
@@ -99,7 +108,7 @@ impl Mesh {
         self.nodes.windows(2).map(|pair| pair[1] - pair[0])
     }
 
-    /// The mesh size h, the largest element.
+    /// The mesh size h, the length of the largest element.
     pub fn size(&self) -> f64 {
         self.lengths().fold(0.0, f64::max)
     }
@@ -110,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_that_a_map_misses_by_round_off_are_set_and_others_refused() {
+    fn mesh_ends_are_corrected_by_round_off_only() {
         let ends = |miss: f64| {
             let mesh = Mesh::mapped(4, |s| miss * f64::EPSILON * (1.0 - s) + s * (1.0 + miss * f64::EPSILON));
             mesh.map(|mesh| [mesh.nodes()[0], mesh.nodes()[4]])

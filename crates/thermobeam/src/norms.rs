@@ -1,26 +1,28 @@
-//! Exact norms of P1 functions from their nodal values.
+//! Exact norms of P1 functions from their nodal values, the norm of Theorem 3.4, and a maximum that keeps NaN.
 
 use crate::lanes::Lane;
 
-/// `∫ p q` over an element, or over several in lanes, for p and q linear with the given values at its ends; `sixth` is a
-/// sixth of its length.
+/// `∫ p q` over an element, or over one element of each case in lanes, for linear p and q.
+///
+/// * `sixth`: a sixth of the element's length.
+/// * `p`, `q`: the values at both ends.
 #[inline(always)]
 pub(crate) fn element_product<T: Lane>(sixth: T, p: [T; 2], q: [T; 2]) -> T {
     let two = T::splat(2.0);
     sixth * (p[0] * (two * q[0] + q[1]) + p[1] * (q[0] + two * q[1]))
 }
 
-/// `‖y‖²` of a P1 function.
+/// `‖y‖²` of a P1 function; `lengths` are the n element lengths, `y` the n + 1 nodal values.
 pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths.iter().zip(y.windows(2)).map(|(&h, y)| element_product(h / 6.0, [y[0], y[1]], [y[0], y[1]])).sum()
 }
 
-/// `‖y_x‖²` of a P1 function.
+/// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
 pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths.iter().zip(y.windows(2)).map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h).sum()
 }
 
-/// `‖u_x - φ‖²` of two P1 functions.
+/// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
 pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
     lengths
         .iter()
@@ -33,7 +35,12 @@ pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
         .sum()
 }
 
-/// The five squares of Theorem 3.4's left-hand side, in its order.
+/// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
+pub fn max_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}
+
+/// The five squares on the left-hand side of (3.14), Theorem 3.4, in its order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TheoremSquares {
     /// ‖û‖².
@@ -49,7 +56,7 @@ pub struct TheoremSquares {
 }
 
 impl TheoremSquares {
-    /// Of P1 functions with the given nodal values.
+    /// Of the P1 functions with these nodal values, n + 1 each.
     pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
         Self {
             velocity: l2_squared(lengths, v),
@@ -60,7 +67,7 @@ impl TheoremSquares {
         }
     }
 
-    /// Root of the sum: the norm in which (3.14) is stated.
+    /// Root of the sum of the squares: the norm in which (3.14) is stated.
     pub fn norm(&self) -> f64 {
         (self.velocity + self.shear + self.rotation_rate + self.curvature + self.temperature).sqrt()
     }

@@ -1,16 +1,16 @@
-//! The coefficients of (1.1) and (1.3), validated once.
+//! The coefficients of (1.1) and (1.3) and their ranges.
 
 use thiserror::Error;
 
-/// A coefficient outside the range in which the model makes sense.
+/// A coefficient out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{name} = {found}: allowed is {allowed}")]
+#[error("{name}: expected {allowed}, found {found}")]
 pub struct ParameterError {
-    /// The coefficient, by the name it has in [`Beam`] or [`Obstacles`].
+    /// Name of the coefficient, as in [`Beam`] or [`Obstacles`].
     pub name: &'static str,
     /// The value given.
     pub found: f64,
-    /// The values allowed, in words.
+    /// The allowed range, in words.
     pub allowed: &'static str,
 }
 
@@ -19,15 +19,15 @@ pub struct ParameterError {
 /// The default is the paper's choice (5.1) with `beta = 0` and `theta_a = 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// Viscosity ζ > 0. Zero is accepted: the scheme still runs, but the theory needs ζ > 0.
+    /// Viscosity ζ > 0. Zero is accepted, but the theory of the paper needs ζ > 0.
     pub zeta: f64,
     /// Thermal coupling a.
     pub a: f64,
-    /// Kirchhoff coefficient ρ >= 0; 0 is the linear beam.
+    /// Kirchhoff coefficient ρ >= 0; the beam is linear for ρ = 0.
     pub rho: f64,
     /// Axial force at rest β, of any sign.
     pub beta: f64,
-    /// Temperature θ_A of the clamped end.
+    /// Temperature θ_A of the clamped end, (1.3).
     pub theta_a: f64,
 }
 
@@ -57,12 +57,15 @@ impl Default for Obstacles {
 }
 
 fn check(name: &'static str, found: f64, ok: bool, allowed: &'static str) -> Result<(), ParameterError> {
-    // `ok` is false for NaN, because every comparison with NaN is.
+    // `ok` is false for NaN, as every comparison with NaN is.
     if ok { Ok(()) } else { Err(ParameterError { name, found, allowed }) }
 }
 
 impl Beam {
-    /// Says which coefficient, if any, lies outside its range.
+    /// Checks the range of every coefficient.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first coefficient out of range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         let finite = "a finite number";
         check("zeta", self.zeta, self.zeta >= 0.0 && self.zeta.is_finite(), "a finite number >= 0")?;
@@ -74,7 +77,10 @@ impl Beam {
 }
 
 impl Obstacles {
-    /// Says which coefficient, if any, lies outside its range.
+    /// Checks the range of every coefficient.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first coefficient out of range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         check("epsilon", self.epsilon, self.epsilon > 0.0 && self.epsilon.is_finite(), "a finite number > 0")?;
         check("g1", self.g1, self.g1 <= 0.0 && self.g1.is_finite(), "a finite number <= 0")?;

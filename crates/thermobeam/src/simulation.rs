@@ -1,4 +1,4 @@
-//! The one time loop: step, then observe what was asked for.
+//! Problems, and simulations that do one time step at a time; the loop over the steps is the caller's.
 
 use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
@@ -6,14 +6,17 @@ use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;
 use crate::solve::fixed_point::FixedPoint;
-use crate::solve::newton::{Case, Newton};
+use crate::solve::newton::Case;
+use crate::solve::stepper::{Stepper, newton};
 use crate::solve::{Level, Settings, Solver, StepReport, Work};
 
-/// Rounding errors that an initial value may carry where the boundary condition asks for a number, in units of the
-/// field's largest value: sin(πx) at x = 1 is 1e-16, 20 cos(5πx/2) there 6e-15.
+/// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
+/// 1e-16, 20 cos(5πx/2) there is 6e-15.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
-/// Nodal values of the initial data (1.2), n + 1 of each; (3.6) is interpolation in one dimension.
+/// Nodal values of the initial data (1.2), n + 1 each.
+///
+/// The projections P_h* and P_h^0 of (3.6) are nodal interpolation in one dimension.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Initial {
     /// u_0, zero at x = 0.
@@ -29,7 +32,7 @@ pub struct Initial {
 }
 
 impl Initial {
-    /// A straight beam at rest, its temperature the steady θ_A (1 - x).
+    /// A straight beam at rest with the steady temperature θ_A (1 - x).
     pub fn at_rest(mesh: &Mesh, theta_a: f64) -> Self {
         let zeros = vec![0.0; mesh.nodes().len()];
         let theta = mesh.nodes().iter().map(|x| theta_a * (1.0 - x)).collect();
@@ -42,7 +45,7 @@ impl Initial {
 pub struct Problem {
     /// Coefficients of (1.1).
     pub beam: Beam,
-    /// The obstacles of (1.3), if any.
+    /// The obstacles of (1.3); `None` leaves the tip free.
     pub obstacles: Option<Obstacles>,
     /// The triangulation.
     pub mesh: Mesh,
@@ -50,54 +53,51 @@ pub struct Problem {
     pub initial: Initial,
 }
 
-/// How to step.
+/// Time scheme, solver and time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
     /// The time scheme.
     pub scheme: Scheme,
-    /// How a step is solved.
+    /// Solver of a step, tolerance and iteration limit.
     pub settings: Settings,
-    /// δt > 0.
+    /// Time step δt > 0.
     pub dt: f64,
-    /// Whether loads will be given before each step ([`Simulation::load_mut`]).
+    /// Whether loads are given before each step ([`Simulation::load_mut`]).
     pub loaded: bool,
 }
 
-/// Memory of a heated simulation by Newton's method, in bytes an element: 144 are the factorisation's.
+/// Memory of a simulation by Newton's method with temperature, in bytes per element; the factorisation takes 144 of
+/// them.
 pub const BYTES_PER_ELEMENT: usize = 392;
 
-/// A running simulation, standing at one time level.
+/// A simulation at one time level.
 ///
-/// It holds [`BYTES_PER_ELEMENT`] by Newton's method, 256 where nothing is heated, and 248 by the fixed point.
+/// It holds [`BYTES_PER_ELEMENT`] by Newton's method, 256 without temperature, and 248 by the fixed point.
 pub struct Simulation {
     problem: Problem,
     lengths: Vec<f64>,
     stepping: Stepping,
-    stepper: Stepper,
+    heated: bool,
+    stepper: Box<dyn Stepper<f64>>,
     step: usize,
     loads: usize,
     observations: usize,
 }
 
-/// The stepper, chosen once: with or without temperature, or the paper's fixed point.
-enum Stepper {
-    Cold(Box<Newton<f64, 2>>),
-    Heated(Box<Newton<f64, 3>>),
-    FixedPoint(Box<FixedPoint>),
-}
-
 impl Simulation {
-    /// Checks everything once and stands at t = 0.
+    /// Checks the problem and its settings, and starts at t = 0 with the initial data (1.2), (3.6).
     ///
     /// # Errors
-    /// [`SetupError`] for coefficients out of range, initial data that are not finite, of the wrong length, or that
-    /// break a boundary condition, and for a dt, tolerance or iteration limit that is not positive.
+    /// [`SetupError`] for a coefficient out of range; initial data that are not finite, of the wrong length, or violate a
+    /// boundary condition of (1.3); a dt, a tolerance or an iteration limit that is not positive.
     pub fn new(mut problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let level = prepare(&mut problem, &stepping)?;
         let lengths: Vec<f64> = problem.mesh.lengths().collect();
         let case = Case { beam: problem.beam, obstacles: problem.obstacles, dt: stepping.dt, lengths: lengths.clone() };
-        let stepper = choose(case, &stepping, &level)?;
-        Ok(Self { problem, lengths, stepping, stepper, step: 0, loads: 0, observations: 0 })
+        let heated =
+            stepping.loaded || stepping.settings.solver == Solver::FixedPoint || is_heated(&problem.beam, &level);
+        let stepper = choose(case, &stepping, &level, heated)?;
+        Ok(Self { problem, lengths, stepping, heated, stepper, step: 0, loads: 0, observations: 0 })
     }
 
     /// Number n of the present time level.
@@ -115,32 +115,24 @@ impl Simulation {
         self.stepping.dt
     }
 
-    /// The loads of the next step, `(F_u, F_φ, F_θ)` at each of the n + 1 nodes, to be filled before [`Self::advance`].
+    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes, to be set before [`Self::advance`].
     ///
-    /// `None` unless [`Stepping::loaded`] was set. Entries at clamped nodes are not read.
+    /// `None` unless [`Stepping::loaded`]. Entries at nodes with a prescribed value are not used.
     pub fn load_mut(&mut self) -> Option<&mut [[f64; 3]]> {
         if !self.stepping.loaded {
             return None;
         }
         self.loads += 1;
-        match &mut self.stepper {
-            Stepper::Cold(_) => None,
-            Stepper::Heated(newton) => Some(newton.load_mut()),
-            Stepper::FixedPoint(fixed_point) => Some(fixed_point.load_mut()),
-        }
+        Some(self.stepper.load_mut())
     }
 
-    /// Does one step; allocates nothing.
+    /// Does one step, (3.7)-(3.8) or its relative `midpoint`, without allocating memory.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then stands where it stood.
+    /// [`StepError`] with step, time and cause. The simulation then stays at its level.
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         let mut outcome = [Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })];
-        match &mut self.stepper {
-            Stepper::Cold(newton) => newton.advance(&mut outcome),
-            Stepper::Heated(newton) => newton.advance(&mut outcome),
-            Stepper::FixedPoint(fixed_point) => outcome[0] = fixed_point.advance(),
-        }
+        self.stepper.advance(&mut outcome);
         let [outcome] = outcome;
         let step = self.step + 1;
         let t = step as f64 * self.stepping.dt;
@@ -152,48 +144,44 @@ impl Simulation {
     /// Copies the present level into `level`, which must have n + 1 nodes.
     pub fn observe(&mut self, level: &mut Level) {
         self.observations += 1;
-        match &self.stepper {
-            Stepper::Cold(newton) => newton.read(0, level),
-            Stepper::Heated(newton) => newton.read(0, level),
-            Stepper::FixedPoint(fixed_point) => fixed_point.read(level),
-        }
+        self.stepper.read(0, level);
     }
 
-    /// The present level, as a new one.
+    /// A copy of the present level.
     pub fn level(&mut self) -> Level {
         let mut level = Level::new(self.lengths.len() + 1);
         self.observe(&mut level);
         level
     }
 
-    /// Energy of a level of this simulation.
+    /// The energy (3.9) of a level of this simulation.
     pub fn energy(&self, level: &Level) -> Energy {
         Energy::of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
     }
 
-    /// Balance of the step between two consecutive levels of this simulation, for a step without loads.
+    /// The energy balance of the step between two consecutive levels of this simulation, without loads.
     pub fn balance(&self, old: &Level, new: &Level) -> Balance {
         let obstacles = self.problem.obstacles.as_ref();
         Balance::of(&self.problem.beam, obstacles, &self.stepping.scheme, self.stepping.dt, &self.lengths, old, new)
     }
 
-    /// The change of the energy alone, from one level to another: [`Balance::change`] at half the cost.
+    /// The change of the energy from one level to another: [`Balance::change`] alone, at half the cost.
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
         Balance::change_of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, old, new)
     }
 
-    /// The size of a level's energy, without signs: what a residual of the balance is to be compared with.
+    /// The scale of a level's energy, without signs, to which a residual of the balance is compared.
     pub fn energy_scale(&self, level: &Level) -> f64 {
         energy::scale(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
     }
 
-    /// What rounding errors explain in the balance between two consecutive levels.
+    /// Bounds on the rounding errors in the balance between two consecutive levels.
     pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
         let Problem { beam, obstacles, .. } = &self.problem;
         Rounding::of(beam, obstacles.as_ref(), self.stepping.dt, &self.lengths, old, new)
     }
 
-    /// The problem being solved; its initial data have the boundary values exactly.
+    /// The problem. Its initial data satisfy the boundary conditions exactly.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -205,46 +193,36 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        let work = match &self.stepper {
-            Stepper::Cold(newton) => newton.work(),
-            Stepper::Heated(newton) => newton.work(),
-            Stepper::FixedPoint(fixed_point) => fixed_point.work(),
-        };
-        Work { loads: self.loads, observations: self.observations, ..work }
+        Work { loads: self.loads, observations: self.observations, ..self.stepper.work() }
     }
 
-    /// Whether the temperature is computed: it is left out where nothing heats the beam.
+    /// Whether the temperature is computed. Newton's method leaves it out if nothing heats the beam and there are no
+    /// loads.
     pub fn is_heated(&self) -> bool {
-        !matches!(self.stepper, Stepper::Cold(_))
+        self.heated
     }
 }
 
-/// Checks a problem and its stepping, sets the boundary values exactly, and gives the level at t = 0.
+/// Checks a problem and its settings, sets the boundary values exactly, and returns the level at t = 0.
 pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<Level, SetupError> {
     check_settings(problem, stepping)?;
     initial_level(problem)
 }
 
-/// Whether something heats the beam: its own deformation, or the heat that it starts with.
+/// Whether anything heats the beam: its own deformation (a ≠ 0), or a temperature other than the steady one.
 pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
     beam.a != 0.0 || level.theta.iter().any(|&theta| theta != 0.0)
 }
 
-fn choose(case: Case, stepping: &Stepping, level: &Level) -> Result<Stepper, SetupError> {
-    let (scheme, settings) = (stepping.scheme, stepping.settings);
-    if settings.solver == Solver::FixedPoint {
-        return FixedPoint::new(case, scheme, settings, level)
-            .map(|fixed_point| Stepper::FixedPoint(Box::new(fixed_point)))
-            .map_err(|_| SetupError::TimeStep { found: stepping.dt });
-    }
-    let heated = stepping.loaded || is_heated(&case.beam, level);
-    let nodes = 0..level.u.len();
-    let initial = vec![nodes.clone().map(|i| [level.u[i], level.phi[i], level.theta[i]]).collect()];
-    let velocity = vec![nodes.map(|i| [level.v[i], level.w[i]]).collect()];
-    Ok(if heated {
-        Stepper::Heated(Box::new(Newton::new(vec![case], scheme, settings, &initial, &velocity)))
-    } else {
-        Stepper::Cold(Box::new(Newton::new(vec![case], scheme, settings, &initial, &velocity)))
+/// The solver of the steps.
+fn choose(case: Case, stepping: &Stepping, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
+    let Stepping { scheme, settings, dt, .. } = *stepping;
+    Ok(match settings.solver {
+        Solver::Newton => newton(vec![case], scheme, settings, &[level], heated),
+        Solver::FixedPoint => {
+            let solver = FixedPoint::new(case, scheme, settings, level);
+            Box::new(solver.map_err(|_| SetupError::TimeStep { found: dt })?)
+        }
     })
 }
 
@@ -266,7 +244,8 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
     Ok(())
 }
 
-/// Checks the initial data, sets their boundary values exactly, and lifts the temperature.
+/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly, lifts the
+/// temperature.
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;
@@ -289,6 +268,7 @@ fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     Ok(level)
 }
 
+/// Checks length, finiteness and boundary values of one field; `boundary` lists the nodes with a prescribed value.
 fn check_field(
     field: &'static str,
     values: &mut [f64],

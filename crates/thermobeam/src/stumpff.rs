@@ -1,17 +1,17 @@
-//! Stumpff functions: cosine, sine and their divided remainders, smooth through the sign of their argument.
+//! Stumpff functions: cosine, sine and their divided remainders, smooth for arguments of either sign.
 //!
 //! `c_k(x) = Σ_i (-x)^i / (k + 2i)!`, so that `c_0(k²) = cos k`, `c_0(-k²) = cosh k`, `c_1(k²) = sin k / k` and
-//! `c_{k+2} = (1/k! - c_k) / x`. All are entire. A beam whose characteristic roots pass from real to imaginary
-//! is written in them once, without cases and without a division by zero in between.
+//! `c_{k+2} = (1/k! - c_k)/x`. All are entire. In terms of them the solution of a beam equation whose characteristic
+//! roots pass from real to imaginary needs no case distinction and no division by zero.
 //!
-//! Each is exact to a few units of round-off of its size near x = 0 (`1/k!`). c_3 and c_5 are meant for x > -10.
+//! Each has an error of a few units of round-off of 1/k!, its size near x = 0. c_3 and c_5 are meant for x > -10.
 //!
 //! Source: K. Stumpff, *Himmelsmechanik* I (1959), chapter V.
 
-/// Up to here the series of c_3 and c_5 lose no digit; past it neither does the recurrence.
+/// Up to this |x| the series of c_3 and c_5 lose no digits, and beyond it the recurrence loses none.
 const SERIES_UP_TO: f64 = 10.0;
 
-/// Enough terms for |x| <= 10: the last is below 1e-40.
+/// Number of terms: the last is below 1e-40 for |x| <= 10.
 const TERMS: usize = 24;
 
 /// `cos √x`, or `cosh √-x`.
@@ -33,7 +33,7 @@ pub(crate) fn c1(x: f64) -> f64 {
 
 /// `(1 - cos √x) / x`; 1/2 at 0.
 pub(crate) fn c2(x: f64) -> f64 {
-    // The half-angle form: 1 - cos loses all digits for small x.
+    // The half-angle formula, because 1 - cos cancels for small x.
     0.5 * c1(0.25 * x).powi(2)
 }
 

@@ -1,23 +1,26 @@
-//! Symmetric positive definite tridiagonal systems, one scalar a node.
+//! Symmetric positive definite tridiagonal systems with one scalar per node.
 
 use crate::error::StepFailure;
 
-/// `L D Lᵀ` of the matrix `mass M + stiffness K` restricted to the nodes 1..=last.
+/// The factorisation `L D Lᵀ` of `mass M + stiffness K` restricted to the nodes 1..=last.
 #[derive(Debug, Clone)]
 pub struct TridiagonalFactor {
-    /// Sub-diagonal of L, a value for each node.
+    /// Subdiagonal of L, one entry per node.
     multiplier: Vec<f64>,
     /// Inverse pivots.
     inverse: Vec<f64>,
 }
 
 impl TridiagonalFactor {
-    /// Room for the nodes 1..=last; `last` is n, or n - 1 where the tip is fixed.
+    /// An uninitialised factorisation for the nodes 1..=last; `last` is n, or n - 1 for a prescribed value at the tip.
     pub fn new(last: usize) -> Self {
         Self { multiplier: vec![0.0; last + 1], inverse: vec![0.0; last + 1] }
     }
 
     /// Factorises `mass M + stiffness K`, rows and columns 1..=last.
+    ///
+    /// * `lengths`: the n element lengths.
+    /// * `n_value`: the axial force, for the error only.
     ///
     /// # Errors
     /// [`StepFailure::Indefinite`] at the first pivot that is not positive.
@@ -41,7 +44,7 @@ impl TridiagonalFactor {
         Ok(())
     }
 
-    /// Replaces the right-hand side in nodes 1..=last by the solution.
+    /// Replaces the right-hand side at the nodes 1..=last by the solution.
     pub fn solve_in_place(&self, x: &mut [f64]) {
         let last = self.inverse.len() - 1;
         for i in 2..=last {
@@ -53,7 +56,7 @@ impl TridiagonalFactor {
         }
     }
 
-    /// Entry (last, last) of the matrix's inverse: the last pivot is its reciprocal.
+    /// Entry (last, last) of the inverse matrix, the reciprocal of the last pivot.
     pub fn last_of_inverse(&self) -> f64 {
         self.inverse[self.inverse.len() - 1]
     }
@@ -101,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_of_exactly_zero_is_refused() {
+    fn a_zero_pivot_is_rejected() {
         let mut factor = TridiagonalFactor::new(1);
         // One element of length 1: mass/3 + stiffness = 0, exact in binary.
         let refused = factor.factorize(&[1.0], 0.75, -0.25, -2.0);

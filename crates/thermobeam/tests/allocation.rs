@@ -1,4 +1,4 @@
-//! The time loop allocates nothing: all memory is taken when the simulation is set up.
+//! Steps allocate no memory: all memory is allocated when a simulation is set up.
 
 use std::f64::consts::PI;
 use thermobeam::ensemble::Ensemble;
@@ -8,8 +8,8 @@ use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::{BYTES_PER_ELEMENT, Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
-/// The paper's beam thrown against its upper obstacle, heated or not.
-fn thrown(heated: bool) -> Problem {
+/// The paper's beam, moving towards its upper obstacle, with or without heat.
+fn moving_beam(heated: bool) -> Problem {
     let mesh = Mesh::uniform(20).unwrap();
     let mut initial = Initial::at_rest(&mesh, 0.0);
     let mut beam = Beam::default();
@@ -25,7 +25,7 @@ fn thrown(heated: bool) -> Problem {
     Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial }
 }
 
-/// Allocations of 500 steps, observed and balanced, and how many of them ended in contact.
+/// Number of allocations in 500 steps with their energies and balances, and number of steps that end in contact.
 fn allocations(mut simulation: Simulation) -> (u64, usize) {
     let mut levels = [simulation.level(), simulation.level()];
     let mut touching = 0;
@@ -53,10 +53,10 @@ fn the_time_loop_allocates_nothing() {
             for heated in [false, true] {
                 let settings = Settings { solver, ..Settings::default() };
                 let stepping = Stepping { scheme, settings, dt: 1e-3, loaded: false };
-                let simulation = Simulation::new(thrown(heated), stepping).unwrap();
+                let simulation = Simulation::new(moving_beam(heated), stepping).unwrap();
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
-                assert!(touching > 10, "the obstacle is meant to be met: {touching} steps");
+                assert!(touching > 10, "expected contact in more than 10 steps, found {touching}");
             }
         }
     }
@@ -64,7 +64,7 @@ fn the_time_loop_allocates_nothing() {
 
 #[test]
 fn lanes_with_their_balances_allocate_nothing() {
-    let (problems, dt) = ([true, false, true, true, false].map(thrown).to_vec(), [1e-3; 5]);
+    let (problems, dt) = ([true, false, true, true, false].map(moving_beam).to_vec(), [1e-3; 5]);
     let mut ensemble = Ensemble::new(problems, &dt, SCHEMES[0], Settings::default()).unwrap();
     let mut balances = Vec::with_capacity(5);
     let info = allocation_counter::measure(|| {
@@ -78,28 +78,28 @@ fn lanes_with_their_balances_allocate_nothing() {
 }
 
 #[test]
-fn loads_cost_memory_only_when_first_asked_for() {
+fn loads_are_allocated_once() {
     for solver in Solver::ALL {
         let settings = Settings { solver, ..Settings::default() };
         let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: true };
-        let mut simulation = Simulation::new(thrown(true), stepping).unwrap();
+        let mut simulation = Simulation::new(moving_beam(true), stepping).unwrap();
         simulation.load_mut();
         assert_eq!(allocations(simulation).0, 0, "{solver:?}");
     }
 }
 
 #[test]
-fn the_counter_counts() {
+fn the_allocation_counter_counts() {
     let info = allocation_counter::measure(|| drop(std::hint::black_box(vec![0u8; 100])));
     assert_eq!(info.count_total, 1);
 }
 
-/// Bytes that a simulation on so many elements holds, its data included.
+/// Bytes of a simulation with the given number of elements, its data included.
 fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
     let problem = Problem {
         mesh: Mesh::uniform(elements).unwrap(),
         initial: Initial::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
-        ..thrown(heated)
+        ..moving_beam(heated)
     };
     let settings = Settings { solver, ..Settings::default() };
     let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: false };

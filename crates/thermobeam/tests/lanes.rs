@@ -1,4 +1,4 @@
-//! Cases in lanes get the bits that they get alone, and a case that fails does not touch the others.
+//! Cases in lanes agree bitwise with single runs, and a failed case does not affect the others.
 
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
@@ -9,16 +9,16 @@ use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 
-/// Elements: two are left over when they are taken by four.
+/// Number of elements, not a multiple of four.
 const N: usize = 22;
 
-/// A balance, bit by bit.
+/// The bits of a balance.
 fn bits(balance: &Balance) -> [u64; 6] {
     let Balance { change, viscous, thermal, inertial, contact, residual } = *balance;
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 
-/// Four beams that differ in everything, so that some need a second pass or the safeguarded iteration where others do not.
+/// Four different beams: some need a second pass or the safeguarded iteration in steps in which others do not.
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
     let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();
@@ -39,7 +39,7 @@ fn problem(k: usize) -> Problem {
 const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 
 #[test]
-fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
+fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     for scheme in SCHEMES {
         let settings = Settings::default();
         let mut ensemble = Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
@@ -77,9 +77,9 @@ fn a_case_in_a_lane_gets_the_bits_that_it_gets_alone() {
     }
 }
 
-/// A pass is shared by the four lanes of a group, factorisations are each lane's own.
+/// A pass is shared by the four lanes of a group; each lane has its own factorisations.
 #[test]
-fn the_work_of_an_ensemble_is_that_of_its_groups() {
+fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();
     let problems = (0..8).map(|k| problem(k % 4)).collect();
     let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
@@ -93,7 +93,7 @@ fn the_work_of_an_ensemble_is_that_of_its_groups() {
 }
 
 #[test]
-fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
+fn any_number_of_cases_agrees_bitwise_with_single_runs() {
     let settings = Settings::default();
     for count in [1, 3, 5, 8] {
         let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
@@ -116,7 +116,7 @@ fn any_number_of_cases_is_stepped_and_each_gets_its_own_bits() {
 }
 
 #[test]
-fn a_cold_case_beside_a_heated_one_gets_the_bits_that_it_gets_alone() {
+fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
     let cold = |k: usize| {
         let mut problem = problem(k);
         problem.beam = Beam { a: 0.0, theta_a: 0.0, ..problem.beam };
@@ -145,7 +145,7 @@ fn a_cold_case_beside_a_heated_one_gets_the_bits_that_it_gets_alone() {
 }
 
 #[test]
-fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
+fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
     let new = |problems, dt: &[f64]| Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err();
     let short = Mesh::uniform(3).unwrap();
     let initial = Initial::at_rest(&short, 0.0);
@@ -159,7 +159,7 @@ fn an_ensemble_needs_cases_with_as_many_elements_and_a_time_step_each() {
 
 #[test]
 fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
-    // At dt = 10 the operator of a beam loaded beyond buckling is not definite.
+    // At dt = 10 the matrix of a beam loaded beyond buckling is not positive definite.
     let buckled = |k: usize| {
         let mut problem = problem(k);
         if k == 2 {

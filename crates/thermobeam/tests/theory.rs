@@ -1,4 +1,4 @@
-//! What THEORY.md says holds a result must exist: each name is that of a test function or of a study.
+//! The tests and studies that THEORY.md names exist.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 const THEORY: &str = include_str!("../THEORY.md");
 
-/// The crates and the studies around this crate; `None` where it is tested without them.
+/// The root of the workspace; `None` if this crate is tested alone.
 fn workspace() -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     root.join("studies").is_dir().then_some(root)
 }
 
-/// The names in back quotes of each paragraph that begins with **Held by**, section by section.
+/// The names in back quotes in each paragraph that begins with **Held by**, by section.
 fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
     let sections = text.split("\n## ").skip(1);
     sections
@@ -35,7 +35,7 @@ fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The functions that are marked as tests.
+/// Names of the functions marked as tests.
 fn tests_of(source: &str) -> impl Iterator<Item = String> {
     let marked = source.split("#[test]").skip(1);
     marked.filter_map(|rest| {
@@ -44,6 +44,7 @@ fn tests_of(source: &str) -> impl Iterator<Item = String> {
     })
 }
 
+/// Names of all tests and studies of the workspace.
 fn known(root: &Path) -> BTreeSet<String> {
     let mut sources = vec![];
     for part in ["thermobeam", "thermobeam-exact", "thermobeam-study"] {
@@ -63,14 +64,14 @@ fn known(root: &Path) -> BTreeSet<String> {
     tests.chain(studies.iter().filter_map(id)).collect()
 }
 
-/// What is cited and is neither a test nor a study.
+/// Names that are neither tests nor studies.
 fn missing(text: &str, known: &BTreeSet<String>) -> Vec<String> {
     let names = cited(text).into_iter().flat_map(|(_, names)| names);
     names.filter(|&name| !known.contains(name)).map(str::to_owned).collect()
 }
 
 #[test]
-fn every_result_is_held_by_tests_and_studies_that_exist() {
+fn every_result_names_tests_and_studies_that_exist() {
     for (title, names) in cited(THEORY) {
         assert!(!names.is_empty(), "nothing holds \"{title}\"");
     }
@@ -82,7 +83,7 @@ fn every_result_is_held_by_tests_and_studies_that_exist() {
 }
 
 #[test]
-fn a_function_that_is_no_test_holds_nothing() {
+fn only_functions_marked_as_tests_are_found() {
     let source =
         "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
     assert_eq!(tests_of(source).collect::<Vec<_>>(), ["a_law", "another"]);

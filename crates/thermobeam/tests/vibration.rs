@@ -1,4 +1,4 @@
-//! Exact modes against the equations, a dense eigenvalue problem, and each other.
+//! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::vibration::{DampedMode, Mode, SpectrumError, discrete_frequencies, frequencies};
@@ -50,7 +50,7 @@ fn frequencies_are_the_zeros_of_the_determinant() {
         close(determinant, 0.0, 4e-15 * (1.0 + omega));
         assert!(i == 0 || omega > all[i - 1]);
     }
-    // Far up they come in pairs around (n - 1/2)π.
+    // High frequencies come in pairs around (n - 1/2)π.
     let middle = 29.5 * std::f64::consts::PI;
     let split = ((1.0 + 1.0_f64.cos()) / 2.0).sqrt() / (2.0 * middle);
     close(all[58], middle - split, 0.01 * split + 2e-3);
@@ -59,7 +59,7 @@ fn frequencies_are_the_zeros_of_the_determinant() {
 
 #[test]
 fn no_frequency_is_missed() {
-    // P1 frequencies lie above the exact ones and converge like ω³h²/24: index by index they can be told apart.
+    // P1 frequencies are larger than the exact ones by about ω³h²/24, which identifies each by its index.
     let elements = 128;
     let dense = dense_frequencies(elements);
     for (i, omega) in frequencies(24).into_iter().enumerate() {
@@ -71,7 +71,7 @@ fn no_frequency_is_missed() {
 
 #[test]
 fn the_determinant_is_positive_below_the_first_bracket() {
-    // From 0 to s = 1, that is ω = (√3 + 1/√3)/2, in steps far below any scale of the function.
+    // From ω = 0 to s = 1, ω = (√3 + 1/√3)/2, in steps small against the scale of the function.
     let end = 2.0 / 3.0_f64.sqrt();
     for i in 0..=20_000 {
         let omega = end * f64::from(i) / 20_000.0;
@@ -124,7 +124,7 @@ fn modes_are_orthogonal_and_their_rayleigh_quotient_is_the_frequency() {
     }
 }
 
-/// T and T' by Taylor's series of the equation, summed over short steps.
+/// T and T' by the Taylor series of the equation over short steps.
 fn by_taylor(omega: f64, zeta: f64, start: (f64, f64), t: f64) -> (f64, f64) {
     let steps = 2000;
     let h = t / f64::from(steps);
@@ -162,7 +162,7 @@ fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
 }
 
 #[test]
-fn a_viscosity_that_is_none_is_an_error() {
+fn an_invalid_viscosity_is_rejected() {
     for zeta in [-0.1, f64::NAN, f64::INFINITY] {
         let error = DampedMode::new(Mode::new(0), zeta).expect_err("no viscosity");
         assert_eq!(error.name, "zeta");
@@ -172,7 +172,7 @@ fn a_viscosity_that_is_none_is_an_error() {
 }
 
 #[test]
-fn overdamped_modes_keep_their_digits_for_long_times() {
+fn overdamped_modes_are_accurate_for_long_times() {
     let damped = DampedMode::new(Mode::new(5), 1e9).expect("a viscosity");
     // The slow root is -1/ζ up to 1/(ζω)²: after t = ζ the mode has fallen to 1/e.
     close(damped.factor(1e9), (-1.0_f64).exp(), 1e-15);

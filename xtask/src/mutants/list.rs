@@ -24,13 +24,13 @@ pub(super) struct Target {
 
 /// Tests of the solver that take longer than all others together.
 const SLOW: &[&str] = &[
-    "a_blind_scan_with_the_textbook_formula_finds_the_same_states",
+    "a_fine_scan_of_the_textbook_formula_finds_the_same_states",
     "a_fixed_point_step_solves_the_equations_of_the_scheme",
     "a_newton_step_solves_the_equations_of_the_scheme",
     "an_accepted_step_is_within_the_tolerance_of_its_solution",
     "discrete_states_converge_at_second_order_and_have_as_many_unstable_directions",
     "newton_converges_for_every_compliance_step_force_and_stiffness",
-    "no_coefficient_is_too_extreme",
+    "equilibria_are_found_for_extreme_coefficients",
     "the_default_tolerance_is_enough_for_the_balance",
     "the_energy_falls_and_its_balance_closes_to_round_off",
 ];

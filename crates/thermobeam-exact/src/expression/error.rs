@@ -1,4 +1,4 @@
-//! What can be wrong with the text of a function, and with its values.
+//! The errors of an expression: in its text, and in its values.
 
 use std::fmt;
 
@@ -7,76 +7,74 @@ use thiserror::Error;
 use super::Variable;
 use crate::nearest::did_you_mean;
 
-/// A text that is not a function of its variable, and the place.
+/// A text that is not a function of its variable, with the position of the error.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct ExpressionError {
     /// The whole text.
     pub source_text: String,
-    /// Byte of the text at which the problem is; its length where something is missing at the end.
+    /// Byte offset of the error in the text; the length of the text if something is missing at its end.
     pub offset: usize,
-    /// What is wrong.
+    /// The cause.
     pub problem: ExpressionProblem,
 }
 
-/// What is wrong with the text of a function.
+/// The cause of an [`ExpressionError`].
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ExpressionProblem {
-    /// A piece of text that cannot stand where it does.
-    #[error("found {found}; allowed is {allowed}")]
+    /// A token that is not possible at its position.
+    #[error("expected {expected}, found {found}{hint}")]
     Unexpected {
-        /// The piece, in words.
+        /// The token, in words.
         found: String,
-        /// What could stand there, in words.
-        allowed: String,
+        /// What is possible there, in words.
+        expected: String,
+        /// A remedy that begins with `; `, or nothing.
+        hint: &'static str,
     },
     /// A bracket that is never closed.
-    #[error("found {found}; allowed is `)`, which closes the bracket at byte {opened}, or an operator")]
+    #[error("expected an operator or `)` for the bracket at byte {opened}, found {found}")]
     Unclosed {
-        /// The piece where the closing bracket could have been, in words.
+        /// The token in place of the closing bracket, in words.
         found: String,
-        /// Byte of the text at which the bracket opens.
+        /// Byte offset of the opening bracket.
         opened: usize,
     },
     /// A name that is neither the variable, nor a constant, nor a function.
-    #[error("unknown name `{name}`{}; allowed is {allowed}", did_you_mean(.suggestion))]
+    #[error("unknown name `{name}`{}; expected one of {known}", did_you_mean(.suggestion))]
     UnknownName {
         /// The name.
         name: String,
-        /// A known name that is a typing error away.
+        /// The known name that was probably meant.
         suggestion: Option<String>,
-        /// The names known.
-        allowed: String,
+        /// The known names, separated by spaces.
+        known: String,
     },
     /// A function with too few or too many arguments.
-    #[error("found {found} argument(s) of `{function}`; allowed is {allowed}")]
+    #[error("`{function}`: expected {expected} argument(s), found {found}")]
     Arguments {
         /// The function.
         function: &'static str,
-        /// Arguments found.
+        /// Number of arguments in the text.
         found: usize,
-        /// Arguments that it takes.
-        allowed: usize,
+        /// Number of arguments that the function takes.
+        expected: usize,
     },
     /// A number beyond the range of `f64`.
-    #[error("found the number {found}; allowed is at most {:e}", f64::MAX)]
+    #[error("expected a number of at most {:e}, found {found}", f64::MAX)]
     NumberTooLarge {
-        /// The number as written.
+        /// The number as in the text.
         found: String,
     },
-    /// More operations inside one another than the tree may be deep.
-    #[error(
-        "found more than {allowed} operations inside one another; allowed is {allowed}: split long sums by brackets"
-    )]
+    /// More nested operations than the depth of the syntax tree allows.
+    #[error("expected at most {most} nested operations, found more: split long sums by brackets")]
     TooDeep {
-        /// The depth allowed.
-        allowed: usize,
+        /// The largest depth.
+        most: usize,
     },
 }
 
 impl ExpressionError {
-    /// Two lines: the text, and a caret below the place.
-    ///
-    /// Of a long text only the neighbourhood of the place is shown.
+    /// Two lines: the text, and a caret below the error. Of a long text only the part around the error.
     pub fn excerpt(&self) -> String {
         const BEFORE: usize = 48;
         const AFTER: usize = 24;
@@ -98,22 +96,22 @@ impl fmt::Display for ExpressionError {
     }
 }
 
-/// A place at which a function or a derivative of it is infinite or not a number.
+/// A point at which a function or one of its derivatives is infinite or NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "{} is {found} at {} = {at}; allowed is a finite value on all of [0, {end}]",
+    "{} is {found} at {} = {at}; expected a finite value on all of [0, {end}]",
     ["the value", "the first derivative", "the second derivative"][*.order],
     .variable.name()
 )]
 pub struct NotFinite {
     /// The variable.
     pub variable: Variable,
-    /// Where.
+    /// The point.
     pub at: f64,
-    /// The interval asked about is [0, end].
+    /// The interval that was checked is [0, end].
     pub end: f64,
     /// Order of the derivative: 0, 1 or 2.
     pub order: usize,
-    /// The value found there.
+    /// The value there.
     pub found: f64,
 }

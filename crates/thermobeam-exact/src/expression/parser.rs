@@ -1,4 +1,4 @@
-//! Text to syntax tree, by precedence climbing.
+//! Parser from text to syntax tree, by precedence climbing.
 
 use super::Variable;
 use super::error::{ExpressionError, ExpressionProblem};
@@ -6,16 +6,16 @@ use super::syntax::{FUNCTIONS, Function, Node, Operator};
 use super::token::{Token, TokenKind, next_token};
 use crate::nearest::nearest;
 
-/// Depth of the syntax tree. Reading, evaluating and dropping a tree recurse: this bounds the stack they need.
+/// Largest depth of the syntax tree. Parsing, evaluating and dropping it recurse: this bounds the stack that they need.
 const MAX_DEPTH: usize = 256;
 
-/// How tightly a sign binds its operand: more than a product, less than a power.
+/// Precedence of a sign: above a product, below a power.
 const SIGN: u8 = 5;
 
 /// The constants by name.
 const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 
-/// Reads all of `source`.
+/// Parses all of `source`.
 pub(super) fn parse(source: &str, variable: Variable) -> Result<Node, ExpressionError> {
     let mut parser = Parser { source, variable, token: next_token(source, 0), depth: 0 };
     let tree = parser.expression(0)?;
@@ -26,6 +26,7 @@ pub(super) fn parse(source: &str, variable: Variable) -> Result<Node, Expression
     }
 }
 
+/// What is possible after an operand.
 const AFTER_OPERAND: &str = "one of the operators + - * / ^ or the end";
 
 /// A node and the depth of the tree below it.
@@ -37,14 +38,14 @@ struct Tree {
 struct Parser<'s> {
     source: &'s str,
     variable: Variable,
-    /// The token to be read next.
+    /// The next token.
     token: Token,
-    /// Nested calls of [`Parser::expression`].
+    /// Number of nested calls of [`Parser::expression`].
     depth: usize,
 }
 
 impl Parser<'_> {
-    /// Operands joined by operators that bind at least as tightly as `minimum`.
+    /// Parses operands joined by operators whose precedence is at least `minimum`.
     fn expression(&mut self, minimum: u8) -> Result<Tree, ExpressionError> {
         self.depth += 1;
         self.limit(self.depth, self.token.start)?;
@@ -61,7 +62,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// A number, a name, a call, a bracket, or one of these with a sign.
+    /// Parses a number, a name, a call, or an expression in brackets, with or without a sign.
     fn operand(&mut self) -> Result<Tree, ExpressionError> {
         let token = self.token;
         match token.kind {
@@ -99,7 +100,7 @@ impl Parser<'_> {
         Err(self.error(token.start, ExpressionProblem::NumberTooLarge { found: shorten(self.text(token)) }))
     }
 
-    /// The variable, a constant, or the call of a function; `token` has been read.
+    /// Parses the variable, a constant or a call, whose name is `token`.
     fn name(&mut self, token: Token) -> Result<Tree, ExpressionError> {
         let name = self.text(token);
         if let Some(&(name, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) {
@@ -126,21 +127,21 @@ impl Parser<'_> {
             arguments.push(self.expression(0)?);
         }
         self.close(opened)?;
-        let (found, allowed) = (arguments.len(), function.arguments());
+        let (found, expected) = (arguments.len(), function.arguments());
         let depth = arguments.iter().map(|argument| argument.depth).max().unwrap_or(0);
         let mut nodes = arguments.into_iter().map(|argument| argument.node);
         let node = match (nodes.next(), nodes.next()) {
-            (Some(only), None) if allowed == 1 => Node::call1(function, only),
-            (Some(first), Some(second)) if allowed == 2 && found == 2 => Node::call2(function, [first, second]),
+            (Some(only), None) if expected == 1 => Node::call1(function, only),
+            (Some(first), Some(second)) if expected == 2 && found == 2 => Node::call2(function, [first, second]),
             _ => {
-                let problem = ExpressionProblem::Arguments { function: name, found, allowed };
+                let problem = ExpressionProblem::Arguments { function: name, found, expected };
                 return Err(self.error(token.start, problem));
             }
         };
         self.grow(token.start, depth, node)
     }
 
-    /// Reads the bracket that closes the one at byte `opened`.
+    /// Consumes the bracket that closes the one at byte `opened`.
     fn close(&mut self, opened: usize) -> Result<(), ExpressionError> {
         match self.token.kind {
             TokenKind::Symbol(')') => {
@@ -155,7 +156,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A node above trees of that depth; `at` is where it stands in the text.
+    /// The tree of `node`, whose subtrees have at most the depth `below`; `at` is its byte offset.
     fn grow(&self, at: usize, below: usize, node: Node) -> Result<Tree, ExpressionError> {
         let depth = if matches!(node, Node::Constant(_)) { 1 } else { below + 1 };
         self.limit(depth, at)?;
@@ -166,7 +167,7 @@ impl Parser<'_> {
         if depth <= MAX_DEPTH {
             return Ok(());
         }
-        Err(self.error(at, ExpressionProblem::TooDeep { allowed: MAX_DEPTH }))
+        Err(self.error(at, ExpressionProblem::TooDeep { most: MAX_DEPTH }))
     }
 
     fn advance(&mut self) -> Token {
@@ -187,16 +188,16 @@ impl Parser<'_> {
         }
     }
 
-    fn unexpected(&self, allowed: &str) -> ExpressionError {
+    fn unexpected(&self, expected: &str) -> ExpressionError {
         let hint = match self.text(self.token) {
             "**" => "; a power is written ^",
             "−" | "–" => "; a minus is written -",
             "π" => "; write pi",
             "×" | "·" | "⋅" => "; a product is written *",
-            _ if allowed == AFTER_OPERAND && starts_operand(self.token.kind) => "; a product needs its *",
+            _ if expected == AFTER_OPERAND && starts_operand(self.token.kind) => "; a product needs its *",
             _ => "",
         };
-        let problem = ExpressionProblem::Unexpected { found: self.found(), allowed: format!("{allowed}{hint}") };
+        let problem = ExpressionProblem::Unexpected { found: self.found(), expected: expected.to_owned(), hint };
         self.error(self.token.start, problem)
     }
 
@@ -204,9 +205,9 @@ impl Parser<'_> {
         let constants = CONSTANTS.iter().map(|(name, _)| *name);
         let known: Vec<&str> =
             std::iter::once(self.variable.name()).chain(constants).chain(FUNCTIONS.iter().map(|f| f.0)).collect();
-        // A single letter is a wrong variable, not a misspelt one.
+        // A single letter is a wrong variable: no suggestion.
         let suggestion = if name.len() == 1 { None } else { nearest(name, known.iter().copied()).map(str::to_owned) };
-        ExpressionProblem::UnknownName { name: shorten(name), suggestion, allowed: known.join(" ") }
+        ExpressionProblem::UnknownName { name: shorten(name), suggestion, known: known.join(" ") }
     }
 
     fn error(&self, offset: usize, problem: ExpressionProblem) -> ExpressionError {
@@ -214,7 +215,7 @@ impl Parser<'_> {
     }
 }
 
-/// An operator, how tightly it binds, and how tightly its right operand must be bound.
+/// An operator, its precedence, and the lowest precedence in its right operand.
 fn infix(kind: TokenKind) -> Option<(Operator, u8, u8)> {
     let TokenKind::Symbol(symbol) = kind else { return None };
     match symbol {
@@ -222,7 +223,7 @@ fn infix(kind: TokenKind) -> Option<(Operator, u8, u8)> {
         '-' => Some((Operator::Subtract, 1, 2)),
         '*' => Some((Operator::Multiply, 3, 4)),
         '/' => Some((Operator::Divide, 3, 4)),
-        // The right operand may hold a further power: powers are read from the right.
+        // Right-associative: the right operand may contain another power.
         '^' => Some((Operator::Power, 7, 7)),
         _ => None,
     }
@@ -232,7 +233,7 @@ fn starts_operand(kind: TokenKind) -> bool {
     matches!(kind, TokenKind::Number(_) | TokenKind::Name | TokenKind::Symbol('('))
 }
 
-/// A piece of the text, cut where a message would become unreadable.
+/// At most 24 characters of a token.
 fn shorten(text: &str) -> String {
     const LONGEST: usize = 24;
     match text.char_indices().nth(LONGEST) {

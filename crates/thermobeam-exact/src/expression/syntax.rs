@@ -1,13 +1,13 @@
-//! The syntax tree, and its value on plain and on dual numbers.
+//! The syntax tree, and its evaluation on plain and on dual numbers.
 
 use num_dual::{Dual2_64, DualNum};
 
-/// A number that can carry derivatives along.
+/// A number with or without derivatives.
 pub(super) trait Number: DualNum<Primitive = f64> + Copy {
     /// The value without its derivatives.
     fn value(self) -> f64;
 
-    /// f(self) for an f whose value and first two derivatives at `self` are given.
+    /// f(self), given the value and the first two derivatives of f at `self`.
     fn chain(self, value: f64, first: f64, second: f64) -> Self;
 }
 
@@ -41,7 +41,7 @@ pub(super) enum Operator {
     Power,
 }
 
-/// A function, by the name it has in the text.
+/// A function, named as in the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Function {
     Sin,
@@ -92,7 +92,7 @@ impl Function {
     }
 }
 
-/// A node of the syntax tree. Subtrees without the variable are folded into a [`Node::Constant`] when they are built.
+/// A node of the syntax tree. Subtrees without the variable are constants.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Node {
     Constant(f64),
@@ -126,9 +126,9 @@ impl Node {
         Node::Call2(function, Box::new(arguments)).folded()
     }
 
-    /// Evaluates a node all of whose operands are constants.
+    /// A constant if all operands are constants.
     ///
-    /// Without this, sqrt(0) would have the derivative 0 · ∞ instead of none at all.
+    /// Otherwise sqrt(0) would have the derivative 0 · ∞ instead of 0.
     fn folded(self) -> Self {
         let constant = |node: &Node| matches!(node, Node::Constant(_));
         let fold = match &self {
@@ -171,8 +171,8 @@ fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {
 
 /// x^n with its derivatives n x^(n-1) and n (n-1) x^(n-2).
 ///
-/// `powf` is exact for whole n wherever the result is, of negative x too, and 0^0 = 1. A factor that is 0 removes its
-/// term: at x = 0 the power beside it is infinite when n is 0 or 1.
+/// `powf` is exact for whole n whenever the result is representable, also for negative x, and 0^0 = 1. A term with a
+/// zero factor is zero, although the power beside it is infinite at x = 0 for n = 0 or 1.
 fn constant_power<D: Number>(base: D, n: f64) -> D {
     let x = base.value();
     let term = |factor: f64, exponent: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(exponent) };
@@ -184,7 +184,7 @@ fn call<D: Number>(function: Function, argument: D) -> D {
     match function {
         Function::Sin => argument.sin(),
         Function::Cos => argument.cos(),
-        // As quotients, tan would round differently from its value on f64, and tanh would overflow.
+        // As a quotient, tan would round differently from `f64::tan`, and tanh would overflow.
         Function::Tan => {
             let value = x.tan();
             let first = 1.0 + value * value;
@@ -192,7 +192,7 @@ fn call<D: Number>(function: Function, argument: D) -> D {
         }
         Function::Tanh => {
             let value = x.tanh();
-            // 1 - tanh² loses its digits where tanh is close to 1.
+            // 1 - tanh² cancels for tanh close to 1.
             let first = x.cosh().powi(-2);
             argument.chain(value, first, -2.0 * value * first)
         }
@@ -219,7 +219,7 @@ fn call<D: Number>(function: Function, argument: D) -> D {
     }
 }
 
-/// The smaller or the larger of two numbers; NaN if either is, which `f64::min` would hide.
+/// The smaller or the larger of two numbers; NaN if either is NaN, which `f64::min` and `f64::max` would drop.
 fn choose<D: Number>(function: Function, left: D, right: D) -> D {
     let (a, b) = (left.value(), right.value());
     let take_left = a.is_nan() || if function == Function::Min { a <= b } else { a >= b };

@@ -1,6 +1,6 @@
-//! Text to tokens.
+//! Tokens of an expression.
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum TokenKind {
     /// A number; infinite if it is beyond the range of `f64`.
@@ -15,7 +15,7 @@ pub(super) enum TokenKind {
     End,
 }
 
-/// A token, and which bytes of the text it takes up.
+/// A token and its range of bytes in the text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Token {
     pub(super) kind: TokenKind,
@@ -31,7 +31,7 @@ pub(super) fn next_token(source: &str, from: usize) -> Token {
         None => (TokenKind::End, 0),
         Some(c) if c.is_ascii_digit() || c == '.' => number(rest),
         Some(c) if c.is_alphabetic() && c.is_ascii() || c == '_' => (TokenKind::Name, name_length(rest)),
-        // Not a product of a product: the way other languages write a power.
+        // The power of other languages, not two products.
         Some('*') if rest.starts_with("**") => (TokenKind::Unknown, 2),
         Some(c @ ('+' | '-' | '*' | '/' | '^' | '(' | ')' | ',')) => (TokenKind::Symbol(c), 1),
         Some(c) => (TokenKind::Unknown, c.len_utf8()),
@@ -53,11 +53,11 @@ fn number(rest: &str) -> (TokenKind, usize) {
     if rest[length..].starts_with(['e', 'E']) {
         let sign = usize::from(rest[length + 1..].starts_with(['+', '-']));
         let exponent = digits(length + 1 + sign);
-        // Without digits the e is the constant, and what is missing is a product sign.
+        // Without digits e is the constant, and an operator is missing before it.
         if exponent > 0 {
             length += 1 + sign + exponent;
         }
     }
-    // Only a lone point is no number at all.
+    // Only a single point fails to parse.
     rest[..length].parse().map_or((TokenKind::Unknown, 1), |value| (TokenKind::Number(value), length))
 }

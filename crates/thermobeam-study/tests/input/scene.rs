@@ -205,7 +205,7 @@ fn a_mesh_that_does_not_fit_into_memory_is_refused_with_its_size() {
 #[test]
 fn a_mistake_in_a_function_is_shown_inside_its_text() {
     let message = refusal(&format!("[initial]\ntheta = \"x*(1-y)\"\n{TIME}"));
-    says(&message, &["dir/beam.toml:2:15: initial.theta: unknown name `y`; allowed is x pi e", "\n    x*(1-y)\n"]);
+    says(&message, &["dir/beam.toml:2:15: initial.theta: unknown name `y`; expected one of x pi e", "\n    x*(1-y)\n"]);
     assert_eq!(message.lines().nth(2), Some("         ^"));
     // An escape moves the text: then the value as a whole is pointed at.
     says(&refusal(&format!("[initial]\nu = \"\\u0078+y\"\n{TIME}")), &["2:5: initial.u: unknown name `y`"]);

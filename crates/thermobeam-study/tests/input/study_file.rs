@@ -195,7 +195,7 @@ fn an_exact_solution_that_breaks_a_rule_is_named() {
         ("u = \"x\"", &["exact.u: found the text \"x\"; allowed is a list"]),
         ("u = [\"x\"]", &["exact.u[0]: found the text \"x\"; allowed is a table"]),
         ("u = [{ x = \"x\" }]", &["6:6: exact.u[0].t: missing; allowed is a function of t in quotes"]),
-        ("u = [{ x = \"x\", t = \"x\" }]", &["6:22: exact.u[0].t: unknown name `x`; allowed is t pi e"]),
+        ("u = [{ x = \"x\", t = \"x\" }]", &["6:22: exact.u[0].t: unknown name `x`; expected one of t pi e"]),
         ("u = [{ x = \"x\", t = \"1\", s = 1 }]", &["exact.u[0].s: unknown key `s`; allowed is x, t"]),
         (
             "u = [{ x = \"x\", t = \"1\" }, { x = \"1+x\", t = \"1\" }]",

@@ -1,56 +1,57 @@
-//! What rounding errors may leave of the balance: its scale, and a bound that tells round-off from a defect.
+//! Bounds on the rounding errors in the energy balance: its scale, and how large a residual round-off explains.
 //!
-//! # The sweep
+//! # The residual
 //!
-//! The solver is backward stable: what it finds solves the step's equations with residuals of a few rounding errors of
-//! the *terms* of each equation, not of their sum. At a node between elements of length h the largest terms are
-//! `((1 + N) u + φ)/h` and `ζ V/h`: differences of neighbouring values that cancel, the more the finer the mesh. The
-//! balance tests the equations with Δu = dt V, Δφ = dt W and dt θ, so that it is open by at most
+//! The solver is backward stable: its solution satisfies the equations of the step up to a few rounding errors of the
+//! *terms* of each equation, not of their sum. At a node between elements of length h the largest terms are
+//! `((1 + N) u + φ)/h` and `ζ V/h`: differences of neighbouring values, which cancel more on finer meshes. The balance
+//! tests the equations with Δu = dt V, Δφ = dt W and dt θ, so its residual is at most
 //!
 //! ```text
 //! c u_r Σ_e 1/h [((1 + |N|)(|u| + |φ|) + ζ (|V| + |W|)) (|Δu| + |Δφ|) + dt |θ|²] + |a| |θ| |Δφ| + h [(|V| + |W|)² + |θ|²]
 //! ```
 //!
 //! with the largest values over the ends of an element and both levels, u_r the unit round-off and c the number of such
-//! terms and operations. Against the energy, `½ ‖u_x‖²`, this is about `c u_r u/(h u_x)`: of no account on a mesh of a
-//! hundred elements, 1e-11 where neighbours differ by a factor of 1000, and it grows with dt, because Δu does.
+//! terms and operations. Relative to the energy ½ ‖u_x‖² this is about `c u_r u/(h u_x)`: negligible on a mesh of a
+//! hundred elements, 1e-11 where lengths of neighbours differ by a factor of 1000; it grows with dt, because Δu does.
 //!
 //! # Contact
 //!
-//! The tip carries a rounding error δ of its position, some `u_r (|u(1)| + dt |v(1)|)`: the second part is the way that it
-//! would have gone without the obstacle, whose last digits it keeps. The law magnifies it: a force of δ/ε, 1e-17/ε where the
-//! obstacle stands at 0.1. The *force* of the step hardly suffers, for it is computed in closed form and enters the balance
-//! as it is; but the contact *energy* is that of the rounded position, and is wrong by `|F| δ + δ²/(2ε)`. In the residual it
-//! cancels against the gap, in which it stands too. In the change of the energy it stays: an energy that is conserved may
-//! seem to rise by as much.
+//! The position of the tip carries a rounding error δ of about `u_r (|u(1)| + dt |v(1)|)`; the second part is the path
+//! of the tip without the obstacle, whose rounding error it keeps. The contact law amplifies it to a force δ/ε, 1e-17/ε
+//! for an obstacle at 0.1. The *force* of the step is hardly affected, because it is computed in closed form and enters
+//! the balance as computed; the contact *energy* is evaluated at the rounded position, with an error of
+//! `|F| δ + δ²/(2ε)`. In the residual this error cancels against the same error in the gap. In the change of the energy
+//! it does not: a conserved energy may appear to rise by as much.
 
 use crate::energy::Energy;
 use crate::norms::slope_squared;
 use crate::parameters::{Beam, Obstacles};
 use crate::solve::Level;
 
-/// The c of the module's bound: some ten terms in an equation, each of a few operations, and as many in the balance; the
-/// elimination multiplies by inverted blocks, which costs as much again.
+/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and as many in
+/// the balance; the elimination multiplies by inverted blocks, which doubles the number.
 const TERMS: f64 = 64.0;
-/// Operations that lead to the tip's position: the elimination's last, the closed form's, and `u0 + dt V`.
+/// Rounding errors in the tip's position: of the elimination's last row, of the closed form, and of `u0 + dt V`.
 const TIP_TERMS: f64 = 16.0;
 
-/// What rounding errors explain in the balance of one step.
+/// Bounds on the rounding errors in the balance of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounding {
-    /// Of the residual: the equations' residuals, tested.
+    /// Bound on the residual of the balance.
     pub residual: f64,
-    /// Of the energy's change besides: the contact energy of a rounded position.
+    /// Additional bound for the change of the energy: contact energy of a rounded position.
     pub contact: f64,
 }
 
 impl Rounding {
-    /// The bound of both.
+    /// Bound on the change of the energy that round-off explains, the sum of both.
     pub fn total(&self) -> f64 {
         self.residual + self.contact
     }
 
-    /// Of the step from `old` to `new` with step `dt`; without loads, and solved to a tolerance at round-off.
+    /// The bounds for the step from `old` to `new` with step `dt`, without loads and solved to a tolerance at
+    /// round-off.
     pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64, lengths: &[f64], old: &Level, new: &Level) -> Self {
         let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
         let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;
@@ -73,7 +74,7 @@ impl Rounding {
     }
 }
 
-/// `2 (|F| δ + δ²/ε)`, with the larger force of the two levels: the energies of both are rounded.
+/// `2 (|F| δ + δ²/ε)`, F the larger force of the two levels, because the energies of both are rounded.
 fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) -> f64 {
     let tip = new.u.len() - 1;
     let (u, u0) = (new.u[tip], old.u[tip]);
@@ -83,9 +84,9 @@ fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) 
     2.0 * (force * delta + delta * delta / obstacles.epsilon)
 }
 
-/// The size of the energy of a level: its terms without their signs, the Kirchhoff term without its constant.
+/// The scale of a level's energy: the sum of its terms without their signs, the Kirchhoff term without its constant.
 ///
-/// `N²/(4ρ)` holds β²/(4ρ), which no motion changes and which would hide any residual of a beam with a small ρ.
+/// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
 pub fn scale(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> f64 {
     let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = Energy::of(beam, obstacles, lengths, level);
     let stretch = slope_squared(lengths, &level.u);
@@ -98,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_of_an_energy_is_the_sum_of_the_sizes_of_its_terms() {
+    fn the_energy_scale_is_the_sum_of_absolute_terms() {
         let lengths = [0.25, 0.75];
         let line = vec![0.0, 0.25, 1.0];
         let beam = Beam { beta: -3.0, rho: 2.0, a: 0.5, theta_a: 4.0, ..Beam::default() };
@@ -107,7 +108,7 @@ mod tests {
         // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
         let moved = Level { u: line.clone(), ..Level::new(3) };
         assert!((of(&moved) - (0.5 + 1.5 + 0.5 + 0.25)).abs() < 1e-15);
-        // φ = x: ½ ‖φ‖², ½ ‖φ_x‖² and the lifting's -a θ_A ∫φ, without its sign.
+        // φ = x: ½ ‖φ‖², ½ ‖φ_x‖² and |a θ_A ∫φ|.
         let turned = Level { phi: line.clone(), ..Level::new(3) };
         assert!((of(&turned) - (1.0 / 6.0 + 0.5 + 1.0)).abs() < 1e-15);
         let fast = Level { v: line.clone(), theta: line, ..Level::new(3) };
@@ -139,7 +140,7 @@ mod tests {
         let warm = Level { theta: vec![4.0, 0.0], ..turned };
         near(terms(&warm), (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0);
 
-        // What counts is how far a node has moved, at either end of an element: 1 here, of values of 3.
+        // The displacement of a node enters, at either end of an element: 1 here, for values of 3.
         let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level { phi: vec![0.0, a, b], ..Level::new(3) });
         let both = Rounding::of(&beam, None, dt, &[h, h], &old, &new).residual / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
@@ -153,12 +154,12 @@ mod tests {
             assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
-        // A tip that stands at the obstacle has no force yet, but a rounding error that the obstacle stores.
+        // A tip exactly at the obstacle has no force, but a rounding error whose energy the obstacle stores.
         let level = Level { u: end(0.5), ..still.clone() };
         let delta_at = 8.0 * f64::EPSILON * 0.5;
         let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &level, &level);
         assert!((rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14, "{rounding:?}");
-        // The force of the step counts where it is larger than those of the law: 7 against 3.
+        // The force of the step enters if it is larger than those of the law: 7 against 3.
         let pressed = Level { contact_force: -7.0, ..touching };
         let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &still, &pressed);
         assert!((rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14);

@@ -1,24 +1,24 @@
-//! The sums over the elements of which the balance of a step consists.
+//! The sums over the elements in the balance of a step.
 //!
-//! One sum over all elements would make each wait for the one before, so that every fourth element from the kth on has a
-//! sum of its own, and the four are added in the end. For one case the four stand side by side in a vector register; for
-//! several cases in lanes each of the four is a register of cases. A case gets the same bits either way.
+//! The sum is split into four partial sums, the k-th over every fourth element from the k-th on: a single sum would
+//! make each addition wait for the previous one. For one case the four partial sums fill a vector register; for several
+//! cases in lanes each partial sum is a register with one number per case. Both give the same bits for a case.
 
 use crate::lanes::{Lane, Lanes};
 use crate::norms::element_product;
 use crate::solve::Level;
 
-/// Sums side by side: as many numbers as a vector register holds.
+/// Number of partial sums: the numbers in a vector register.
 const WIDTH: usize = 4;
 
-/// Sums over elements.
+/// Sums over elements, in the notation of [`super`].
 #[derive(Clone, Copy)]
 pub(crate) struct Sums<T> {
     /// ½ of the differences of ‖v‖², ‖w‖², ‖u_x - φ‖², ‖φ_x‖², ‖θ~‖².
     pub(super) quadratic: T,
-    /// ‖u_x‖², old and new.
+    /// ‖u_x‖² at the old and at the new level.
     pub(super) slope_squared: [T; 2],
-    /// ∫ φ - φ0.
+    /// ∫ (φ - φ0).
     pub(super) rotation_change: T,
     /// ‖V_x - W‖² + ‖W_x‖².
     pub(super) viscous: T,
@@ -28,20 +28,20 @@ pub(crate) struct Sums<T> {
     pub(super) jump: T,
 }
 
-/// An element, or one of each of several cases in lanes.
+/// An element, or one element of each of several cases in lanes.
 #[derive(Clone, Copy)]
 pub(crate) struct Element<T> {
-    /// h.
+    /// Its length h.
     pub(crate) length: T,
     /// 1/h.
     pub(crate) inverse: T,
     /// The fields at both ends at the old level.
     pub(crate) old: [Fields<T>; 2],
-    /// And at the new one.
+    /// The fields at both ends at the new level.
     pub(crate) new: [Fields<T>; 2],
 }
 
-/// The fields at a node.
+/// The fields at a node; `theta` is lifted.
 #[derive(Clone, Copy)]
 pub(crate) struct Fields<T> {
     pub(crate) u: T,
@@ -52,9 +52,10 @@ pub(crate) struct Fields<T> {
 }
 
 impl Sums<f64> {
-    /// Over all elements of one case; `weight` is that of the new velocity in the one that carries the step.
+    /// The sums over all elements of one case.
     ///
-    /// Without `LOSSES` the last three sums stay zero, for who asks for the change of the energy alone.
+    /// * `weight`: the c of `V = c v + (1 - c) v0`, 1/inertia of the scheme.
+    /// * `LOSSES`: whether `viscous`, `heat_flow` and `jump` are computed; otherwise they are zero.
     pub(super) fn over<const LOSSES: bool>(lengths: &[f64], weight: f64, old: &Level, new: &Level) -> Self {
         let whole = lengths.len() / WIDTH * WIDTH;
         let mut lanes = Sums::<Lanes<WIDTH>>::zero();
@@ -70,7 +71,7 @@ impl Sums<f64> {
 }
 
 impl<T: Lane> Sums<T> {
-    /// Over all elements of several cases, given by number.
+    /// The sums over all elements of several cases, given by number; `weight` as in [`Sums::over`].
     #[inline(always)]
     pub(crate) fn over_cases(elements: usize, weight: f64, element: impl Fn(usize) -> Element<T>) -> Self {
         let mut parts = [Self::zero(); WIDTH];
@@ -108,7 +109,7 @@ impl<T: Lane> Sums<T> {
         }
     }
 
-    /// Those of one lane.
+    /// The sums of case k.
     pub(crate) fn of_lane(&self, k: usize) -> Sums<f64> {
         Sums {
             quadratic: self.quadratic.lane(k),
@@ -125,12 +126,11 @@ impl<T: Lane> Sums<T> {
         let Element { length: h, inverse, old, new } = *element;
         let (half, sixth) = (T::splat(0.5), h * T::splat(1.0 / 6.0));
         let square = |p: T| p * p;
-        // ∫ p q, (p_x) and (u_x - φ at both ends), of P1 functions given by their values at the ends.
+        // ∫ p q, p_x and (u_x - φ at both ends) of P1 functions given by their values at the ends.
         let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
-        // The mean of a field's two levels, and their difference. With them `½ (‖y‖² - ‖y0‖²)` is a product, in which
-        // nothing cancels.
+        // Mean and difference of a field's two levels: `½ (‖y‖² - ‖y0‖²)` is their product, without cancellation.
         let mean_and_jump = |of: fn(&Fields<T>) -> T| {
             let (y, y0) = ([of(&new[0]), of(&new[1])], [of(&old[0]), of(&old[1])]);
             ([half * (y[0] + y0[0]), half * (y[1] + y0[1])], [y[0] - y0[0], y[1] - y0[1]])
@@ -151,7 +151,7 @@ impl<T: Lane> Sums<T> {
         if !LOSSES {
             return;
         }
-        // weight y + (1 - weight) y0, from the mean on.
+        // weight y + (1 - weight) y0, from mean and difference.
         let beyond = T::splat(weight - 0.5);
         let carrying = |mean: [T; 2], jump: [T; 2]| [mean[0] + beyond * jump[0], mean[1] + beyond * jump[1]];
         let carrying_w = carrying(w, dw);

@@ -1,37 +1,37 @@
-//! The steady states of one state of contact.
+//! The steady states of one state of contact: straight, buckled and loaded.
 
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
-use super::scan::{Place, Root, Scan};
-use super::shape::{Deep, Shape, Wave};
-use super::{Contact, Equilibrium, EquilibriumError, HALF_WAVES};
+use super::scan::{Position, Root, Scan};
+use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
+use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
 use crate::parameters::Beam;
 
-/// N = β + ρ‖u'‖² of a reported state holds to this, relative to the largest of its terms.
+/// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
 const CONSISTENCY: f64 = 1e-9;
 
-/// For ρ = 0 a determinant this close to zero, relative to its largest term, is one that round-off cannot tell from zero.
+/// For ρ = 0: a determinant smaller than this, relative to the sum of its terms, is zero to round-off.
 const RESONANCE: f64 = 1e-13;
 
-/// Whether a state of this N belongs into the list, which leaves out a neighbourhood of N = -1 from above.
+/// Whether a state with this N is returned: an interval above N = -1 is left out, see [`super::equilibria`].
 fn is_listed(n_value: f64) -> bool {
-    n_value <= -1.0 || 1.0 + n_value > free_buckling(HALF_WAVES + 1)
+    n_value <= -1.0 || 1.0 + n_value > free_buckling(BUCKLING_VALUES + 1)
 }
 
-/// One state of contact: its law, and the steady states of that law, pressing or not.
+/// One state of contact: its law, and the solutions of that law, whether they press the obstacle or not.
 pub(super) struct Branch<'a> {
     /// The coefficients.
     pub(super) beam: &'a Beam,
     /// The state of contact.
     pub(super) contact: Contact,
-    /// Its linear problem.
+    /// The linear problem for given N.
     pub(super) law: Law,
-    /// What stiffens the straight beam although it does not press.
-    pub(super) pinch: Option<Law>,
+    /// The law of the straight beam if both obstacles hold its tip at 0.
+    pub(super) held_tip: Option<Law>,
 }
 
 impl Branch<'_> {
-    /// The steady states of the law.
+    /// All solutions of the law.
     pub(super) fn states(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let mut states = if self.beam.rho == 0.0 {
             vec![self.linear()?]
@@ -51,7 +51,7 @@ impl Branch<'_> {
             return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
         }
         if s == 0.0 {
-            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.drive }, None, false));
+            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.moment }, None, false));
         }
         if let Some(error) = self.resonant(s) {
             return Err(error);
@@ -66,93 +66,98 @@ impl Branch<'_> {
         let singular = if s > 0.0 {
             self.law.determinant(q).abs() <= RESONANCE * (1.0 + q + epsilon)
         } else {
-            self.law.deep_buckling().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
+            self.law.buckling_below_minus_one().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
         };
         singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
     }
 
-    /// The unloaded beam: u = φ = 0, N = β.
+    /// The straight beam without load: u = φ = 0, N = β.
     fn straight(&self) -> Equilibrium {
         let s = 1.0 + self.beam.beta;
-        let law = self.pinch.unwrap_or(self.law);
+        let law = self.held_tip.unwrap_or(self.law);
         let unstable = (s > 0.0).then(|| law.buckling_above(s));
         let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
         self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
     }
 
-    /// No load: the straight state, and a pair at each buckling value above β.
+    /// Without load: the straight state, and a pair of buckled states at each buckling value above β.
     fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        // With a support at 0 the straight beam touches without pressing: it is the free law's state.
+        // With a support at 0 the straight beam touches without pressing: the free law returns it.
         let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
-        let shallow = (1..=HALF_WAVES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
-        let deep = self.law.deep_buckling().map(|s| (s, None));
+        let above = (1..=BUCKLING_VALUES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
+        let below = self.law.buckling_below_minus_one().map(|s| (s, None));
         let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
-        for (s, unstable_directions) in shallow.chain(deep).filter(|(s, _)| exists(*s)) {
+        for (s, unstable_directions) in above.chain(below).filter(|(s, _)| exists(*s)) {
             for sign in [1.0, -1.0] {
-                let place = Place::Buckling(s, sign);
-                states.push(self.settle(&Root { place, unstable_directions, fold: false })?);
+                let position = Position::Buckling(s, sign);
+                states.push(self.state_at(&Root { position, unstable_directions, fold: false })?);
             }
         }
         Ok(states)
     }
 
-    /// A load: the roots of the scalar equation.
+    /// With a load: the roots of the scalar equation.
     fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
-        let roots = scan.shallow(HALF_WAVES + 1).into_iter().chain(scan.deep());
-        let states: Result<Vec<_>, _> = roots.map(|root| self.settle(&root)).collect();
+        let roots = scan.roots_above_minus_one(BUCKLING_VALUES + 1).into_iter().chain(scan.roots_below_minus_one());
+        let states: Result<Vec<_>, _> = roots.map(|root| self.state_at(&root)).collect();
         Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
     }
 
-    /// The free state at N = -1 that exists where `ρ(aθ_A)² = -1 - β` to round-off.
+    /// The free state at N = -1, which exists if `ρ(aθ_A)² = -1 - β` to round-off.
     fn at_minus_one(&self) -> Option<Equilibrium> {
         let Beam { beta, rho, .. } = *self.beam;
-        let slope = -self.law.drive;
+        let slope = -self.law.moment;
         let defect = -1.0 - beta - rho * slope * slope;
         let exists =
             self.law.support.is_none() && rho * slope != 0.0 && defect.abs() <= 4.0 * f64::EPSILON * beta.abs();
         exists.then(|| self.state(-1.0, Shape::Line { slope }, None, false))
     }
 
-    /// The state at a root, checked.
-    fn settle(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
+    /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
+    fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
         let Beam { beta, rho, .. } = *self.beam;
-        let shape = match root.place {
-            Place::Between(s) => self.law.solve(s),
-            Place::Buckling(s, sign) => self.buckled(s, sign)?,
+        let shape = match root.position {
+            Position::Between(s) => self.law.solve(s),
+            Position::Buckling(s, sign) => self.buckled(s, sign)?,
         };
         let shape = if root.fold { shape } else { polish(&self.law, beta, rho, shape) };
         let n_value = shape.n_value();
-        let stretch = rho * shape.stretch();
-        let defect = (n_value - beta - stretch) / (1.0 + n_value.abs().max(beta.abs()).max(stretch));
+        let tension = rho * shape.slope_squared();
+        let defect = (n_value - beta - tension) / (1.0 + n_value.abs().max(beta.abs()).max(tension));
         if defect.is_nan() || defect.abs() > CONSISTENCY {
             return Err(EquilibriumError::Inaccurate { contact: self.contact, n_value, defect });
         }
         Ok(self.state(n_value, shape, root.unstable_directions, root.fold))
     }
 
-    /// The buckling mode at s with the amplitude that makes `N = β + ρ‖u'‖²`, and the given sign.
+    /// The buckling mode at s with the given sign and the amplitude for which `N = β + ρ‖u'‖²`.
     fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
         let mode = self.law.mode(s);
-        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.stretch());
+        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.slope_squared());
         if square.is_nan() || square <= 0.0 {
             return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
         }
         let factor = sign * square.sqrt();
         Ok(match mode {
-            Shape::Wave(w) => {
-                Shape::Wave(Wave { alpha: factor * w.alpha, stress: factor * w.stress, drive: self.law.drive, ..w })
+            Shape::AboveMinusOne(w) => Shape::AboveMinusOne(AboveMinusOne {
+                alpha: factor * w.alpha,
+                stress: factor * w.stress,
+                moment: self.law.moment,
+                ..w
+            }),
+            Shape::BelowMinusOne(d) => {
+                Shape::BelowMinusOne(BelowMinusOne { stress: factor * d.stress, moment: self.law.moment, ..d })
             }
-            Shape::Deep(d) => Shape::Deep(Deep { stress: factor * d.stress, drive: self.law.drive, ..d }),
             line @ Shape::Line { .. } => line,
         })
     }
 
     fn state(&self, n_value: f64, shape: Shape, unstable_directions: Option<usize>, singular: bool) -> Equilibrium {
-        // Subtracted, so that no force is 0 and not -0.
+        // A difference, so that a zero force is 0 and not -0.
         let contact_force = 0.0 - shape.stress();
         let u_tip = match self.law.support {
-            // The same number without the cancellation that a compliance of 1e-8 would magnify.
+            // Equal to u(1), without the cancellation that a small compliance would magnify.
             Some(Support { epsilon, position }) => position + epsilon * contact_force,
             None => shape.u(1.0),
         };
@@ -174,42 +179,42 @@ mod tests {
     use super::super::EquilibriumError::{Bifurcation, Inaccurate};
     use super::*;
 
-    fn branch(beam: &Beam, support: Option<Support>, pinch: Option<Law>) -> Branch<'_> {
+    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch<'_> {
         let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
-        Branch { beam, contact, law: Law { drive: beam.a * beam.theta_a, support }, pinch }
+        Branch { beam, contact, law: Law { moment: beam.a * beam.theta_a, support }, held_tip }
     }
 
     #[test]
-    fn what_misses_the_scalar_equation_is_called_inaccurate_by_how_much() {
+    fn a_state_that_violates_the_scalar_equation_is_rejected_with_its_defect() {
         let beam = Beam { beta: -3.0, rho: 5.0, a: 1.0, theta_a: 0.4, ..Beam::default() };
         for support in [None, Some(Support { epsilon: 0.5, position: 0.1 })] {
             let branch = branch(&beam, support, None);
             for s in [0.7, 4.0, -0.5] {
-                let root = Root { place: Place::Between(s), unstable_directions: None, fold: true };
-                let (n, stretch) = (s - 1.0, beam.rho * branch.law.solve(s).stretch());
-                let largest = n.abs().max(3.0).max(stretch);
-                let Err(Inaccurate { n_value, defect, .. }) = branch.settle(&root) else { panic!("{s} is no root") };
+                let root = Root { position: Position::Between(s), unstable_directions: None, fold: true };
+                let (n, tension) = (s - 1.0, beam.rho * branch.law.solve(s).slope_squared());
+                let largest = n.abs().max(3.0).max(tension);
+                let Err(Inaccurate { n_value, defect, .. }) = branch.state_at(&root) else { panic!("{s} is no root") };
                 assert!((n_value - n).abs() < 1e-12);
-                assert!((defect - (n + 3.0 - stretch) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
+                assert!((defect - (n + 3.0 - tension) / (1.0 + largest)).abs() < 1e-12, "{s}: {defect}");
             }
-            let nan = Root { place: Place::Between(f64::NAN), unstable_directions: None, fold: true };
-            assert!(matches!(branch.settle(&nan), Err(Inaccurate { .. })));
+            let nan = Root { position: Position::Between(f64::NAN), unstable_directions: None, fold: true };
+            assert!(matches!(branch.state_at(&nan), Err(Inaccurate { .. })));
         }
     }
 
     #[test]
-    fn a_mode_carries_the_load_of_its_law_and_needs_a_buckling_value_above_beta() {
+    fn a_buckled_state_needs_a_buckling_value_above_beta() {
         let beam = Beam { beta: -4.0, rho: 2.0, a: 1.0, theta_a: 0.25, ..Beam::default() };
         let branch = branch(&beam, Some(Support { epsilon: 0.5, position: 0.1 }), None);
-        let values = [branch.law.buckling(1), branch.law.deep_buckling().unwrap()];
+        let values = [branch.law.buckling(1), branch.law.buckling_below_minus_one().unwrap()];
         for s in values {
             let shape = branch.buckled(s, -1.0).unwrap();
-            let drive = match shape {
-                Shape::Wave(wave) => wave.drive,
-                Shape::Deep(deep) => deep.drive,
+            let moment = match shape {
+                Shape::AboveMinusOne(wave) => wave.moment,
+                Shape::BelowMinusOne(below) => below.moment,
                 Shape::Line { .. } => f64::NAN,
             };
-            assert_eq!(drive, 0.25);
+            assert_eq!(moment, 0.25);
         }
         let stiff = Beam { beta: 3.0, ..beam };
         let branch = Branch { beam: &stiff, ..branch };
@@ -219,33 +224,34 @@ mod tests {
         }
     }
 
-    /// A determinant is called zero below 1e-13 of the sum of its terms' sizes, and N a pole within 1e-13 of itself.
+    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a pole within 1e-13 of
+    /// it.
     #[test]
-    fn resonance_is_called_to_round_off() {
+    fn resonance_is_detected_to_round_off() {
         let is_resonant = |beta: f64, support: Option<Support>| {
             let beam = Beam { beta, rho: 0.0, a: 1.0, theta_a: 0.5, ..Beam::default() };
             branch(&beam, support, None).resonant(1.0 + beta).is_some()
         };
         for support in [None, Some(Support { epsilon: 12.0, position: 0.1 })] {
-            let law = Law { drive: 0.5, support };
+            let law = Law { moment: 0.5, support };
             let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
             let excess = |beta: f64| {
                 let q = 1.0 / (1.0 + beta);
                 law.determinant(q).abs() / (RESONANCE * size(q))
             };
-            let mut told = [0, 0];
+            let mut counts = [0, 0];
             for k in 1..=3 {
                 let beta = law.buckling(k) - 1.0;
                 for step in -40..=40 {
                     let beta = beta + f64::from(step) * 4e-15;
-                    told[usize::from(is_resonant(beta, support))] += 1;
+                    counts[usize::from(is_resonant(beta, support))] += 1;
                     assert_eq!(is_resonant(beta, support), excess(beta) <= 1.0, "{beta} of {law:?}: {}", excess(beta));
                 }
             }
-            assert!(told[0] > 50 && told[1] > 10, "{told:?}");
+            assert!(counts[0] > 50 && counts[1] > 10, "{counts:?}");
         }
         let support = Some(Support { epsilon: 0.05, position: 0.1 });
-        let pole = Law { drive: 0.5, support }.deep_buckling().unwrap();
+        let pole = Law { moment: 0.5, support }.buckling_below_minus_one().unwrap();
         for (relative, expected) in [(-2e-13, false), (-7e-14, true), (0.0, true), (7e-14, true), (2e-13, false)] {
             assert_eq!(is_resonant(pole * (1.0 + relative) - 1.0, support), expected, "{relative:e}");
         }
@@ -266,31 +272,31 @@ mod tests {
         assert_eq!((line.n_value, line.u_tip, line.unstable_directions), (-1.0, -0.5, None));
     }
 
-    /// β with 1 + β equal to the bits of s, where there is one.
+    /// β for which 1 + β is exactly s, if it exists.
     fn beta_at(s: f64) -> Option<f64> {
         Some(s - 1.0).filter(|beta| 1.0 + beta == s)
     }
 
     #[test]
-    fn a_pinched_beam_at_its_own_buckling_value_is_not_called_stable() {
+    fn a_beam_held_by_both_obstacles_is_not_stable_at_its_buckling_value() {
         let mut tried = 0;
         for k in 0..50 {
             let support = Support { epsilon: 1e-3 * f64::from(1 + k), position: 0.0 };
-            let pinch = Law { drive: 0.0, support: Some(support) };
-            let Some(beta) = beta_at(pinch.buckling(1)) else { continue };
+            let held_tip = Law { moment: 0.0, support: Some(support) };
+            let Some(beta) = beta_at(held_tip.buckling(1)) else { continue };
             let at = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let above = Beam { beta: beta + 1e-12, ..at };
-            assert!(!branch(&at, None, Some(pinch)).straight().stable, "{support:?}");
-            assert!(branch(&above, None, Some(pinch)).straight().stable, "{support:?}");
+            assert!(!branch(&at, None, Some(held_tip)).straight().stable, "{support:?}");
+            assert!(branch(&above, None, Some(held_tip)).straight().stable, "{support:?}");
             tried += 1;
         }
         assert!(tried > 5, "{tried}");
     }
 
     #[test]
-    fn at_a_free_buckling_value_the_straight_beam_alone_is_left() {
+    fn at_its_buckling_value_a_buckled_pair_merges_with_the_straight_beam() {
         let mut tried = 0;
-        for k in 1..=HALF_WAVES {
+        for k in 1..=BUCKLING_VALUES {
             let Some(beta) = beta_at(free_buckling(k)) else { continue };
             let beam = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let states = branch(&beam, None, None).states().unwrap();

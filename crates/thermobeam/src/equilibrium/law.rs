@@ -1,22 +1,22 @@
-//! The static problem for a given N: linear, one law for each state of contact.
+//! The static problem for given N: linear, with one law for each state of contact.
 
-use super::shape::{Deep, Shape, Wave};
+use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 use crate::bracket::bisect;
 use std::f64::consts::PI;
 
-/// What the free end rests on, and what loads the beam.
+/// Load of the beam and support of its tip.
 ///
-/// Without a support c = 0. With one, `c = -(u(1) - position) / ε`, pulling as well as pushing: whether the state
-/// found really presses is for the caller to judge.
+/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller
+/// checks whether the state presses the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Law {
-    /// aθ_A.
-    pub(super) drive: f64,
-    /// The obstacle touched.
+    /// The thermal moment aθ_A.
+    pub(super) moment: f64,
+    /// The obstacle in contact.
     pub(super) support: Option<Support>,
 }
 
-/// One obstacle: a spring of compliance ε, relaxed where u(1) = position.
+/// An obstacle: a spring of compliance ε, relaxed at u(1) = position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Support {
     /// ε.
@@ -25,7 +25,7 @@ pub(super) struct Support {
     pub(super) position: f64,
 }
 
-/// `1 + N_k = 1 / (1 + κ²)`, κ = (k - 1/2)π: where the beam without support buckles into k quarter waves and more.
+/// `1 + N_k = 1/(1 + κ²)`, κ = (k - 1/2)π: the k-th buckling value of the beam without support.
 ///
 /// * `k` counts from 1.
 pub(super) fn free_buckling(k: usize) -> f64 {
@@ -33,7 +33,7 @@ pub(super) fn free_buckling(k: usize) -> f64 {
     1.0 / (1.0 + kappa * kappa)
 }
 
-/// How many `free_buckling` values lie strictly above s > 0.
+/// Number of [`free_buckling`] values strictly above s > 0.
 fn free_buckling_above(s: f64) -> usize {
     let reach = (1.0 / s - 1.0).max(0.0).sqrt() / PI + 0.5;
     // Strictly above: at s = 1 + N_k itself the k-th does not count.
@@ -41,23 +41,28 @@ fn free_buckling_above(s: f64) -> usize {
 }
 
 impl Law {
-    /// No load at all: the straight beam solves the law for every N.
+    /// Whether nothing loads the beam: then the straight beam solves the law for every N.
     pub(super) fn homogeneous(&self) -> bool {
-        self.drive == 0.0 && self.support.is_none_or(|support| support.position == 0.0)
+        self.moment == 0.0 && self.support.is_none_or(|support| support.position == 0.0)
     }
 
-    /// The shape at `s = 1 + N`, which must be neither 0 nor a buckling value of this law.
+    /// The shape at `s = 1 + N`; s must be neither 0 nor a buckling value of this law.
     pub(super) fn solve(&self, s: f64) -> Shape {
-        if s > 0.0 { Shape::Wave(self.solve_wave(1.0 / s)) } else { Shape::Deep(self.solve_deep(1.0 / s)) }
+        if s > 0.0 {
+            Shape::AboveMinusOne(self.solve_above(1.0 / s))
+        } else {
+            Shape::BelowMinusOne(self.solve_below(1.0 / s))
+        }
     }
 
-    fn solve_wave(&self, q: f64) -> Wave {
+    fn solve_above(&self, q: f64) -> AboveMinusOne {
         let (rotation, stress) = self.numerators(q);
         let determinant = self.determinant(q);
-        Wave { q, alpha: rotation / determinant, stress: stress / determinant, drive: self.drive }
+        AboveMinusOne { q, alpha: rotation / determinant, stress: stress / determinant, moment: self.moment }
     }
 
-    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` on (α, c), or of the first alone on α.
+    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a
+    /// support.
     pub(super) fn determinant(&self, q: f64) -> f64 {
         use crate::stumpff::{c0, c1, c2, c3};
         let x = q - 1.0;
@@ -72,28 +77,29 @@ impl Law {
         use crate::stumpff::{c0, c1, c2, c3};
         let x = q - 1.0;
         match self.support {
-            None => (self.drive * c2(x), 0.0),
+            None => (self.moment * c2(x), 0.0),
             Some(Support { epsilon, position }) => (
-                c2(x) * (self.drive * (epsilon + q) + q * position),
-                c0(x) * (position + q * self.drive * c3(x)) - q * c1(x) * self.drive * c2(x),
+                c2(x) * (self.moment * (epsilon + q) + q * position),
+                c0(x) * (position + q * self.moment * c3(x)) - q * c1(x) * self.moment * c2(x),
             ),
         }
     }
 
-    fn solve_deep(&self, q: f64) -> Deep {
-        let mut deep = Deep { q, stress: 0.0, drive: self.drive };
+    fn solve_below(&self, q: f64) -> BelowMinusOne {
+        let mut below = BelowMinusOne { q, stress: 0.0, moment: self.moment };
         if let Some(Support { epsilon, position }) = self.support {
-            // Without stress u(1) = q aθ_A (1 - T)/k²; each unit of stress adds the flexibility.
-            let loaded = q * self.drive * (1.0 - deep.t()) / (1.0 - q);
-            deep.stress = (position - loaded) / (epsilon + flexibility(&deep));
+            // Without stress u(1) = q aθ_A (1 - T)/k²; a unit of stress adds the flexibility.
+            let loaded = q * self.moment * (1.0 - below.t()) / (1.0 - q);
+            below.stress = (position - loaded) / (epsilon + flexibility(&below));
         }
-        deep
+        below
     }
 
-    /// `1 + N` at this law's k-th buckling value above N = -1, where the linear problem is singular; k from 1.
+    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from
+    /// 1.
     ///
-    /// A support is a rank-one stiffness, so its values interlace with the free ones: the k-th lies strictly
-    /// between the free k-th and (k+1)-st, with equality impossible because u(1) ≠ 0 in every free buckling mode.
+    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th lies strictly
+    /// between the k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0 in every free buckling mode.
     pub(super) fn buckling(&self, k: usize) -> f64 {
         if self.support.is_none() {
             return free_buckling(k);
@@ -102,47 +108,47 @@ impl Law {
         1.0 / bisect(|q| self.determinant(q), from, to)
     }
 
-    /// `1 + N` at the one buckling value below N = -1, which only a support has.
+    /// `1 + N` at the single buckling value below N = -1, which exists only with a support.
     ///
-    /// There the flexibility falls from 0 (N → -∞) to -∞ (N → -1), so it meets -ε exactly once.
-    pub(super) fn deep_buckling(&self) -> Option<f64> {
+    /// The flexibility decreases from 0 (N → -∞) to -∞ (N → -1) and equals -ε exactly once.
+    pub(super) fn buckling_below_minus_one(&self) -> Option<f64> {
         let Support { epsilon, .. } = self.support?;
-        let excess = |s: f64| epsilon + flexibility(&Deep { q: 1.0 / s, stress: 0.0, drive: 0.0 });
-        // Flexibility is close to 1/s far out and to -1/√-s close in: both ends are beyond the root.
+        let excess = |s: f64| epsilon + flexibility(&BelowMinusOne { q: 1.0 / s, stress: 0.0, moment: 0.0 });
+        // The flexibility is about 1/s for large -s and -1/√-s near s = 0: the two ends bracket the root.
         let far = -4.0 - 4.0 / epsilon;
         let near = -1e-3 * (1.0 + epsilon).powi(-2);
         Some(bisect(excess, far, near))
     }
 
-    /// How many of this law's buckling values lie strictly above s > 0.
+    /// Number of buckling values of this law strictly above s > 0.
     pub(super) fn buckling_above(&self, s: f64) -> usize {
         let free = free_buckling_above(s);
         if self.support.is_none() || free == 0 || self.buckling(free) > s { free } else { free - 1 }
     }
 
-    /// The buckling mode at the buckling value s, of some amplitude.
+    /// The buckling mode at the buckling value s, not normalised.
     pub(super) fn mode(&self, s: f64) -> Shape {
         use crate::stumpff::{c0, c2};
         let q = 1.0 / s;
         if s < 0.0 {
-            return Shape::Deep(Deep { q, stress: 1.0, drive: 0.0 });
+            return Shape::BelowMinusOne(BelowMinusOne { q, stress: 1.0, moment: 0.0 });
         }
-        // The null vector of the clamping row; for the free beam c0 is zero here but for round-off.
+        // Null vector of the row φ(0) = 0; for the free beam c0 is zero here up to round-off.
         let stress = if self.support.is_none() { 0.0 } else { c0(q - 1.0) };
         let alpha = if self.support.is_none() { 1.0 } else { q * c2(q - 1.0) };
-        Shape::Wave(Wave { q, alpha, stress, drive: 0.0 })
+        Shape::AboveMinusOne(AboveMinusOne { q, alpha, stress, moment: 0.0 })
     }
 
-    /// The sign with which the mode enters the solution just above the buckling value s; just below it is the opposite.
+    /// Sign of the mode in the solution just above the buckling value s; just below it is the opposite.
     pub(super) fn sign_above(&self, s: f64) -> f64 {
         let step = 1e-6 * s.abs();
         let (numerator, slope) = match self.mode(s) {
-            Shape::Wave(mode) => {
+            Shape::AboveMinusOne(mode) => {
                 let (rotation, stress) = self.numerators(mode.q);
                 let slope = self.determinant(1.0 / (s + step)) - self.determinant(1.0 / (s - step));
                 (rotation * mode.alpha + stress * mode.stress, slope)
             }
-            Shape::Deep(_) | Shape::Line { .. } => {
+            Shape::BelowMinusOne(_) | Shape::Line { .. } => {
                 let stress = |s: f64| self.solve(s).stress();
                 (stress(s + step) - stress(s - step), 1.0)
             }
@@ -151,9 +157,9 @@ impl Law {
     }
 }
 
-/// The displacement of the tip that a unit of stress makes for N < -1, `q (1 - qT) / k²`.
-fn flexibility(deep: &Deep) -> f64 {
-    deep.q * (1.0 - deep.q * deep.t()) / (1.0 - deep.q)
+/// Tip displacement per unit of stress for N < -1, `q (1 - qT)/k²`.
+fn flexibility(below: &BelowMinusOne) -> f64 {
+    below.q * (1.0 - below.q * below.t()) / (1.0 - below.q)
 }
 
 #[cfg(test)]
@@ -161,26 +167,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mode_changes_sign_at_each_buckling_value_as_announced() {
+    fn the_amplitude_changes_sign_at_each_buckling_value() {
         let support = |position| Some(Support { epsilon: 0.3, position });
         for law in [(0.4, None), (-0.4, None), (0.4, support(0.2)), (-0.7, support(0.2)), (0.7, support(-0.2))]
-            .map(|(drive, support)| Law { drive, support })
+            .map(|(moment, support)| Law { moment, support })
         {
-            for s in (1..=12).map(|k| law.buckling(k)).chain(law.deep_buckling()) {
+            for s in (1..=12).map(|k| law.buckling(k)).chain(law.buckling_below_minus_one()) {
                 let amplitude = |s: f64| match (law.solve(s), law.mode(s)) {
-                    (Shape::Wave(found), Shape::Wave(mode)) => found.alpha / mode.alpha,
+                    (Shape::AboveMinusOne(found), Shape::AboveMinusOne(mode)) => found.alpha / mode.alpha,
                     (found, mode) => found.stress() / mode.stress(),
                 };
                 let (above, below) = (amplitude(s + 1e-6 * s.abs()), amplitude(s - 1e-6 * s.abs()));
-                assert!(above.abs() > 10.0 && above * below < 0.0, "no pole at {s} of {law:?}");
+                assert!(above.abs() > 10.0 && above * below < 0.0, "expected a pole at {s} of {law:?}");
                 assert_eq!(law.sign_above(s), above.signum(), "{s} of {law:?}");
             }
         }
     }
 
     #[test]
-    fn as_many_free_buckling_values_lie_above_as_are_larger() {
-        let law = Law { drive: 0.0, support: None };
+    fn free_buckling_values_above_a_number_are_counted() {
+        let law = Law { moment: 0.0, support: None };
         for k in 1..=40 {
             let s = free_buckling(k);
             assert_eq!([s * (1.0 + 1e-9), s * (1.0 - 1e-9)].map(|s| law.buckling_above(s)), [k - 1, k]);
@@ -191,7 +197,7 @@ mod tests {
     #[test]
     fn supported_buckling_values_interlace_with_the_free_ones() {
         for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
-            let law = Law { drive: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            let law = Law { moment: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
             for k in 1..=20 {
                 let s = law.buckling(k);
                 assert!(free_buckling(k + 1) < s && s < free_buckling(k), "{k}-th at epsilon = {epsilon}");
@@ -202,18 +208,18 @@ mod tests {
     }
 
     #[test]
-    fn below_minus_one_a_support_gives_way_once_at_its_compliance() {
+    fn below_minus_one_the_tip_flexibility_equals_the_compliance_once() {
         for epsilon in [1e-8, 1e-4, 0.01, 0.3, 1.0, 3.0, 100.0, 1e4, 1e8] {
-            let law = Law { drive: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
-            let s = law.deep_buckling().unwrap();
+            let law = Law { moment: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            let s = law.buckling_below_minus_one().unwrap();
             let flexibility = |s: f64| match law.mode(s) {
-                mode @ Shape::Deep(_) => mode.u(1.0),
+                mode @ Shape::BelowMinusOne(_) => mode.u(1.0),
                 shape => panic!("{shape:?} at {s}"),
             };
             // A unit of stress moves the tip by -ε there, by less above and by more below.
             assert!((flexibility(s) / -epsilon - 1.0).abs() < 1e-12, "{epsilon}: {s}");
             assert!(flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999));
         }
-        assert_eq!(Law { drive: 0.0, support: None }.deep_buckling(), None);
+        assert_eq!(Law { moment: 0.0, support: None }.buckling_below_minus_one(), None);
     }
 }

@@ -1,15 +1,15 @@
 //! All steady states of a beam, in closed form.
 //!
-//! # The static problem is linear once N is known
+//! # The static problem is linear for given N
 //!
-//! Without motion the third equation of (1.1) leaves `θ = θ_A (1 - x)`. With `N = β + ρ‖u'‖²` the other two are
+//! Without motion the third equation of (1.1) gives `θ = θ_A (1 - x)`. With `N = β + ρ‖u'‖²`, (2.3), the other two are
 //!
 //! ```text
 //! ((1 + N) u' - φ)' = 0,        φ'' + u' - φ + aθ_A = 0,
 //! u(0) = φ(0) = 0,   φ'(1) = 0,   (1 + N) u'(1) - φ(1) = c := -g(u(1)).
 //! ```
 //!
-//! The first says that `(1 + N) u' - φ = c` everywhere. With `q = 1/(1 + N)`, u' = q (φ + c), and the second becomes
+//! By the first equation `(1 + N) u' - φ = c` for all x. With `q = 1/(1 + N)`, `u' = q (φ + c)`, and the second becomes
 //!
 //! ```text
 //! φ'' + (q - 1) φ + d = 0,      d = aθ_A + cq,      q - 1 = -N/(1 + N) =: X.
@@ -23,39 +23,41 @@
 //! N > 0, k² = -X:     C = cosh ky,    W = (cosh ky - 1)/k²
 //! ```
 //!
-//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: one formula, smooth in N. φ(0) = 0 and the contact law
-//! are two linear equations for (α, c):
+//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: one formula, smooth in N. The clamping φ(0) = 0 and
+//! the contact law are two linear equations for (α, c):
 //!
 //! ```text
 //! C(1) α - W(1) d = 0,        εc + u(1) = g  in contact with the obstacle at g,  or  c = 0  without,
 //! u(1) = q (α c_1(X) - d c_3(X) + c).
 //! ```
 //!
-//! Their determinant vanishes at the buckling values of the law. Free, that is where cos k = 0:
-//! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. In contact there is one value between N_{k+1} and N_k for each k,
-//! and one more near N = -1 - 1/ε, where the spring gives way.
+//! Their determinant vanishes at the buckling values of the law. Without contact these are the zeros of cos k:
+//! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. With contact there is one value between N_{k+1} and N_k for each k, and one
+//! more near N = -1 - 1/ε, where the negative stiffness of the beam has the size of the obstacle's.
 //!
-//! # N is one scalar equation
+//! # N is the root of one scalar equation
 //!
-//! `N = β + ρ‖u'‖²`, ‖u'‖² in closed form too. `scan` shows why each law has at most two roots between two
-//! of its buckling values, finds them all, and counts the unstable directions of each without any discretisation.
-//! A contact state counts only if it presses (c < 0 on top, c > 0 below), a free one only if `g₁ <= u(1) <= g₂`.
+//! `N = β + ρ‖u'‖²`, with ‖u'‖² in closed form. `scan` proves that each law has at most two roots between neighbouring
+//! buckling values, finds all of them, and counts the unstable directions of each state without a discretisation. A
+//! root is a contact state only if it presses the obstacle (c < 0 on the upper, c > 0 on the lower one), and a free
+//! state only if `g₁ <= u(1) <= g₂`.
 //!
 //! # Buckled states
 //!
-//! Where nothing loads the beam (aθ_A = 0, and no contact or contact with an obstacle at 0) the straight beam solves the
-//! law for every N, and bent states sit exactly on the buckling values N_k > β: both signs of the mode, with the amplitude
-//! that makes N_k = β + ρ‖u'‖². A small load splits each of these into two states on either side of N_k.
+//! Without a load (aθ_A = 0, and no contact or contact with an obstacle at 0) the straight beam solves the law for
+//! every N, and bent states exist exactly at the buckling values N_k > β: the mode with either sign, and with the
+//! amplitude for which N_k = β + ρ‖u'‖². A small load splits each of these into two states, one on each side of N_k.
 //!
 //! # N <= -1, and β <= -1
 //!
-//! For N < -1 the sign of u'' turns: k² = 1 - q > 1, all hyperbolic, no free buckling value. At N = -1 exactly
-//! φ = -c = 0 and u' = -aθ_A, a state where `ρ(aθ_A)² = -1 - β`. The second variation has infinitely many negative
-//! directions at N <= -1: none of these is ever stable.
-//! The buckling values N_k accumulate at -1 from above, so that for β <= -1 there are infinitely many states:
-//! see [`equilibria`] for what is listed.
+//! For N < -1 the coefficient of u'' is negative: k² = 1 - q > 1, all functions are hyperbolic, and there is no
+//! buckling value without contact. At N = -1 exactly φ = -c = 0 and u' = -aθ_A, a state that exists for
+//! `ρ(aθ_A)² = -1 - β`. The second variation has infinitely many negative directions at N <= -1: none of these states
+//! is stable. The buckling values N_k accumulate at -1 from above, so for β <= -1 there are infinitely many states:
+//! [`equilibria`] documents which of them it returns.
 //!
-//! Source: (1.1)-(1.3) of Bernardi and Copetti; the classification by N follows Sapir and Reiss for the beam without contact.
+//! Source: the steady form of (1.1) and (1.3); the classification by N follows Sapir and Reiss (reference \[16\] of the
+//! paper) for the beam without contact.
 
 mod branch;
 mod law;
@@ -69,52 +71,59 @@ use law::{Law, Support, free_buckling};
 use shape::Shape;
 use thiserror::Error;
 
-/// [`equilibria`] lists the states with N above the buckling value of this many quarter waves, plus one.
+/// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
 ///
-/// A state below it has at least `HALF_WAVES - 1` unstable directions, so every stable state is listed whatever β.
-pub const HALF_WAVES: usize = 16;
+/// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for
+/// any β.
+pub const BUCKLING_VALUES: usize = 16;
 
-/// Which obstacle the free end presses against.
+/// The obstacle that the tip presses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Contact {
-    /// None: `g₁ <= u(1) <= g₂`.
+    /// No obstacle: `g₁ <= u(1) <= g₂`.
     Free,
-    /// The upper one, `u(1) > g₂`.
+    /// The upper obstacle, `u(1) > g₂`.
     Upper,
-    /// The lower one, `u(1) < g₁`.
+    /// The lower obstacle, `u(1) < g₁`.
     Lower,
 }
 
-/// Why the steady states could not be told.
+/// Why the steady states cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EquilibriumError {
-    /// A coefficient is out of its range.
+    /// A coefficient out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The linear beam (ρ = 0) at a buckling value: a continuum of states if nothing loads it, none otherwise.
-    #[error("the linear beam buckles at N = {n_value} ({contact:?}): no state, or a continuum of them")]
+    /// ρ = 0 and β is a buckling value: the linear problem has infinitely many solutions without a load, and none with
+    /// one.
+    #[error(
+        "the linear problem is singular at the buckling value N = {n_value} ({contact:?}): change beta, or take rho > 0"
+    )]
     Resonance {
-        /// The contact state.
+        /// The state of contact.
         contact: Contact,
         /// N = β.
         n_value: f64,
     },
-    /// β and a buckling value are so close, and the load so small, that round-off decides how many states there are.
-    #[error("beta is within round-off of the buckling value N = {n_value} ({contact:?})")]
+    /// β is within round-off of a buckling value and the load is small: the number of states is undetermined.
+    #[error("beta is within round-off of the buckling value N = {n_value} ({contact:?}): change beta")]
     Bifurcation {
-        /// The contact state.
+        /// The state of contact.
         contact: Contact,
         /// The buckling value.
         n_value: f64,
     },
-    /// A state was found whose N = β + ρ‖u'‖² does not hold: the coefficients are too large for double precision.
-    #[error("the state at N = {n_value} ({contact:?}) misses N = beta + rho |u'|^2 by {defect:e}")]
+    /// A computed state violates N = β + ρ‖u'‖²: the coefficients are too large for double precision.
+    #[error(
+        "the state at N = {n_value} ({contact:?}) violates N = beta + rho |u'|^2 by a relative defect of {defect:e}: \
+         take smaller coefficients"
+    )]
     Inaccurate {
-        /// The contact state.
+        /// The state of contact.
         contact: Contact,
-        /// N.
+        /// N of the state.
         n_value: f64,
-        /// How far the equation is from holding, relative.
+        /// `N - β - ρ‖u'‖²` over one plus the largest of its terms.
         defect: f64,
     },
 }
@@ -122,22 +131,23 @@ pub enum EquilibriumError {
 /// A steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
-    /// Which obstacle is touched.
+    /// The obstacle that is pressed.
     pub contact: Contact,
-    /// N = β + ρ‖u'‖².
+    /// Axial force N = β + ρ‖u'‖².
     pub n_value: f64,
     /// u(1).
     pub u_tip: f64,
     /// φ(1).
     pub phi_tip: f64,
-    /// g(u(1)): what the beam presses with, positive on the upper obstacle, negative on the lower, zero when free.
+    /// Contact force g(u(1)): positive at the upper obstacle, negative at the lower, zero without contact.
     pub contact_force: f64,
-    /// The second variation of the potential energy is positive definite: a strict minimum.
+    /// Whether the second variation of the potential energy is positive definite: a strict minimum.
     ///
-    /// At a fold or a bifurcation it is only semidefinite, and this is false. Where the straight beam touches one obstacle
-    /// without pressing, only one direction of u(1) is stiffened, which helps no minimum; where it touches both, both are.
+    /// False at a fold or a bifurcation, where it is only semidefinite. An obstacle that the straight beam touches
+    /// without pressing stiffens one direction of u(1) only and does not count; two obstacles that hold the tip from
+    /// both sides do.
     pub stable: bool,
-    /// Negative directions of the second variation; none if there are infinitely many (N <= -1).
+    /// Number of negative directions of the second variation; `None` if there are infinitely many (N <= -1).
     pub unstable_directions: Option<usize>,
     shape: Shape,
 }
@@ -164,22 +174,25 @@ impl Equilibrium {
     }
 }
 
-/// Whether [`equilibria`] lists every steady state, which it does for β > -0.9996.
+/// Whether [`equilibria`] returns every steady state, which holds for β > -0.9996.
 ///
-/// Every state has N >= β, so none is left out while β is at least the lowest buckling value looked at.
+/// Every state has N >= β, so the list is complete if β is at least the lowest buckling value that is searched.
 pub fn lists_all(beam: &Beam) -> bool {
-    1.0 + beam.beta >= free_buckling(HALF_WAVES + 1)
+    1.0 + beam.beta >= free_buckling(BUCKLING_VALUES + 1)
 }
 
 /// All steady states, sorted by u(1), then N.
 ///
-/// * `obstacles`: none leaves the tip free.
-/// * Where β is so far down that states accumulate at N = -1 (see [`lists_all`]): all with N above the buckling value
-///   N_{[`HALF_WAVES`] + 1} and all with N <= -1. Those in between are all unstable.
+/// * `obstacles`: `None` leaves the tip free.
+/// * For β so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value of
+///   index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
 ///
-/// Errors: a coefficient out of range; ρ = 0 at a buckling value; β at a buckling value with a load at round-off level.
-/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice; a fold is told from
-/// two states, or none, to round-off of N.
+/// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the
+/// number of states (none, one or two) is determined to round-off of N.
+///
+/// # Errors
+/// [`EquilibriumError`] for a coefficient out of range, for ρ = 0 at a buckling value, for β at a buckling value with a
+/// load of the size of round-off, and where the computed state is inaccurate.
 ///
 /// ```
 /// use thermobeam::equilibrium::{Contact, equilibria};
@@ -198,7 +211,7 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
     }
     let mut found = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
-        let branch = Branch { beam, contact, law, pinch: pinch(obstacles) };
+        let branch = Branch { beam, contact, law, held_tip: held_tip(obstacles) };
         let states = branch.states()?;
         found.extend(states.into_iter().filter(|state| is_consistent(state, obstacles)));
     }
@@ -207,23 +220,23 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
 }
 
 fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
-    let drive = beam.a * beam.theta_a;
-    let mut laws = vec![(Contact::Free, Law { drive, support: None })];
+    let moment = beam.a * beam.theta_a;
+    let mut laws = vec![(Contact::Free, Law { moment, support: None })];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
-        let on = |position| Law { drive, support: Some(Support { epsilon, position }) };
+        let on = |position| Law { moment, support: Some(Support { epsilon, position }) };
         laws.push((Contact::Upper, on(g2)));
         laws.push((Contact::Lower, on(g1)));
     }
     laws
 }
 
-/// The spring that holds the tip at 0 in both directions, where both obstacles stand there.
-fn pinch(obstacles: Option<&Obstacles>) -> Option<Law> {
+/// The spring that holds the tip at 0 in both directions if both obstacles stand there.
+fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
-    Some(Law { drive: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
+    Some(Law { moment: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
 }
 
-/// Whether the state is in the state of contact whose law it solves.
+/// Whether a root satisfies the inequalities of the state of contact whose law it solves.
 fn is_consistent(state: &Equilibrium, obstacles: Option<&Obstacles>) -> bool {
     match state.contact {
         Contact::Free => obstacles.is_none_or(|o| (o.g1..=o.g2).contains(&state.u_tip)),
@@ -237,7 +250,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_contact_state_presses_and_a_free_one_lies_between_the_obstacles_or_touches() {
+    fn a_consistent_state_presses_its_obstacle_or_lies_between_both() {
         let obstacles = Obstacles { epsilon: 1.0, g1: -0.25, g2: 0.5 };
         let state = |contact, contact_force, u_tip| Equilibrium {
             contact,

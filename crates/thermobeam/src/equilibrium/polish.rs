@@ -1,40 +1,40 @@
 //! Newton's method on the pole-free system for (N, α, c), from an approximate state.
 //!
-//! The scan's f has poles, and a root beside one knows its distance to it, hence its amplitude, only to round-off
-//! over distance. The three conditions
+//! The f of the scan has poles: near one, the distance to it, and with it the amplitude, carries a relative error of
+//! round-off over that distance. The three conditions
 //!
 //! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
 //!
-//! have no poles, and are regular at every state that is not a fold or a bifurcation. Below N = -1 the shape has
-//! φ(0) = 0 built in and needs no α: there α = 0 stands in for the first condition.
+//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below N = -1 the shape
+//! satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
 
 use super::law::{Law, Support};
-use super::shape::{Deep, Shape, Wave};
+use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
 
-/// Steps after which the iteration is given up; it converges quadratically but for the differenced Jacobian.
+/// Iteration limit; the convergence is quadratic up to the error of the difference quotients.
 const STEPS: usize = 12;
 
-/// Step of the central differences, relative: exact for α and c, in which the conditions are quadratic.
+/// Relative step of the central differences, which are exact in α and c: the conditions are quadratic in them.
 const DIFFERENCE: f64 = 1e-5;
 
-/// A first step larger than this, relative, belongs to a fold, where the scan's answer is the better one.
+/// A larger first relative step indicates a fold, where the result of the scan is more accurate.
 const LARGEST_FIRST_STEP: f64 = 1e-3;
 
 type Vector = [f64; 3];
 
-/// Improves a state; returns it unchanged where Newton's method has no business.
+/// Improves a state by Newton's method; returns it unchanged if the first step is too large.
 pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     let residual = |v: Vector| residual(law, beta, rho, v);
     let mut state = match start {
         Shape::Line { .. } => return start,
-        Shape::Wave(wave) => [1.0 / wave.q, wave.alpha, wave.stress],
-        Shape::Deep(deep) => [1.0 / deep.q, 0.0, deep.stress],
+        Shape::AboveMinusOne(wave) => [1.0 / wave.q, wave.alpha, wave.stress],
+        Shape::BelowMinusOne(below) => [1.0 / below.q, 0.0, below.stress],
     };
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
         let Some(step) = newton_step(&residual, state) else { break };
         let size = relative_size(step, state);
-        // Not smaller than before: round-off is reached, or the start was no start.
+        // No decrease: round-off is reached, or the start was too far away.
         if size.is_nan() || size >= bound {
             break;
         }
@@ -44,7 +44,7 @@ pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     unpack(law, state)
 }
 
-/// `max(|ds|/s, |dα| and |dc| over the larger of both)`.
+/// `|ds|/|s| + max(|dα|, |dc|)/max(|α|, |c|)`.
 fn relative_size(step: Vector, state: Vector) -> f64 {
     let bending = state[1].abs().max(state[2].abs());
     let change = step[1].abs().max(step[2].abs());
@@ -52,8 +52,12 @@ fn relative_size(step: Vector, state: Vector) -> f64 {
 }
 
 fn unpack(law: &Law, [s, alpha, stress]: Vector) -> Shape {
-    let (q, drive) = (1.0 / s, law.drive);
-    if s > 0.0 { Shape::Wave(Wave { q, alpha, stress, drive }) } else { Shape::Deep(Deep { q, stress, drive }) }
+    let (q, moment) = (1.0 / s, law.moment);
+    if s > 0.0 {
+        Shape::AboveMinusOne(AboveMinusOne { q, alpha, stress, moment })
+    } else {
+        Shape::BelowMinusOne(BelowMinusOne { q, stress, moment })
+    }
 }
 
 /// The three conditions.
@@ -65,7 +69,7 @@ fn residual(law: &Law, beta: f64, rho: f64, v: Vector) -> Vector {
         None => stress,
         Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
     };
-    [clamped, contact, s - (1.0 + beta) - rho * shape.stretch()]
+    [clamped, contact, s - (1.0 + beta) - rho * shape.slope_squared()]
 }
 
 fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Vector> {
@@ -84,7 +88,7 @@ fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Ve
     solve(jacobian, residual(state))
 }
 
-/// Solves a 3 x 3 system by Cramer's rule; none if it is singular.
+/// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.
 fn solve(a: [Vector; 3], b: Vector) -> Option<Vector> {
     let cross = |x: Vector, y: Vector| -> Vector {
         [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
@@ -95,7 +99,7 @@ fn solve(a: [Vector; 3], b: Vector) -> Option<Vector> {
     if determinant == 0.0 || !determinant.is_finite() {
         return None;
     }
-    // Columns of the inverse are the cross products of the rows of a, over the determinant.
+    // The columns of the inverse are cross products of the rows of a over the determinant.
     let component = |i: usize| (0..3).map(|j| inverse_rows[j][i] * b[j]).sum::<f64>() / determinant;
     Some([component(0), component(1), component(2)])
 }
@@ -105,45 +109,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_size_of_a_step_is_relative_to_s_and_to_the_larger_of_the_other_two() {
+    fn the_newton_step_is_measured_relative_to_the_state() {
         assert!((relative_size([0.1, 0.3, -0.4], [-2.0, 1.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
         assert!((relative_size([0.1, -0.5, 0.4], [2.0, 10.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
-        // A state without bending, as the straight beam is, that stays so.
+        // The straight beam: no bending, and no change of it.
         assert_eq!(relative_size([0.5, 0.0, 0.0], [2.0, 0.0, 0.0]), 0.25);
     }
 
     #[test]
-    fn the_conditions_are_those_of_the_modules_head() {
-        let law = |epsilon, position| Law { drive: 0.5, support: Some(Support { epsilon, position }) };
+    fn the_residual_equals_the_documented_conditions() {
+        let law = |epsilon, position| Law { moment: 0.5, support: Some(Support { epsilon, position }) };
         for s in [0.25, 2.0, -0.5] {
-            let Shape::Wave(Wave { alpha, stress, .. }) = law(0.5, 0.125).solve(s) else {
-                let deep = law(0.5, 0.125).solve(s);
-                let found = residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.0, deep.stress()]);
-                let balance = s + 2.0 - 2.0 * deep.stretch();
+            let Shape::AboveMinusOne(AboveMinusOne { alpha, stress, .. }) = law(0.5, 0.125).solve(s) else {
+                let below = law(0.5, 0.125).solve(s);
+                let found = residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.0, below.stress()]);
+                let balance = s + 2.0 - 2.0 * below.slope_squared();
                 assert!(found[0] == 0.0 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14, "{found:?}");
-                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, deep.stress()])[0], 0.25);
+                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, below.stress()])[0], 0.25);
                 continue;
             };
             let at = |law: &Law| residual(law, -3.0, 2.0, [s, alpha, stress]);
             let found = at(&law(0.5, 0.125));
-            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).stretch();
+            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
             assert!(
                 found[0].abs() < 1e-14 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14,
                 "{found:?}"
             );
-            // A stiffness and a place of the obstacle that the shape does not meet.
+            // A compliance and a position of the obstacle that the shape does not satisfy.
             assert!((at(&law(2.5, 0.125))[1] - 2.0 * stress).abs() < 1e-14);
             assert!((at(&law(0.5, 1.125))[1] + 1.0).abs() < 1e-14);
-            assert_eq!(at(&Law { drive: 0.5, support: None })[1], stress);
+            assert_eq!(at(&Law { moment: 0.5, support: None })[1], stress);
         }
     }
 
     #[test]
-    fn a_start_beside_a_state_is_improved_to_round_off_and_one_far_off_left_as_it_is() {
-        let law = Law { drive: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
-        // β that has a state at each of these N.
+    fn polishing_improves_a_nearby_state_and_leaves_a_distant_one_unchanged() {
+        let law = Law { moment: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
+        // The β for which s is the state.
         for s in [0.7, 2.0, -0.5] {
-            let beta = s - 1.0 - 2.0 * law.solve(s).stretch();
+            let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
             let n = |start: f64| polish(&law, beta, 2.0, law.solve(start)).n_value();
             assert!((n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14, "{s}: {:e}", n(s * (1.0 + 1e-5)) - (s - 1.0));
             let far = law.solve(1.1 * s);
@@ -154,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_system_of_three_is_solved_and_a_singular_one_is_not() {
+    fn a_regular_3_by_3_system_is_solved_and_a_singular_one_rejected() {
         let a = [[2.0, -1.0, 0.5], [0.0, 3.0, 1.0], [4.0, 1.0, -2.0]];
         let x = [1.0, -2.0, 4.0];
         let b = a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());

@@ -1,8 +1,8 @@
-//! The bent beam in closed form, for a given axial force N and stress c.
+//! The bent beam in closed form for given axial force N and stress c.
 
 use crate::stumpff::{c0, c1, c2, c3, c5};
 
-/// A solution of the static equations in the interior and at x = 1; see the module's head for the letters.
+/// A solution of the static equations in the interior and at x = 1; notation as in [`super`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Shape {
     /// `u = slope x`, `φ = 0`, `c = 0`.
@@ -11,63 +11,65 @@ pub(super) enum Shape {
         slope: f64,
     },
     /// N > -1.
-    Wave(Wave),
+    AboveMinusOne(AboveMinusOne),
     /// N < -1.
-    Deep(Deep),
+    BelowMinusOne(BelowMinusOne),
 }
 
 /// N > -1: `φ = α c_0(Xy²) - d y² c_2(Xy²)` with y = 1 - x, X = q - 1.
 ///
-/// Entire in q: neither N = 0 nor a buckling value is special.
+/// Entire in q: N = 0 and the buckling values are no special cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wave {
+pub(super) struct AboveMinusOne {
     /// `q = 1 / (1 + N) > 0`.
     pub(super) q: f64,
     /// α = φ(1).
     pub(super) alpha: f64,
     /// The stress c.
     pub(super) stress: f64,
-    /// The load aθ_A.
-    pub(super) drive: f64,
+    /// The thermal moment aθ_A.
+    pub(super) moment: f64,
 }
 
 /// N < -1: `φ = d (1 - cosh ky / cosh k) / k²` with y = 1 - x, k² = 1 - q > 1.
 ///
-/// The clamped end is built in; only ratios of hyperbolic functions occur, so that k may be as large as it likes.
+/// It satisfies φ(0) = 0. Only ratios of hyperbolic functions occur, so k may be arbitrarily large.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Deep {
+pub(super) struct BelowMinusOne {
     /// `q = 1 / (1 + N) < 0`.
     pub(super) q: f64,
     /// The stress c.
     pub(super) stress: f64,
-    /// The load aθ_A.
-    pub(super) drive: f64,
+    /// The thermal moment aθ_A.
+    pub(super) moment: f64,
 }
 
 impl Shape {
-    /// The N that the shape belongs to; a line has no other than -1.
+    /// Axial force N of the shape; -1 for a line.
     pub(super) fn n_value(&self) -> f64 {
         match self {
             Shape::Line { .. } => -1.0,
-            Shape::Wave(Wave { q, .. }) | Shape::Deep(Deep { q, .. }) => 1.0 / q - 1.0,
+            Shape::AboveMinusOne(AboveMinusOne { q, .. }) | Shape::BelowMinusOne(BelowMinusOne { q, .. }) => {
+                1.0 / q - 1.0
+            }
         }
     }
 
-    /// `c = (1 + N) u' - φ`, the same for all x.
+    /// Stress `c = (1 + N) u' - φ`, constant in x.
     pub(super) fn stress(&self) -> f64 {
         match self {
             Shape::Line { .. } => 0.0,
-            Shape::Wave(wave) => wave.stress,
-            Shape::Deep(deep) => deep.stress,
+            Shape::AboveMinusOne(wave) => wave.stress,
+            Shape::BelowMinusOne(below) => below.stress,
         }
     }
 
     /// `‖u'‖² = ∫₀¹ u'² dx`.
-    pub(super) fn stretch(&self) -> f64 {
+    pub(super) fn slope_squared(&self) -> f64 {
         match self {
             Shape::Line { slope } => slope * slope,
-            Shape::Wave(wave) => wave.stretch(),
-            Shape::Deep(deep) => deep.stretch(),
+            Shape::AboveMinusOne(wave) => wave.slope_squared(),
+            Shape::BelowMinusOne(below) => below.slope_squared(),
         }
     }
 
@@ -75,8 +77,8 @@ impl Shape {
     pub(super) fn u(&self, x: f64) -> f64 {
         match self {
             Shape::Line { slope } => slope * x,
-            Shape::Wave(wave) => wave.u(x),
-            Shape::Deep(deep) => deep.u(x),
+            Shape::AboveMinusOne(wave) => wave.u(x),
+            Shape::BelowMinusOne(below) => below.u(x),
         }
     }
 
@@ -84,8 +86,8 @@ impl Shape {
     pub(super) fn u_x(&self, x: f64) -> f64 {
         match self {
             Shape::Line { slope } => *slope,
-            Shape::Wave(wave) => wave.q * (wave.phi(x) + wave.stress),
-            Shape::Deep(deep) => deep.u_x(x),
+            Shape::AboveMinusOne(wave) => wave.q * (wave.phi(x) + wave.stress),
+            Shape::BelowMinusOne(below) => below.u_x(x),
         }
     }
 
@@ -93,8 +95,8 @@ impl Shape {
     pub(super) fn phi(&self, x: f64) -> f64 {
         match self {
             Shape::Line { .. } => 0.0,
-            Shape::Wave(wave) => wave.phi(x),
-            Shape::Deep(deep) => deep.phi(x),
+            Shape::AboveMinusOne(wave) => wave.phi(x),
+            Shape::BelowMinusOne(below) => below.phi(x),
         }
     }
 
@@ -102,16 +104,16 @@ impl Shape {
     pub(super) fn phi_x(&self, x: f64) -> f64 {
         match self {
             Shape::Line { .. } => 0.0,
-            Shape::Wave(wave) => wave.phi_x(x),
-            Shape::Deep(deep) => deep.phi_x(x),
+            Shape::AboveMinusOne(wave) => wave.phi_x(x),
+            Shape::BelowMinusOne(below) => below.phi_x(x),
         }
     }
 }
 
-impl Wave {
+impl AboveMinusOne {
     /// `d = aθ_A + cq`, the constant right-hand side of φ'' + Xφ + d = 0.
     fn d(&self) -> f64 {
-        self.drive + self.stress * self.q
+        self.moment + self.stress * self.q
     }
 
     fn x(&self) -> f64 {
@@ -120,8 +122,8 @@ impl Wave {
 
     /// `‖u'‖² = q² ∫ (αC - dW + c)² dy` with C = c_0(Xy²), W = y² c_2(Xy²).
     ///
-    /// The products integrate to Stumpff functions of X and 4X by cosh² = (1 + cosh 2·)/2.
-    fn stretch(&self) -> f64 {
+    /// By cosh² = (1 + cosh 2·)/2 the products integrate to Stumpff functions of X and 4X.
+    fn slope_squared(&self) -> f64 {
         let (x, alpha, c, d) = (self.x(), self.alpha, self.stress, self.d());
         let cc = 0.5 * (1.0 + c1(4.0 * x));
         let cw = 2.0 * c3(4.0 * x) - c3(x);
@@ -152,9 +154,9 @@ impl Wave {
     }
 }
 
-impl Deep {
+impl BelowMinusOne {
     fn d(&self) -> f64 {
-        self.drive + self.stress * self.q
+        self.moment + self.stress * self.q
     }
 
     fn k(&self) -> f64 {
@@ -166,15 +168,16 @@ impl Deep {
         self.k().tanh() / self.k()
     }
 
-    /// `q / k²`, the factor that u' = (φ + c) q has in front of `aθ_A + c - d cosh ky / cosh k`.
+    /// `q/k²`: `u' = (q/k²) (aθ_A + c - d cosh ky / cosh k)`.
     ///
-    /// In this form the stress, which dominates φ near N = -1, has already cancelled by hand.
+    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is cancelled
+    /// analytically.
     fn factor(&self) -> f64 {
         self.q / (1.0 - self.q)
     }
 
-    fn stretch(&self) -> f64 {
-        let (e, d, t) = (self.drive + self.stress, self.d(), self.t());
+    fn slope_squared(&self) -> f64 {
+        let (e, d, t) = (self.moment + self.stress, self.d(), self.t());
         let sech = self.k().cosh().recip();
         self.factor().powi(2) * (e * e - 2.0 * e * d * t + 0.5 * d * d * (sech * sech + t))
     }
@@ -192,11 +195,11 @@ impl Deep {
     }
 
     fn u(&self, x: f64) -> f64 {
-        self.factor() * ((self.drive + self.stress) * x - self.d() * (self.sinh_ratio(0.0) - self.sinh_ratio(x)))
+        self.factor() * ((self.moment + self.stress) * x - self.d() * (self.sinh_ratio(0.0) - self.sinh_ratio(x)))
     }
 
     fn u_x(&self, x: f64) -> f64 {
-        self.factor() * (self.drive + self.stress - self.d() * self.cosh_ratio(x))
+        self.factor() * (self.moment + self.stress - self.d() * self.cosh_ratio(x))
     }
 
     fn phi(&self, x: f64) -> f64 {
@@ -213,10 +216,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_shape_knows_its_axial_force() {
-        let wave = Shape::Wave(Wave { q: 0.25, alpha: 1.0, stress: 0.0, drive: 0.0 });
-        let deep = Shape::Deep(Deep { q: -0.5, stress: 0.0, drive: 0.0 });
-        assert_eq!([Shape::Line { slope: 2.0 }, wave, deep].map(|shape| shape.n_value()), [-1.0, 3.0, -3.0]);
-        assert_eq!(Shape::Line { slope: 3.0 }.stretch(), 9.0);
+    fn each_shape_returns_its_axial_force() {
+        let wave = Shape::AboveMinusOne(AboveMinusOne { q: 0.25, alpha: 1.0, stress: 0.0, moment: 0.0 });
+        let below = Shape::BelowMinusOne(BelowMinusOne { q: -0.5, stress: 0.0, moment: 0.0 });
+        assert_eq!([Shape::Line { slope: 2.0 }, wave, below].map(|shape| shape.n_value()), [-1.0, 3.0, -3.0]);
+        assert_eq!(Shape::Line { slope: 3.0 }.slope_squared(), 9.0);
     }
 }

@@ -1,32 +1,33 @@
-//! The time schemes, one row each.
+//! The time schemes, one row of a table each.
 //!
 //! Both schemes solve one system per step for the velocities `V`, `W` that carry the displacements, `u = u0 + dt V`,
-//! `phi = phi0 + dt W`, and for the mean temperature `Θ = (theta + theta0)/2`. They differ in three entries of a row:
+//! `phi = phi0 + dt W`, and for the mean temperature `Θ = (theta + theta0)/2`. They differ in three entries:
 //!
 //! | scheme | V is | inertia `M (v - v0)/dt` | contact |
 //! | --- | --- | --- | --- |
 //! | `euler-crank-nicolson` | v at the new level | `M (V - v0)/dt` | g at the new level |
 //! | `midpoint` | v at the middle | `2 M (V - v0)/dt`, because `v = 2 V - v0` | the discrete gradient of G |
 //!
-//! Any `V = c v + (1 - c) v0` with ½ <= c <= 1 is a row, too: its inertia is 1/c, its order 1 for c > ½.
+//! `V = c v + (1 - c) v0` with ½ <= c <= 1 is a row as well, with inertia 1/c and order 1 for c > ½.
 
 /// How the contact force enters a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactRule {
     /// g(u(1)) at the new time level, as in (3.7).
     Implicit,
-    /// (G(u(1)) - G(u0(1))) / (u(1) - u0(1)), which conserves the contact energy exactly.
+    /// (G(u(1)) - G(u0(1)))/(u(1) - u0(1)), which conserves the contact energy exactly.
     DiscreteGradient,
 }
 
-/// A time scheme: a row of the table, to be compared by name.
+/// A time scheme, a row of the table. Rows are identified by their names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scheme {
     /// The name in scene and study files.
     pub name: &'static str,
-    /// Order in dt that theory gives (for smooth solutions).
+    /// Theoretical order in dt for smooth solutions.
     pub order: f64,
-    /// The factor of `M (V - v0)/dt`, from 1, where V is the new velocity, to 2, where V is the mean velocity.
+    /// The factor of `M (V - v0)/dt`: 1 if V is the new velocity, 2 if V is the mean velocity, between 1 and 2
+    /// otherwise.
     pub inertia: f64,
     /// How the contact force enters.
     pub contact: ContactRule,
@@ -34,7 +35,7 @@ pub struct Scheme {
     pub source: &'static str,
 }
 
-/// Backward Euler for the inertia and the viscous terms, Crank-Nicolson for the rest: the paper's scheme.
+/// The paper's scheme (3.7)-(3.8): backward Euler for inertia, viscosity and contact, Crank-Nicolson for the rest.
 pub const EULER_CRANK_NICOLSON: Scheme = Scheme {
     name: "euler-crank-nicolson",
     order: 1.0,
@@ -43,7 +44,8 @@ pub const EULER_CRANK_NICOLSON: Scheme = Scheme {
     source: "Bernardi and Copetti, (3.7)-(3.8)",
 };
 
-/// Everything at the middle of the step; conserves the energy but for the physical dissipation.
+/// The implicit midpoint rule with a discrete gradient for the contact. It conserves the energy up to the physical
+/// dissipation.
 pub const MIDPOINT: Scheme = Scheme {
     name: "midpoint",
     order: 2.0,
@@ -55,7 +57,7 @@ pub const MIDPOINT: Scheme = Scheme {
 /// All schemes.
 pub const SCHEMES: [Scheme; 2] = [EULER_CRANK_NICOLSON, MIDPOINT];
 
-/// The scheme of that name.
+/// The scheme with the given name; `None` if there is none.
 pub fn by_name(name: &str) -> Option<Scheme> {
     SCHEMES.into_iter().find(|scheme| scheme.name == name)
 }
@@ -65,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_scheme_is_found_by_its_name_and_no_other_is() {
+    fn schemes_are_found_by_name() {
         assert_eq!(SCHEMES.map(|scheme| by_name(scheme.name)), SCHEMES.map(Some));
         assert_ne!(SCHEMES[0].name, SCHEMES[1].name);
         assert_eq!(by_name("euler"), None);

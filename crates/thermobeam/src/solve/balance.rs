@@ -1,13 +1,15 @@
-//! The energy balance of the last step, from the levels as the stepper holds them: all lanes at once, nothing copied.
+//! Quantities of the last step of each case of a batch, computed from the stepper's own arrays without copying a level.
 
 use crate::energy::sums::{Element, Fields, Sums};
 use crate::energy::{Balance, Tip};
 use crate::lanes::Lane;
-use crate::solve::newton::{Newton, Progress};
+use crate::solve::Work;
+use crate::solve::control::Progress;
+use crate::solve::newton::Newton;
+use crate::solve::stepper::Batch;
 
-impl<T: Lane, const B: usize> Newton<T, B> {
-    /// [`Balance`] of the last step of every case that has done it; the others' stay as they are.
-    pub(crate) fn balances(&self, balances: &mut [Balance]) {
+impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
+    fn balances(&self, balances: &mut [Balance]) {
         let sums = self.sums();
         let scheme = self.scheme;
         let tip = self.old.len() - 1;
@@ -15,20 +17,36 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             balances.iter_mut().enumerate().filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
         {
             let (case, control) = (&self.cases[k], &self.controls[k]);
-            // The step is done: its new level is called old already, and the room for the next holds the one before.
+            // After the step `old` holds its new level and `new` the one before.
             let tip = Tip { old: self.new[tip][0].lane(k), new: self.old[tip][0].lane(k), force: control.force };
             let obstacles = case.obstacles.as_ref();
             *balance = Balance::from_sums(&case.beam, obstacles, &scheme, case.dt, &sums.of_lane(k), tip);
         }
     }
 
+    fn work_of(&self, k: usize) -> Work {
+        self.controls[k].work
+    }
+
+    fn tip(&self, k: usize) -> f64 {
+        let tip = self.old.len() - 1;
+        self.failed_levels[k].as_ref().map_or(self.old[tip][0].lane(k), |level| level.u[tip])
+    }
+
+    fn contact_force(&self, k: usize) -> f64 {
+        self.controls[k].force
+    }
+}
+
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// The sums over the elements of the balance, for all lanes at once.
     fn sums(&self) -> Sums<T> {
         let [velocity, before] = match &self.velocity {
             [velocity, before] if !velocity.is_empty() => [velocity, before],
-            _ => [&self.ring[1], &self.ring[2]],
+            _ => [&self.iterates[1], &self.iterates[2]],
         };
         let count = self.elements.len();
-        // One length for all slices: the compiler then needs no bounds checks in the loop.
+        // Slices of equal length, so the compiler removes the bounds checks in the loop.
         let (elements, old, new) = (&self.elements[..count], &self.new[..count], &self.old[..count]);
         let (before, velocity) = (&before[..count], &velocity[..count]);
         Sums::over_cases(count - 1, 1.0 / self.scheme.inertia, |i| Element {

@@ -1,23 +1,23 @@
-//! How far the iterate of a pass can be from the solution of its step.
+//! A-posteriori bound on the distance of an iterate to the solution of its step.
 //!
-//! After a pass the residual is `((m⁺ - m) K u½ + (m - m̄) dt/2 K δV, 0, 0)`: its dual norm in V_x is at most
-//! `c = |m⁺ - m| ‖u½_x‖ + |m - m̄| dt/2 ‖δV_x‖`. Test the equation for the next increment with itself: the couplings
-//! through a and C cancel or complete squares, contact is monotone, and
+//! After a pass the residual of (3.7) is `((m⁺ - m) K u½ + (m - m̄) dt/2 K δV, 0, 0)`. Its dual norm with respect to
+//! ‖V_x‖ is at most `c = |m⁺ - m| ‖u½_x‖ + |m - m̄| dt/2 ‖δV_x‖`. Test the equation of the next increment with the
+//! increment itself: the couplings through a and C cancel or complete squares, contact is monotone, and
 //!
 //! ```text
 //! κ(‖V‖² + ‖W‖²) + s(‖V_x - W‖² + ‖W_x‖²) + m dt/2 ‖V_x‖² + 2/dt ‖Θ‖² + ‖Θ_x‖² <= c ‖V_x‖,   s = ζ + dt/2.
 //! ```
 //!
-//! With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²` (B the buckling force) `λ ‖V_x‖² <= c ‖V_x‖`, `λ = B s + m dt/2`. Each square
-//! of Theorem 3.4's left-hand side is at most 2 dt times a term above, so the next increment is at most
-//! `√(2 dt/λ) c`, times `√(1 + |m| dt/(2λ))` where m < 0. In the same way one pass shrinks an error by at most
-//! `q = dt/λ (|m - m̄|/2 + ρ ‖u½_x‖ ‖u_x‖)`, so what is left to the solution is at most the bound over 1 - q.
+//! With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, B the buckling force, this gives `λ ‖V_x‖² <= c ‖V_x‖`, `λ = B s + m dt/2`.
+//! Each square of the norm of (3.14) is at most 2 dt times a term above, so the next increment is at most
+//! `√(2 dt/λ) c`, times `√(1 + |m| dt/(2λ))` for m < 0. In the same way a pass multiplies an error by at most
+//! `q = dt/λ (|m - m̄|/2 + ρ ‖u½_x‖ ‖u_x‖)`, so the distance to the solution is at most that bound divided by 1 - q.
 
 use crate::kirchhoff::BUCKLING;
 use crate::lanes::Lane;
 use crate::solve::newton::Newton;
 
-/// What is known after a pass.
+/// The bounds after a pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
     /// ½(N(u) + N(u0)) of the iterate.
@@ -31,13 +31,13 @@ pub(super) struct Bound {
 }
 
 impl<T: Lane, const B: usize> Newton<T, B> {
-    /// λ of the module's bound.
+    /// Coercivity constant λ of the module documentation.
     pub(super) fn coercivity(&self, k: usize, m: f64) -> f64 {
         let case = &self.cases[k];
         BUCKLING * (case.beam.zeta + 0.5 * case.dt) + 0.5 * m * case.dt
     }
 
-    /// The part of q that a factorisation with m̄ in place of m costs.
+    /// The contribution of a factorisation for m̄ instead of m to q.
     pub(super) fn kept_contraction(&self, k: usize, m: f64) -> f64 {
         let lambda = self.coercivity(k, m);
         let lag = 0.5 * self.cases[k].dt * (m - self.controls[k].factorized).abs();
@@ -50,13 +50,13 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// The a-posteriori bound of the module's head, for the pass just done.
+    /// The bounds of the module documentation for the last pass.
     pub(super) fn bound(&self, k: usize) -> Bound {
         let (case, control) = (&self.cases[k], &self.controls[k]);
         let n = case.beam.axial_force(control.new_slope_squared);
         let m = 0.5 * (n + control.forces[0]);
         let slope = control.new_slope_squared.sqrt();
-        // ‖u½_x‖ is at most the mean of both levels' norms.
+        // ‖u½_x‖ is at most the mean of the norms at both levels.
         let half_slope = 0.5 * (control.slope_squared.sqrt() + slope);
         let lag = (control.m - control.factorized).abs();
         let residual = (m - control.m).abs() * half_slope + 0.5 * lag * case.dt * control.increment_slope;
@@ -80,29 +80,28 @@ mod tests {
     use super::*;
     use crate::parameters::Beam;
     use crate::scheme::EULER_CRANK_NICOLSON;
-    use crate::solve::Settings;
     use crate::solve::newton::Case;
+    use crate::solve::{Level, Settings};
 
     const DT: f64 = 0.5;
 
-    /// One element with this force and stiffness, ζ = 1.
+    /// One element, β and ρ as given, ζ = 1.
     fn stepper(beta: f64, rho: f64) -> Newton<f64, 2> {
         let beam = Beam { beta, rho, zeta: 1.0, ..Beam::default() };
         let case = Case { beam, obstacles: None, dt: DT, lengths: vec![1.0] };
-        let (initial, velocity) = (vec![vec![[0.0; 3]; 2]], vec![vec![[0.0; 2]; 2]]);
-        Newton::new(vec![case], EULER_CRANK_NICOLSON, Settings::default(), &initial, &velocity)
+        Newton::new(vec![case], EULER_CRANK_NICOLSON, Settings::default(), &[&Level::new(2)])
     }
 
-    /// After a pass with m and a factor for m̄, ‖u_x‖ is 1/2, and 1 at the old level.
+    /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the old level.
     fn passed(newton: &mut Newton<f64, 2>, m: f64, factorized: f64) {
         let control = &mut newton.controls[0];
         (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
         (control.m, control.factorized) = (m, factorized);
     }
 
-    /// The module's head, with numbers put in: compressed and stretched, where the bound is finite and where it is not.
+    /// The formulas of the module documentation for compression and tension, with q below and above one half.
     #[test]
-    fn the_bound_is_that_of_the_modules_head() {
+    fn the_bound_equals_the_documented_formula() {
         for (beta, rho, finite) in
             [(-2.0, 0.125, true), (-2.0, 2.0, false), (3.0, 0.125, true), (3.0, 8.0, false), (3.0, 0.5, true)]
         {
@@ -118,7 +117,10 @@ mod tests {
             let increment = (1.0 / lambda * soft).sqrt() * c;
             let q = 0.5 * (0.125 / 2.0 + rho * 0.75 * 0.5) / lambda;
             let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
-            assert!(lambda > 0.0 && (q < 0.5) == finite, "what this case is for: {lambda}, {q}");
+            assert!(
+                lambda > 0.0 && (q < 0.5) == finite,
+                "expected λ > 0 and q on the given side of 1/2: {lambda}, {q}"
+            );
             assert_eq!(bound.m, m);
             assert!(close(bound.increment, increment) && close(bound.contraction, q), "{bound:?}, {increment}, {q}");
             let remaining = if finite { increment / (1.0 - q) } else { f64::INFINITY };
@@ -130,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_left_without_a_residual_and_everything_without_coercivity() {
+    fn the_bound_is_zero_without_residual_and_infinite_without_coercivity() {
         let mut newton = stepper(1.0, 0.0);
         passed(&mut newton, 1.0, 1.0);
         let exact = newton.bound(0);
@@ -146,15 +148,15 @@ mod tests {
     }
 
     #[test]
-    fn at_the_very_ends_of_what_the_bound_covers_nothing_is_trusted() {
-        // λ = 1.25 B + m/4 is zero to the bit.
+    fn the_bound_is_infinite_at_zero_coercivity_and_at_contraction_one_half() {
+        // λ = 1.25 B + m/4 is exactly zero.
         let mut newton = stepper(-5.0 * BUCKLING, 0.0);
         passed(&mut newton, -4.0, -4.0);
         assert_eq!(newton.coercivity(0, -5.0 * BUCKLING), 0.0);
         let lost = newton.bound(0);
         assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
 
-        // q = (m - m̄)/(4 λ) is one half to the bit.
+        // q = (m - m̄)/(4 λ) is exactly one half.
         let mut newton = stepper(1.0, 0.0);
         let lambda = newton.coercivity(0, 1.0);
         passed(&mut newton, 2.0 * lambda, 0.0);

@@ -1,6 +1,7 @@
-//! The paper's fixed point (4.1)-(4.5), with its lagging, its order θ, φ, u, and its start.
+//! The paper's fixed-point iteration (4.1)-(4.5): the problem (4.2) is solved for θ, φ and u, in this order.
 //!
-//! One iteration solves three scalar systems. In the notation of `sweeps.rs`, with the last iterate marked by ⁻:
+//! One iteration ℓ solves three scalar tridiagonal systems, the three equations of (4.2). In the notation of
+//! `sweeps.rs`, with the previous iterate marked by ⁻ and n-½ and the update of u and φ as in (4.3):
 //!
 //! ```text
 //! (2/dt M + K) Θ         = 2/dt M θ~0 - a Cᵀ W⁻ + F_θ
@@ -8,38 +9,38 @@
 //! (κ M + (ζ + (1 + m⁻) dt/2) K) V = κ M v0 - (1 + m⁻) K u0 + C (φ0 + s W) - F(u⁻(1)) e + F_u
 //! ```
 //!
-//! The increment is measured in the norm of Theorem 3.4's left-hand side. While the tip is in contact an error shrinks by
-//! `α = dt/ε [A_u⁻¹]_nn` per iteration, because the contact force lags: past α = 1 the iteration diverges.
+//! The increment is measured in the norm of (3.14). The convergence is analysed in [`contraction`](crate::contraction).
 
 use crate::error::StepFailure;
 use crate::norms::TheoremSquares;
 use crate::norms::slope_squared;
 use crate::scheme::{ContactRule, Scheme};
 use crate::solve::newton::Case;
+use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
-/// Past this ratio of the last two increments the iteration counts as diverging. In a cycle, between a side of an obstacle
-/// and the other say, the ratio is one up to round-off.
+/// Ratio of the last two increments from which the iteration counts as diverging. In a cycle, for example between both
+/// sides of an obstacle, the ratio is one up to round-off.
 const STALLED: f64 = 1.0 - 1e-6;
 
-/// The stepper.
+/// The fixed-point iteration for one case.
 pub(crate) struct FixedPoint {
     case: Case,
     scheme: Scheme,
     settings: Settings,
     old: Level,
-    /// V, W, Θ of this iterate and of the one before.
+    /// V, W, Θ of the present and of the previous iterate.
     now: Iterate,
     before: Iterate,
-    /// u^{n,l-1}: at first u^{n-1} itself, by (4.1).
+    /// u^{n,ℓ-1}; u^{n-1} in the first iteration, by (4.1).
     u_before: Vec<f64>,
     force: f64,
     load: Vec<[f64; 3]>,
     factor_u: TridiagonalFactor,
     factor_phi: TridiagonalFactor,
     factor_theta: TridiagonalFactor,
-    /// Differences of two iterates, for the increment.
+    /// Differences of the last two iterates, for the increment.
     difference: [Vec<f64>; 5],
     work: Work,
 }
@@ -53,6 +54,11 @@ struct Iterate {
 }
 
 impl FixedPoint {
+    /// The iteration at the given level, with the matrices of θ and φ factorised.
+    ///
+    /// # Errors
+    /// [`StepFailure::Indefinite`] if a matrix is not positive definite in floating-point arithmetic: dt is too small or too
+    /// large.
     pub(crate) fn new(case: Case, scheme: Scheme, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
         let n = case.lengths.len();
         let (kappa, s) = (scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
@@ -79,15 +85,8 @@ impl FixedPoint {
         })
     }
 
-    pub(crate) fn load_mut(&mut self) -> &mut [[f64; 3]] {
-        if self.load.is_empty() {
-            self.load = vec![[0.0; 3]; self.old.u.len()];
-        }
-        &mut self.load
-    }
-
-    /// Does one step; on failure the old level stays.
-    pub(crate) fn advance(&mut self) -> Result<StepReport, StepFailure> {
+    /// Does one step; if it fails, the level stays.
+    fn step(&mut self) -> Result<StepReport, StepFailure> {
         self.start();
         let (mut increment, mut contraction) = (f64::NAN, f64::NAN);
         for iteration in 1..=self.settings.max_iterations {
@@ -106,7 +105,7 @@ impl FixedPoint {
             self.remember();
         }
         let iterations = self.settings.max_iterations;
-        // NaN (one iteration only) says nothing about divergence.
+        // NaN, after a single iteration, does not indicate divergence.
         if contraction >= STALLED {
             Err(StepFailure::Diverged { iterations, increment, contraction })
         } else {
@@ -114,7 +113,7 @@ impl FixedPoint {
         }
     }
 
-    /// (4.1): the level before, for displacements and velocities alike.
+    /// Sets the initial iterate to the previous level, (4.1).
     fn start(&mut self) {
         self.before.v.clone_from(&self.old.v);
         self.before.w.clone_from(&self.old.w);
@@ -122,6 +121,7 @@ impl FixedPoint {
         self.u_before.clone_from(&self.old.u);
     }
 
+    /// One iteration of (4.2).
     fn iterate(&mut self) -> Result<(), StepFailure> {
         self.work.passes += 1;
         self.solve_theta();
@@ -129,6 +129,7 @@ impl FixedPoint {
         self.solve_u()
     }
 
+    /// Third equation of (4.2), for Θ.
     fn solve_theta(&mut self) {
         let (lengths, a, two_over_dt) = (&self.case.lengths, self.case.beam.a, 2.0 / self.case.dt);
         let n = lengths.len();
@@ -146,6 +147,7 @@ impl FixedPoint {
         (theta[0], theta[n]) = (0.0, 0.0);
     }
 
+    /// Second equation of (4.2), for W.
     fn solve_phi(&mut self) {
         let Case { beam, dt, lengths, .. } = &self.case;
         let kappa = self.scheme.inertia / dt;
@@ -167,6 +169,7 @@ impl FixedPoint {
         self.factor_phi.solve_in_place(w);
     }
 
+    /// First equation of (4.2), for V, with N(u) and g(u) of the previous iterate.
     fn solve_u(&mut self) -> Result<(), StepFailure> {
         let Case { beam, dt, lengths, obstacles } = &self.case;
         let (n, kappa, s) = (lengths.len(), self.scheme.inertia / dt, beam.zeta + 0.5 * dt);
@@ -197,7 +200,7 @@ impl FixedPoint {
         Ok(())
     }
 
-    /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14).
+    /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14); u and φ by (4.3).
     fn increment(&mut self) -> f64 {
         let (dt, inertia) = (self.case.dt, self.scheme.inertia);
         let [v, u, w, phi, theta] = &mut self.difference;
@@ -210,7 +213,7 @@ impl FixedPoint {
             theta[i] = 2.0 * (self.now.theta[i] - self.before.theta[i]);
         }
         if self.u_before == self.old.u {
-            // In the first iteration φ^{n,0} = φ^{n-1}, which no velocity carries.
+            // In the first iteration φ^{n,0} = φ^{n-1}, which is not φ^{n-1} + dt φ̂^{n,0}.
             for (phi, w) in phi.iter_mut().zip(&self.now.w) {
                 *phi = dt * w;
             }
@@ -218,6 +221,7 @@ impl FixedPoint {
         TheoremSquares::of(&self.case.lengths, v, u, w, phi, theta).norm()
     }
 
+    /// Makes the present iterate the previous one, with u^{n,ℓ} by (4.3).
     fn remember(&mut self) {
         for (u, (u0, v)) in self.u_before.iter_mut().zip(self.old.u.iter().zip(&self.now.v)) {
             *u = u0 + self.case.dt * v;
@@ -225,10 +229,10 @@ impl FixedPoint {
         std::mem::swap(&mut self.now, &mut self.before);
     }
 
-    /// (4.5).
+    /// Makes the last iterate the new level, (4.5), with u and φ by (3.8).
     fn commit(&mut self) {
         let dt = self.case.dt;
-        // The new velocity is V itself, or 2 V - v0 where V is the mean.
+        // The new velocity is V itself, or 2 V - v0 for the midpoint rule.
         let weight = self.scheme.inertia;
         for i in 0..self.old.u.len() {
             self.old.u[i] += dt * self.now.v[i];
@@ -239,16 +243,30 @@ impl FixedPoint {
         }
         self.old.contact_force = self.force;
     }
+}
 
-    pub(crate) fn read(&self, level: &mut Level) {
+impl Stepper<f64> for FixedPoint {
+    fn advance(&mut self, outcomes: &mut [Result<StepReport, StepFailure>]) {
+        outcomes[0] = self.step();
+    }
+
+    fn load_mut(&mut self) -> &mut [[f64; 3]] {
+        if self.load.is_empty() {
+            self.load = vec![[0.0; 3]; self.old.u.len()];
+        }
+        &mut self.load
+    }
+
+    fn read(&self, _: usize, level: &mut Level) {
         level.copy_from(&self.old);
     }
 
-    pub(crate) fn work(&self) -> Work {
+    fn work(&self) -> Work {
         self.work
     }
 }
 
+/// Adds one component of the loads to a right-hand side.
 fn add_load(right: &mut [f64], load: &[[f64; 3]], component: usize) {
     for (right, load) in right.iter_mut().zip(load) {
         *right += load[component];

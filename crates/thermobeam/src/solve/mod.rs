@@ -1,18 +1,20 @@
-//! How the nonlinear system of a step is solved.
+//! The solvers of a step, (3.7)-(3.8): their settings, their reports, and the discrete solution.
 
 mod balance;
 mod bound;
+mod control;
 pub(crate) mod fixed_point;
 pub(crate) mod newton;
 mod root;
+pub(crate) mod stepper;
 pub(crate) mod sweeps;
 
-/// The method.
+/// The method that solves the nonlinear system of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Solver {
-    /// Newton's method on the whole step, contact in closed form.
+    /// Newton's method on the whole step, with the contact law solved in closed form.
     Newton,
-    /// The paper's fixed point (4.1)-(4.5).
+    /// The paper's fixed-point iteration (4.1)-(4.5).
     FixedPoint,
 }
 
@@ -29,16 +31,16 @@ impl Solver {
     }
 }
 
-/// The method and when it stops.
+/// The method and its stopping criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The method.
     pub solver: Solver,
-    /// η*: bound on the increment of the last iteration, in the norm of Theorem 3.4's left-hand side.
+    /// η*, the bound on the increment of the last iteration in the norm of (3.14); see [`StepReport::increment`].
     pub tolerance: f64,
-    /// Iterations after which a step is given up.
+    /// Largest number of iterations of a step.
     pub max_iterations: usize,
-    /// Where Newton's iteration starts. The fixed point always starts from (4.1).
+    /// Initial iterate of Newton's method. The fixed point always starts from (4.1).
     pub start: Start,
 }
 
@@ -48,42 +50,43 @@ impl Default for Settings {
     }
 }
 
-/// Where Newton's iteration starts; it changes the number of passes, not the answer.
+/// Initial iterate of Newton's method. It changes the number of passes; the result changes within the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Start {
-    /// Velocities and axial force extrapolated from the last three levels; the first level stands for those before it.
+    /// Velocities and axial force, extrapolated from the last three levels. At the start the missing levels are copies
+    /// of the first.
     #[default]
     Extrapolated,
-    /// The level before, as (4.1) has it.
+    /// The previous level, as in (4.1).
     Previous,
 }
 
-/// What a step took.
+/// Iterations of a step and their convergence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport {
-    /// Iterations, each at least one solve of the linear system.
+    /// Number of iterations, each at least one solve of the linear system.
     pub iterations: usize,
-    /// Fixed point: the last increment. Newton: a bound on the increment that one more iteration would bring.
+    /// Fixed point: the last increment. Newton: an upper bound on the increment of one more iteration.
     pub increment: f64,
-    /// Fixed point: ratio of the last two increments, where there were two.
+    /// Fixed point: ratio of the last two increments, `None` after a single iteration. Newton: `None`.
     pub contraction: Option<f64>,
 }
 
-/// Counts of the work done: exact where times are noisy.
+/// Counts of the work done. Unlike run times they are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Solves of the whole step's linear system: a pass of Newton's method, an iteration of the fixed point.
+    /// Solves of the linear system of the whole step: passes of Newton's method, or iterations of the fixed point.
     pub passes: usize,
-    /// Factorisations of that system, or of the displacement's part in the fixed point.
+    /// Factorisations of that system; for the fixed point, of the equation of u.
     pub factorizations: usize,
     /// Evaluations of the loads.
     pub loads: usize,
-    /// Levels handed to an observer.
+    /// Levels copied for an observer.
     pub observations: usize,
 }
 
 impl Work {
-    /// This work and another.
+    /// The sum of two counts.
     pub(crate) fn plus(self, other: Self) -> Self {
         Self {
             passes: self.passes + other.passes,
@@ -107,25 +110,25 @@ pub struct Level {
     pub w: Vec<f64>,
     /// Lifted temperature θ~ = θ - θ_A (1 - x).
     pub theta: Vec<f64>,
-    /// The contact force of the step that led here: g(u(1)), or its discrete gradient in the `midpoint` scheme.
+    /// Contact force of the step that led to this level: g(u(1)), or its discrete gradient in the `midpoint` scheme.
     pub contact_force: f64,
 }
 
 impl Level {
-    /// A level of zeros with so many nodes.
+    /// A level of zeros with the given number of nodes.
     pub fn new(nodes: usize) -> Self {
         let zeros = || vec![0.0; nodes];
         Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
     }
 
-    /// Is no node faster than `speed`, in u or φ? A velocity that is NaN is not slow.
+    /// Whether all nodal values of û and φ̂ are at most `speed` in size; false if one is NaN.
     pub fn is_slow(&self, speed: f64) -> bool {
         self.v.iter().chain(&self.w).all(|rate| rate.abs() <= speed)
     }
 
-    /// Takes over the values of a level with as many nodes.
+    /// Copies the values of a level with the same number of nodes, without allocating.
     ///
-    /// The derived `clone_from` would allocate five new vectors, in every step that is observed.
+    /// The derived `clone_from` would allocate five vectors.
     pub(crate) fn copy_from(&mut self, other: &Level) {
         self.u.clone_from(&other.u);
         self.v.clone_from(&other.v);
@@ -148,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_are_called_what_the_files_call_them() {
+    fn solver_names_are_those_of_the_scene_files() {
         assert_eq!(Solver::ALL.map(Solver::name), ["newton", "fixed-point"]);
     }
 }

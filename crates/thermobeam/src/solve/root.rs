@@ -1,16 +1,18 @@
-//! The safeguarded Newton iteration for the mean axial force m, where passes with a kept factor would not contract.
+//! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept factorisation do not
+//! contract.
 
 use crate::block_tridiagonal::{minus_times, minus_transpose_times, times};
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::solve::newton::{Newton, Progress};
+use crate::solve::control::Progress;
+use crate::solve::newton::Newton;
 
-/// What m, which carries the rounding errors of a sum over the elements, is certain to: below it nothing can be gained.
+/// Bound on the rounding error of m, which is a sum over the elements: a bracket of this width cannot be improved.
 fn rounding(forces: [f64; 3]) -> f64 {
     8.0 * f64::EPSILON * forces.iter().map(|force| force.abs()).sum::<f64>()
 }
 
-/// Newton's m where it lies inside the bracket; else the bracket's middle, or a leap upwards while it has no upper end.
+/// The Newton iterate if it lies inside the bracket; else the midpoint, or a larger m while there is no upper end.
 fn safeguarded(low: f64, high: f64, newton: f64) -> f64 {
     if low < newton && newton < high {
         newton
@@ -22,9 +24,12 @@ fn safeguarded(low: f64, high: f64, newton: f64) -> f64 {
 }
 
 impl<T: Lane, const B: usize> Newton<T, B> {
-    /// Solves `F(m) = m - ½(N(u(m)) + N(u0)) = 0` for case k, from N(u0) on.
+    /// Solves `F(m) = m - ½(N(u(m)) + N(u0)) = 0` for case k, starting from m = N(u0).
     ///
-    /// F <= 0 at the lower end of the bracket; the upper end is found on the way.
+    /// F <= 0 at the lower end of the initial bracket; an upper end is found during the iteration.
+    ///
+    /// # Errors
+    /// [`StepFailure`] for an indefinite matrix, a value that is not finite, and for too many iterations.
     pub(super) fn find_root(&mut self, k: usize) -> Result<(), StepFailure> {
         self.restart(k);
         let n0 = self.controls[k].forces[0];
@@ -35,7 +40,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for _ in self.controls[k].iterations..self.settings.max_iterations {
             self.controls[k].m = m;
             self.factorize(k, m)?;
-            self.pass(Progress::Searching, false);
+            self.pass(Progress::Safeguarded, false);
             let bound = self.bound(k);
             let control = &mut self.controls[k];
             previous = control.increment;
@@ -53,8 +58,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             } else {
                 high = m;
             }
-            // A stiff obstacle or a large ρ magnifies the rounding errors of m in F: its sign then changes between two
-            // neighbouring numbers, and |F| itself never gets small.
+            // A stiff obstacle or a large ρ amplifies the rounding errors of m in F: the sign of F then changes between
+            // neighbouring numbers while |F| stays large.
             if high - low <= rounding {
                 return Ok(());
             }
@@ -68,10 +73,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         })
     }
 
-    /// Throws the iterate of case k away: it may have gone astray, or to infinity.
+    /// Resets the iterate of case k to the previous step's, because it may have diverged.
     fn restart(&mut self, k: usize) {
-        self.controls[k].state = Progress::Searching;
-        let [iterate, before, ..] = &mut self.ring;
+        self.controls[k].state = Progress::Safeguarded;
+        let [iterate, before, ..] = &mut self.iterates;
         for (to, from) in iterate.iter_mut().zip(before.iter()) {
             for (to, from) in to.iter_mut().zip(from) {
                 to.set_lane(k, from.lane(k));
@@ -79,12 +84,12 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`: the Kirchhoff term's rank-one change.
+    /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`, from the rank-one Kirchhoff term.
     fn derivative(&mut self, k: usize) -> f64 {
         let last = self.elements.len() - 1;
         let (dt, rho) = (self.cases[k].dt, self.cases[k].beam.rho);
         let of_lane = |block: &[[T; B]; B]| block.map(|row| row.map(|entry| entry.lane(k)));
-        // Twice u½ is u0 + u.
+        // u½_x = (u0 + u)_x/2 on element i.
         let mean_slope = |i: usize| {
             let at = |i: usize| self.old[i][0].lane(k) + self.new[i][0].lane(k);
             0.5 * (at(i) - at(i - 1)) * self.elements[i].inverse.lane(k)
@@ -125,26 +130,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn outside_of_the_bracket_newton_gives_way_to_the_middle() {
+    fn a_newton_iterate_outside_the_bracket_is_replaced_by_the_midpoint() {
         assert_eq!(safeguarded(-1.0, 4.0, 3.5), 3.5);
-        // At an end of the bracket F has been looked at already.
+        // F is already known at the ends of the bracket.
         for outside in [-7.0, -1.0, 4.0, 5.0, f64::NAN, f64::INFINITY] {
             assert_eq!(safeguarded(-1.0, 4.0, outside), 1.5, "{outside}");
         }
     }
 
     #[test]
-    fn without_an_upper_end_leaps_get_anywhere_soon() {
+    fn without_an_upper_end_the_bracket_grows_geometrically() {
         for start in [-1e9, -3.0, -1.0, -0.25, 0.0, 0.75, 1e4] {
             assert_eq!(safeguarded(start, f64::INFINITY, start + 0.5), start + 0.5);
-            let leaps = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
-            let count = leaps.take(100).take_while(|&m| m < 1e12).count();
-            assert!(count < 80, "{count} leaps from {start}");
+            let ends = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
+            let count = ends.take(100).take_while(|&m| m < 1e12).count();
+            assert!(count < 80, "{count} extensions from {start}");
         }
     }
 
     #[test]
-    fn what_is_certain_scales_with_the_forces() {
+    fn the_rounding_bound_scales_with_the_forces() {
         let forces = [-0.5, 3.0, 1.25];
         assert_eq!(rounding(forces), 8.0 * f64::EPSILON * 4.75);
         for scale in [1e-6, 1e6] {

@@ -1,8 +1,9 @@
-//! The two sweeps of a whole-step solve: residual and elimination forward, substitution and update backward.
+//! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward, substitution and (3.8)
+//! backward.
 //!
 //! The unknown at a node is `X = (V, W, Θ)`: the velocities that carry the step, `u = u0 + dt V`, `phi = phi0 + dt W`,
-//! and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, `κ = inertia/dt` and the mean axial
-//! force m = ½(N(u) + N(u0)), the residual of (3.7) reads
+//! (3.8), and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and
+//! the mean axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
 //!
 //! ```text
 //! R_u = κ M (V - v0) + K ((1 + m) u½ + ζ V) - C (φ½ + ζ W)                          + F(u(1)) e - F_u
@@ -10,32 +11,33 @@
 //! R_θ = 2/dt M (Θ - θ~0) + K Θ              + a Cᵀ W                                            - F_θ
 //! ```
 //!
-//! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the force that A was factorised
-//! with; it may differ from m, for R is exact and A only steers. The contact force is part of the solve: it touches one
-//! node, the last to be eliminated, where it is a scalar equation with a closed solution (`contact.rs`).
+//! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the axial force for which A was
+//! factorised. It may differ from m: then δ is not exact, but the residual R of the next pass is. The contact force is
+//! part of the solve: it acts on one node, the last in the elimination, where it is a scalar equation with a closed
+//! solution (`contact.rs`).
 //!
-//! A pass costs two runs over memory and nothing is allocated.
+//! A pass runs over the nodes twice and allocates nothing.
 
 use crate::block_tridiagonal::{Block, Node, minus_times, minus_transpose_times, times};
 use crate::lanes::Lane;
 
-/// The numbers of a step that do not depend on the node.
+/// The coefficients of a step that do not depend on the node.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scalars<T> {
     pub(crate) dt: T,
     pub(crate) half_dt: T,
     pub(crate) zeta: T,
-    /// ζ + dt/2, the factor of W in `φ½ + ζ W`.
+    /// s = ζ + dt/2, the factor of W in `φ½ + ζ W = φ0 + s W`.
     pub(crate) stiff: T,
     /// κ, the factor of `M (V - v0)`.
     pub(crate) inertia: T,
     pub(crate) two_over_dt: T,
     pub(crate) half_a: T,
-    /// `a θ_A`. The lifting is `a θ_A ((1 - x), N_i')`, by parts `a θ_A (1, N_i)`: a constant load under the mass matrix.
+    /// `a θ_A`. The lifting contributes `a θ_A (1 - x, N_i') = a θ_A (1, N_i)`: a constant under the mass matrix.
     pub(crate) lift: T,
 }
 
-/// One element.
+/// An element.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Element<T> {
     /// 1/h.
@@ -45,7 +47,7 @@ pub(crate) struct Element<T> {
 }
 
 impl<T: Lane> Scalars<T> {
-    /// Those of one case.
+    /// The coefficients of case k.
     pub(crate) fn of_lane(&self, k: usize) -> Scalars<f64> {
         Scalars {
             dt: self.dt.lane(k),
@@ -61,7 +63,8 @@ impl<T: Lane> Scalars<T> {
 }
 
 impl Scalars<f64> {
-    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements left and right of it.
+    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right of it (`None` at the
+    /// tip).
     pub(crate) fn blocks<const B: usize>(
         &self,
         m: f64,
@@ -80,12 +83,12 @@ impl Scalars<f64> {
         diagonal[0][0] = 2.0 * self.inertia * sixth + stiff_u * inverse;
         diagonal[1][1] = (self.inertia + self.stiff) * 2.0 * sixth + self.stiff * inverse;
         if tip {
-            // C has an entry on the diagonal, (N_n, N_n') = 1/2, only where the beam ends.
+            // Only at the tip has C a diagonal entry, (N_n, N_n') = 1/2.
             diagonal[0][1] = -0.5 * self.stiff;
             diagonal[1][0] = -0.5 * self.stiff;
         }
         if B == 3 {
-            // The temperature is given at the tip: an equation -1 δΘ = 0 keeps the shape of the matrix.
+            // The temperature is prescribed at the tip: the equation -1 δΘ = 0 keeps the block structure.
             diagonal[2][2] = if tip { -1.0 } else { -(self.two_over_dt * 2.0 * sixth + inverse) };
             if !tip {
                 lower[2][1] = self.half_a;
@@ -97,10 +100,10 @@ impl Scalars<f64> {
     }
 }
 
-/// What the forward sweep reads and writes; every slice has n + 1 entries, the first of them zero.
+/// Arguments of the forward sweep. Every slice has n + 1 entries; entry 0, of the clamped node, is zero.
 pub(crate) struct Forward<'a, T, const B: usize> {
     pub(crate) scalars: &'a Scalars<T>,
-    /// 1 + m, the whole coefficient of u_x, less the viscous part.
+    /// The mean axial force m.
     pub(crate) m: T,
     pub(crate) elements: &'a [Element<T>],
     pub(crate) nodes: &'a [Node<T, B>],
@@ -108,40 +111,43 @@ pub(crate) struct Forward<'a, T, const B: usize> {
     pub(crate) old: &'a [[T; B]],
     /// (v0, w0, -).
     pub(crate) old_velocity: &'a [[T; B]],
-    /// X of the steps before, the latest first.
+    /// X of the previous three steps, the latest first.
     pub(crate) history: [&'a [[T; B]]; 3],
     /// Weights of the history in the first iterate.
     pub(crate) weights: [T; 3],
-    /// The loads (F_u, F_φ, F_θ), or nothing.
-    pub(crate) load: &'a [[T; B]],
-    /// X; on the first pass it is written, later it is read.
+    /// The loads (F_u, F_φ, F_θ), or empty.
+    pub(crate) load: &'a [[T; 3]],
+    /// X; written by the first pass, read by later ones.
     pub(crate) iterate: &'a mut [[T; B]],
-    /// S⁻¹ y.
+    /// S⁻¹ y, the right-hand side after the elimination.
     pub(crate) middle: &'a mut [[T; B]],
 }
 
-/// The quantities of a node that an element's residual is made of.
+/// Nodal quantities from which the residual of an element is computed.
 #[derive(Clone, Copy)]
 struct Nodal<T, const B: usize> {
     /// X.
     x: [T; B],
     /// (1 + m) u½ + ζ V.
-    stretch: T,
+    axial: T,
     /// u½ + ζ V.
-    slope: T,
+    displacement: T,
     /// φ½ + ζ W.
-    turn: T,
-    /// What the mass matrix acts on in each equation.
+    rotation: T,
+    /// The argument of the mass matrix in each equation.
     mass: [T; B],
 }
 
 impl<T: Lane, const B: usize> Forward<'_, T, B> {
-    /// Runs the sweep. `FIRST`: extrapolate the iterate from the history. `LOADED`: there are loads.
+    /// Runs the sweep.
+    ///
+    /// * `FIRST`: whether the iterate is extrapolated from the history.
+    /// * `LOADED`: whether there are loads.
     #[inline(always)]
     pub(crate) fn run<const FIRST: bool, const LOADED: bool>(self) {
         let zero = T::splat(0.0);
         let count = self.elements.len();
-        // One length for all slices: the compiler then needs no bounds checks in the loop.
+        // Slices of equal length, so the compiler removes the bounds checks in the loop.
         let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
         let (old, old_velocity) = (&self.old[..count], &self.old_velocity[..count]);
         let history = self.history.map(|level| &level[..count]);
@@ -149,7 +155,7 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
         let (iterate, middle) = (&mut self.iterate[..count], &mut self.middle[..count]);
         let (scalars, m, weights) = (self.scalars, self.m, self.weights);
 
-        let mut left = Nodal { x: [zero; B], stretch: zero, slope: zero, turn: zero, mass: [zero; B] };
+        let mut left = Nodal { x: [zero; B], axial: zero, displacement: zero, rotation: zero, mass: [zero; B] };
         left.mass[1] = -scalars.lift;
         let (mut pending, mut y) = ([zero; B], [zero; B]);
         for i in 1..count {
@@ -193,7 +199,8 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
     }
 }
 
-/// -R for the symmetric system, whose third row is negated.
+/// -R with its third component negated, the right-hand side of the symmetric system.
+/// The nodal quantities of the iterate x.
 #[inline(always)]
 fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
     let mut right = residual;
@@ -204,18 +211,18 @@ fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
 #[inline(always)]
 fn nodal<T: Lane, const B: usize>(s: &Scalars<T>, m: T, x: [T; B], old: [T; B], velocity: [T; B]) -> Nodal<T, B> {
     let half_u = x[0].mul_add(s.half_dt, old[0]);
-    let slope = x[0].mul_add(s.zeta, half_u);
-    let turn = x[1].mul_add(s.stiff, old[1]);
+    let displacement = x[0].mul_add(s.zeta, half_u);
+    let rotation = x[1].mul_add(s.stiff, old[1]);
     let mut mass = [T::splat(0.0); B];
     mass[0] = s.inertia * (x[0] - velocity[0]);
-    mass[1] = s.inertia.mul_add(x[1] - velocity[1], turn) - s.lift;
+    mass[1] = s.inertia.mul_add(x[1] - velocity[1], rotation) - s.lift;
     if B == 3 {
         mass[2] = s.two_over_dt * (x[2] - old[2]);
     }
-    Nodal { x, stretch: m.mul_add(half_u, slope), slope, turn, mass }
+    Nodal { x, axial: m.mul_add(half_u, displacement), displacement, rotation, mass }
 }
 
-/// The element's share of the residual at its left and at its right node.
+/// Contributions of an element to the residual of (3.7) at its left and at its right node.
 #[inline(always)]
 fn element<T: Lane, const B: usize>(
     s: &Scalars<T>,
@@ -224,11 +231,11 @@ fn element<T: Lane, const B: usize>(
     right: &Nodal<T, B>,
 ) -> ([T; B], [T; B]) {
     let half = T::splat(0.5);
-    // Stresses: what the derivative of the test function meets.
-    let stress = (right.stretch - left.stretch).mul_add(e.inverse, -(half * (left.turn + right.turn)));
-    let mut moment = (right.turn - left.turn) * e.inverse;
-    // What the test function itself meets beside the mass matrix, the same at both nodes.
-    let shear = half * (right.slope - left.slope);
+    // Stresses, multiplied by the derivative of the test function.
+    let stress = (right.axial - left.axial).mul_add(e.inverse, -(half * (left.rotation + right.rotation)));
+    let mut moment = (right.rotation - left.rotation) * e.inverse;
+    // Shear, multiplied by the test function itself, the same at both nodes.
+    let shear = half * (right.displacement - left.displacement);
     let (mut to_left, mut to_right) = ([T::splat(0.0); B], [T::splat(0.0); B]);
     for k in 0..B {
         let sum = left.mass[k] + right.mass[k];
@@ -249,33 +256,34 @@ fn element<T: Lane, const B: usize>(
     (to_left, to_right)
 }
 
-/// What the backward sweep reads and writes.
+/// Arguments of the backward sweep. Every slice has n + 1 entries.
 pub(crate) struct Backward<'a, T, const B: usize> {
     pub(crate) scalars: &'a Scalars<T>,
     pub(crate) elements: &'a [Element<T>],
     pub(crate) nodes: &'a [Node<T, B>],
     pub(crate) middle: &'a [[T; B]],
-    /// 1 for the cases that are still iterating, 0 for those whose iterate stands.
+    /// 1 for the cases that take part in the pass, 0 for those whose iterate stays.
     pub(crate) active: T,
     /// δ at the tip, contact included.
     pub(crate) tip: [T; B],
     pub(crate) old: &'a [[T; B]],
-    /// X, updated.
+    /// X; the correction is added.
     pub(crate) iterate: &'a mut [[T; B]],
     /// (u, φ, θ~) at the new level.
     pub(crate) new: &'a mut [[T; B]],
 }
 
-/// Two squared norms that the backward sweep sums up on its way.
+/// Two squared norms that the backward sweep computes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sums<T> {
-    /// ‖u_x‖² at the new level.
+    /// ‖u_x‖² of the new iterate.
     pub(crate) slope_squared: T,
-    /// ‖δV_x‖² of the pass.
+    /// ‖δV_x‖² of the correction.
     pub(crate) increment_slope_squared: T,
 }
 
 impl<T: Lane, const B: usize> Backward<'_, T, B> {
+    /// Runs the sweep.
     #[inline(always)]
     pub(crate) fn run(self) -> Sums<T> {
         let count = self.elements.len();
@@ -309,7 +317,7 @@ impl<T: Lane, const B: usize> Backward<'_, T, B> {
     }
 }
 
-/// (u, φ, θ~) at the new level from X.
+/// (u, φ, θ~) at the new level from X: (3.8), and `θ~ = 2 Θ - θ~0`.
 #[inline(always)]
 fn update<T: Lane, const B: usize>(s: &Scalars<T>, x: [T; B], old: [T; B]) -> [T; B] {
     let mut new = old;

@@ -5,8 +5,9 @@ use crate::parameters::ParameterError;
 
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
-/// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (the mode rings), real for ζω > 2 (it creeps back), equal for
-/// ζω = 2. High modes of any damped beam creep. It serves the exact modes and those of a mesh alike: each with its own ω.
+/// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real for ζω > 2
+/// (overdamped), as for all high modes with ζ > 0. The factor is that of a mode of the beam or of a mesh, each with its
+/// own ω.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeFactor {
     omega: f64,
@@ -20,7 +21,8 @@ impl TimeFactor {
     /// * `omega`: the frequency ω >= 0.
     /// * `zeta`: the viscosity ζ >= 0.
     ///
-    /// Errors: ω or ζ negative or not finite, T(0) or T'(0) not finite.
+    /// # Errors
+    /// [`ParameterError`] if ω or ζ is negative or not finite, or T(0) or T'(0) is not finite.
     pub fn new(omega: f64, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
         let refuse = |name, found, allowed| Err(ParameterError { name, found, allowed });
         for (name, value) in [("omega", omega), ("zeta", zeta)] {
@@ -43,7 +45,7 @@ impl TimeFactor {
 
     /// T' at t >= 0.
     pub fn slope(&self, t: f64) -> f64 {
-        // T' solves the same equation, from T'(0) and T''(0).
+        // T' satisfies the same equation with the initial values T'(0) and T''(0).
         let acceleration = -self.omega.powi(2) * (self.start.0 + self.zeta * self.start.1);
         self.evolve(self.start.1, acceleration, t)
     }
@@ -59,16 +61,16 @@ impl TimeFactor {
             let sinc = if angle == 0.0 { 1.0 } else { angle.sin() / angle };
             return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
         }
-        // The slow root by Vieta: -γ + √(γ² - ω²) would lose the digits that matter for all times.
+        // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel.
         let slow = -omega * omega / (gamma + excess.sqrt());
         let gap = 2.0 * excess.sqrt();
-        // (1 - e^{-gap t}) / gap, which is t at critical damping.
+        // (1 - e^{-gap t})/gap, equal to t at critical damping.
         let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };
         (slow * t).exp() * (value + (slope - slow * value) * ramp)
     }
 }
 
-/// A mode with its time factor: `u = U(x) T(t)`, `φ = Φ(x) T(t)`, an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
+/// A mode with its time factor, `u = U(x) T(t)`, `φ = Φ(x) T(t)`: an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
     mode: Mode,
@@ -76,18 +78,20 @@ pub struct DampedMode {
 }
 
 impl DampedMode {
-    /// The mode released from U(1) = 1 at rest: T(0) = 1, T'(0) = 0.
+    /// The mode with U(1) T(0) = 1 and zero initial velocity: T(0) = 1, T'(0) = 0.
     ///
     /// * `zeta`: the viscosity ζ >= 0.
     ///
-    /// Errors: ζ negative or not finite.
+    /// # Errors
+    /// [`ParameterError`] if ζ is negative or not finite.
     pub fn new(mode: Mode, zeta: f64) -> Result<Self, ParameterError> {
         Self::starting_from(mode, zeta, 1.0, 0.0)
     }
 
     /// The mode with `T(0) = position` and `T'(0) = velocity`.
     ///
-    /// Errors: ζ negative or not finite, T(0) or T'(0) not finite.
+    /// # Errors
+    /// [`ParameterError`] if ζ is negative or not finite, or T(0) or T'(0) is not finite.
     pub fn starting_from(mode: Mode, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
         Ok(Self { mode, factor: TimeFactor::new(mode.omega(), zeta, position, velocity)? })
     }

@@ -1,16 +1,16 @@
-//! Frequencies of the beam on P1 elements, on any mesh.
+//! Frequencies of the beam with P1 elements on any mesh.
 
 use crate::bracket::bisect;
 use crate::mesh::Mesh;
 use thiserror::Error;
 
-/// More frequencies were asked for than the mesh has.
+/// More frequencies requested than the mesh has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{count} frequencies of a mesh that has {available}")]
+#[error("frequencies of a mesh: expected at most {available}, found {count}: take fewer frequencies or more elements")]
 pub struct SpectrumError {
-    /// Asked for.
+    /// Number of frequencies requested.
     pub count: usize,
-    /// Twice the number of elements.
+    /// Number of frequencies of the mesh, twice the number of elements.
     pub available: usize,
 }
 
@@ -24,14 +24,16 @@ struct Symmetric {
 
 /// The `count` lowest ω of the semi-discrete beam, `(K - ω² M) x = 0`, in increasing order.
 ///
-/// K and M are the P1 matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²`, with u and φ clamped at node 0 and exact
-/// integration, as in (3.7) with a = β = ρ = ζ = 0. On a uniform mesh ω_h - ω is ω³h²/24 to leading order for high modes.
+/// K and M are the P1 matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` with exact integration and with u and φ
+/// clamped at node 0, as in (3.7) with a = β = ρ = ζ = 0. On a uniform mesh ω_h - ω ≈ ω³h²/24 for high modes.
 ///
-/// Method: K - λM is block tridiagonal with 2 x 2 blocks, and its block LDLᵀ pivots have as many negative eigenvalues as
-/// the pencil has eigenvalues below λ (Sylvester). Bisection on that count cannot miss or confuse neighbours, however close.
-/// Each frequency is exact to round-off times the condition number, about `ε n² / ω²`, and mostly far better.
+/// Method: the block LDLᵀ pivots of K - λM, block tridiagonal with 2 x 2 blocks, have as many negative eigenvalues as
+/// the pencil has eigenvalues below λ (Sylvester). Bisection on that count separates eigenvalues however close they
+/// are. The error of a frequency is at most round-off times the condition number, about `ε n²/ω²`, and mostly far
+/// smaller.
 ///
-/// Errors: `count` is more than 2n.
+/// # Errors
+/// [`SpectrumError`] if `count` is more than 2n.
 pub fn discrete_frequencies(mesh: &Mesh, count: usize) -> Result<Vec<f64>, SpectrumError> {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let available = 2 * lengths.len();
@@ -40,14 +42,14 @@ pub fn discrete_frequencies(mesh: &Mesh, count: usize) -> Result<Vec<f64>, Spect
     }
     let highest = spectral_bound(&lengths);
     let below = |index: usize| {
-        // Positive once more than `index` frequencies lie below omega.
+        // Positive if more than `index` frequencies lie below omega.
         let excess = |omega: f64| if count_below(&lengths, omega * omega) > index { 1.0 } else { -1.0 };
         bisect(excess, 0.0, highest)
     };
     Ok((0..count).map(below).collect())
 }
 
-/// An upper bound of all ω: element by element, `‖w'‖² <= 12/h² ‖w‖²` and `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`.
+/// An upper bound of all ω: on each element `‖w'‖² <= 12/h² ‖w‖²` and `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`.
 fn spectral_bound(lengths: &[f64]) -> f64 {
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
     (24.0 / (shortest * shortest) + 2.0).sqrt()
@@ -69,17 +71,18 @@ fn count_below(lengths: &[f64], lambda: f64) -> usize {
     negative
 }
 
-/// The diagonal block of the node between elements of length `left` and `right` (none at the tip).
+/// The diagonal block of a node between elements of lengths `left` and `right` (`None` at the tip).
 fn diagonal(left: f64, right: Option<f64>, lambda: f64) -> Symmetric {
     let lengths = left + right.unwrap_or(0.0);
     let stiffness = 1.0 / left + right.map_or(0.0, f64::recip);
     let mass = lengths / 3.0;
-    // (φ, N_i') of a node with itself: 1/2 from the left, -1/2 from the right.
+    // (N_i, N_i'): 1/2 from the left element, -1/2 from the right.
     let coupling = if right.is_some() { 0.0 } else { 0.5 };
     Symmetric { a: stiffness - lambda * mass, b: -coupling, d: stiffness + mass - lambda * mass }
 }
 
-/// `pivot -= F P F^T`, P the inverse of the pivot before and F the block below it, across an element of length h.
+/// `pivot -= F P Fᵀ`, with P the inverse of the previous pivot and F the subdiagonal block, across an element of length
+/// h.
 fn subtract_congruence(pivot: &mut Symmetric, inverse: Symmetric, h: f64, lambda: f64) {
     let mass = h / 6.0;
     let (u, phi) = (-1.0 / h - lambda * mass, -1.0 / h + mass - lambda * mass);
@@ -92,12 +95,13 @@ fn subtract_congruence(pivot: &mut Symmetric, inverse: Symmetric, h: f64, lambda
     pivot.d -= second[0] * f[1][0] + second[1] * f[1][1];
 }
 
-/// Negative eigenvalues of the block, and its inverse.
+/// Number of negative eigenvalues of the block, and its inverse.
 fn invert(block: Symmetric) -> (usize, Symmetric) {
     let Symmetric { a, b, d } = block;
     let mut determinant = a * d - b * b;
     if determinant == 0.0 {
-        // λ is an eigenvalue of a leading part: a shift by round-off of it decides, as it would in any case.
+        // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
+        // λ.
         determinant = (f64::EPSILON * f64::EPSILON * (a * a + d * d + b * b)).max(f64::MIN_POSITIVE);
     }
     let negative = if determinant < 0.0 {
@@ -141,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spectrum_ends_below_its_bound() {
+    fn all_frequencies_lie_below_the_spectral_bound() {
         let bound = spectral_bound(&[0.5, 0.25, 0.25]);
         assert_eq!(bound, (24.0 * 16.0 + 2.0_f64).sqrt());
         assert_eq!(count_below(&[0.5, 0.25, 0.25], bound * bound), 6);

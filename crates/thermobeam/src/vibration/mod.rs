@@ -1,13 +1,13 @@
-//! Free vibrations of the linear beam, exact: a = β = ρ = 0, no obstacles, θ = 0.
+//! Free vibrations of the linear beam in closed form: a = β = ρ = 0, no obstacles, θ = 0.
 //!
 //! # Separation
 //!
-//! Both equations of (1.1) then have the form w_tt = L(w + ζ w_t) with the elastic operator L, and (1.3) the same
-//! combination w + ζ w_t. So each undamped mode L(U, Φ) = -ω²(U, Φ) may be multiplied by its own T(t) with
+//! Both equations of (1.1) then have the form w_tt = L(w + ζ w_t) with the elastic operator L, and (1.3) contains the
+//! same combination w + ζ w_t. So a solution is an undamped mode, L(U, Φ) = -ω²(U, Φ), times a factor T(t) with
 //!
 //! `T'' + ζω² T' + ω² T = 0`:
 //!
-//! see [`TimeFactor`] and [`DampedMode`]. What remains is
+//! see [`TimeFactor`] and [`DampedMode`]. The mode satisfies
 //!
 //! ```text
 //! U'' - Φ' = -ω² U,      Φ'' + U' - Φ = -ω² Φ,
@@ -16,39 +16,39 @@
 //!
 //! # Frequencies
 //!
-//! An exponential e^{px} solves the equations where `(p² + ω²)(p² + ω² - 1) + p² = 0`, that is `p² = -ω² ± ω`.
-//! With `κ±² = ω² ∓ ω`, C±(x) = cos κ± x and S±(x) = sin κ± x / κ± (the first pair is hyperbolic for ω < 1, linear for ω = 1;
-//! as functions of κ±² both are entire), the two solutions that are clamped at x = 0 are
+//! The exponential e^{px} solves the equations if `(p² + ω²)(p² + ω² - 1) + p² = 0`, that is, `p² = -ω² ± ω`. With
+//! `κ±² = ω² ∓ ω`, C±(x) = cos κ± x and S±(x) = sin κ± x / κ± (the first pair is hyperbolic for ω < 1, linear for ω =
+//! 1; as functions of κ±² both are entire), the two solutions that are clamped at x = 0 are
 //!
 //! ```text
 //! U = A [(1 - ω) S+ - (1 + ω) S-] + B [C+ - C-],
 //! Φ = A [C+ - C-]                 + B ω [S+ + S-].
 //! ```
 //!
-//! The two conditions at x = 1 read, divided by ω and with everything taken at 1,
+//! The two conditions at x = 1, divided by ω and with all functions at 1, are
 //!
 //! ```text
 //! [(1 + ω) S- + (1 - ω) S+] A + (C+ + C-) B = 0,
 //! -(C+ + C-) A + ω (S- - S+) B = 0,
 //! ```
 //!
-//! with determinant `2 (1 + C+ C- - ω² S+ S-)`. On [0, 1] it is at least 0.1: no frequency there. For ω > 1 put
+//! with determinant `2 (1 + C+ C- - ω² S+ S-)`. For ω <= 1 it is at least 0.1, so there is no frequency. For ω > 1 let
 //!
 //! ```text
 //! ω = (E + 1/E)/2, E > 1,     s = (κ+ + κ-)/2 = √(E² + 1)/2,     (κ- - κ+)/2 = s/E.
 //! ```
 //!
-//! The determinant is then a difference of two squares, and vanishes where
+//! The determinant is then a difference of two squares and vanishes for
 //!
 //! `|cos s| = r(s) := cos(s/E)/E`.
 //!
-//! # None is missed
+//! # No frequency is missed
 //!
-//! r falls from 0.76 (s = 1/√2, ω = 1) to 0 and never reaches 1, and |r'| < 0.7 < 0.87 < |sin s| at a root with s >= 1,
-//! below which |cos s| > r. So each interval of length π/2 between the zeros of sin s and cos s has exactly one root,
-//! simple; the first, which starts with s = 1, included. With it goes a bracket, and the i-th frequency needs no other.
-//! High frequencies come in pairs, ω ≈ (n - 1/2)π ∓ 0.44/ω: there the determinant itself has nearly double roots,
-//! which a scan of its sign would overlook.
+//! r decreases from 0.76 (s = 1/√2, ω = 1) to 0, and |r'| < 0.7 < 0.87 < |sin s| at every root with s >= 1; for s < 1,
+//! |cos s| > r. So each interval of length π/2 between neighbouring zeros of sin s and cos s contains exactly one root, and
+//! it is simple; this includes the first interval, which is searched from s = 1. The i-th frequency is computed in its
+//! own interval. High frequencies come in pairs, ω ≈ (n - 1/2)π ∓ 0.44/ω, at which the determinant itself has nearly
+//! double roots: a scan of its sign would miss them.
 //!
 //! ```
 //! use thermobeam::vibration::{DampedMode, Mode};
@@ -75,10 +75,11 @@ pub fn frequencies(count: usize) -> Vec<f64> {
     (0..count).map(frequency).collect()
 }
 
-/// The frequency of the given index from 0, exact to a few units of round-off.
+/// The frequency with index 0, 1, ..., with an error of a few units of round-off.
 fn frequency(index: usize) -> f64 {
     let excess = |s: f64| s.cos().abs() - (s / e(s)).cos() / e(s);
-    // Below s = 1 there is none, and at ω = 1 (s = 1/√2) the quotient has a zero that the determinant has not.
+    // There is no root below s = 1, where the quotient has a zero at ω = 1 (s = 1/√2) that the determinant does not
+    // have.
     let (from, to) = (FRAC_PI_2 * index as f64, FRAC_PI_2 * (index + 1) as f64);
     let e = e(bisect(excess, from.max(1.0), to));
     0.5 * (e + 1.0 / e)
@@ -98,19 +99,20 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// The mode of the given index, the lowest frequency being index 0.
+    /// The mode with the given index; index 0 has the lowest frequency.
     ///
-    /// U and Φ are exact to round-off times ω: at high frequencies two almost equal waves make up their difference.
+    /// U and Φ have an error of round-off times ω, because at high frequencies they are differences of two almost equal
+    /// waves.
     pub fn new(index: usize) -> Self {
         let omega = frequency(index);
         let [plus, minus] = squares(omega);
-        // The second condition at x = 1, or the first, whichever says more: at high frequencies both are small.
+        // The second condition at x = 1 or the first, whichever has the larger coefficients.
         let sum = c0(plus) + c0(minus);
         let rotation = omega * (c1(minus) - c1(plus));
         let shear = (1.0 + omega) * c1(minus) + (1.0 - omega) * c1(plus);
         let (a, b) = if rotation.abs() > shear.abs() { (rotation, sum) } else { (sum, -shear) };
         let unscaled = Self { omega, a, b };
-        // U(1) = 0 would make three conditions at the tip and two at the clamp: too many for a mode.
+        // U(1) ≠ 0: otherwise three conditions at the tip and two at the clamped end would exclude the mode.
         let tip = unscaled.u(1.0);
         Self { omega, a: a / tip, b: b / tip }
     }

@@ -1,11 +1,11 @@
-//! Buckling, folds and the borderline cases.
+//! Buckling, folds and limit cases.
 
-use super::{close, driven, obstacles, states};
+use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{Contact, EquilibriumError, HALF_WAVES, equilibria, lists_all};
+use thermobeam::equilibrium::{BUCKLING_VALUES, Contact, EquilibriumError, equilibria, lists_all};
 use thermobeam::parameters::Obstacles;
 
-/// N_k, where the beam without support buckles.
+/// The buckling value N_k of the beam without support.
 fn buckling(k: u32) -> f64 {
     let kappa = (f64::from(k) - 0.5) * PI;
     -kappa * kappa / (1.0 + kappa * kappa)
@@ -13,7 +13,7 @@ fn buckling(k: u32) -> f64 {
 
 #[test]
 fn a_straight_beam_has_a_pair_of_buckled_states_per_buckling_value() {
-    let beam = driven(-0.985, 3.0, 0.0);
+    let beam = loaded(-0.985, 3.0, 0.0);
     let found = states(&beam, None);
     assert_eq!(found.len(), 7);
     for k in 1..=3 {
@@ -33,8 +33,8 @@ fn a_straight_beam_has_a_pair_of_buckled_states_per_buckling_value() {
 }
 
 #[test]
-fn obstacles_take_away_the_buckled_states_that_they_are_in_the_way_of() {
-    let beam = driven(-0.72, 1.0, 0.0);
+fn obstacles_exclude_the_free_states_that_would_cross_them() {
+    let beam = loaded(-0.72, 1.0, 0.0);
     let amplitude = states(&beam, None)[2].u_tip;
     let wide = Obstacles { g1: -1.001 * amplitude, g2: 1.001 * amplitude, epsilon: 1e-3 };
     let narrow = Obstacles { g1: -0.999 * amplitude, ..wide };
@@ -45,27 +45,27 @@ fn obstacles_take_away_the_buckled_states_that_they_are_in_the_way_of() {
 
 #[test]
 fn a_small_load_moves_buckled_states_linearly() {
-    let sum = |drive: f64| {
-        let found = states(&driven(-0.9, 1.0, drive), None);
-        assert_eq!(found.len(), 3, "drive {drive:e}");
-        (found[0].u_tip + found[2].u_tip) / drive
+    let sum = |moment: f64| {
+        let found = states(&loaded(-0.9, 1.0, moment), None);
+        assert_eq!(found.len(), 3, "moment {moment:e}");
+        (found[0].u_tip + found[2].u_tip) / moment
     };
     let slope = sum(1e-4);
-    for drive in [1e-6, -1e-8, 1e-10, -1e-12] {
-        close(sum(drive), slope, 1e-5 + 4e-16 / drive.abs());
+    for moment in [1e-6, -1e-8, 1e-10, -1e-12] {
+        close(sum(moment), slope, 1e-5 + 4e-16 / moment.abs());
     }
-    // Below round-off of the amplitude the pair is that of the unloaded beam.
-    let unloaded = states(&driven(-0.9, 1.0, 0.0), None);
-    for drive in [1e-15, 1e-17, -1e-30, 1e-200] {
-        let found = states(&driven(-0.9, 1.0, drive), None);
-        assert_eq!(found.len(), 3, "drive {drive:e}");
+    // For loads below round-off of the amplitude the pair is that of the unloaded beam.
+    let unloaded = states(&loaded(-0.9, 1.0, 0.0), None);
+    for moment in [1e-15, 1e-17, -1e-30, 1e-200] {
+        let found = states(&loaded(-0.9, 1.0, moment), None);
+        assert_eq!(found.len(), 3, "moment {moment:e}");
         found.iter().zip(&unloaded).for_each(|(state, limit)| close(state.u_tip, limit.u_tip, 1e-14));
     }
 }
 
 #[test]
 fn two_states_merge_in_a_fold_and_vanish() {
-    let count = |drive: f64| states(&driven(-0.8, 1.0, drive), None).len();
+    let count = |moment: f64| states(&loaded(-0.8, 1.0, moment), None).len();
     let (mut three, mut one) = (1e-4, 1.0);
     assert_eq!((count(three), count(one)), (3, 1));
     while one - three > 1e-14 * one {
@@ -73,15 +73,15 @@ fn two_states_merge_in_a_fold_and_vanish() {
         if count(middle) == 1 { one = middle } else { three = middle }
     }
     assert_eq!((count(three * (1.0 - 1e-12)), count(one * (1.0 + 1e-12))), (3, 1));
-    // Beside the fold the pair is √ close, one of it stable, one not.
-    let close_by = states(&driven(-0.8, 1.0, three * (1.0 - 1e-10)), None);
-    assert!((close_by[1].u_tip - close_by[0].u_tip).abs() < 1e-4);
-    assert_eq!(close_by.iter().filter(|state| state.stable).count(), 2);
+    // At a relative distance δ from the fold the two states differ by √δ; one is stable, the other is not.
+    let nearby = states(&loaded(-0.8, 1.0, three * (1.0 - 1e-10)), None);
+    assert!((nearby[1].u_tip - nearby[0].u_tip).abs() < 1e-4);
+    assert_eq!(nearby.iter().filter(|state| state.stable).count(), 2);
 }
 
 #[test]
-fn the_straight_beam_pinched_between_two_obstacles_at_zero_is_stiffer() {
-    let beam = driven(-0.8, 1.0, 0.0);
+fn the_straight_beam_held_by_two_obstacles_at_zero_is_stiffer() {
+    let beam = loaded(-0.8, 1.0, 0.0);
     let pinched = states(&beam, obstacles(1e-3, 0.0, 0.0).as_ref());
     assert_eq!(pinched.len(), 1);
     assert!(pinched[0].stable);
@@ -90,41 +90,41 @@ fn the_straight_beam_pinched_between_two_obstacles_at_zero_is_stiffer() {
 }
 
 #[test]
-fn at_minus_one_the_stress_vanishes() {
+fn the_state_at_axial_force_minus_one_has_no_stress() {
     // ρ(aθ_A)² = -1 - β, all exact in binary.
     for (beta, rho) in [(-1.25, 1.0), (-3.0, 8.0)] {
-        let found = states(&driven(beta, rho, 0.5), None);
+        let found = states(&loaded(beta, rho, 0.5), None);
         let state = found.iter().find(|state| state.n_value == -1.0).expect("the state at N = -1");
         assert_eq!((state.u_tip, state.phi_tip, state.u_x(0.3), state.unstable_directions), (-0.5, 0.0, -0.5, None));
-        assert!(states(&driven(beta, 1.001 * rho, 0.5), None).iter().all(|state| state.n_value != -1.0));
+        assert!(states(&loaded(beta, 1.001 * rho, 0.5), None).iter().all(|state| state.n_value != -1.0));
     }
 }
 
-/// Below β = -1 the list ends at N_17 from above, and goes on from N = -1 down.
+/// For β < -1 the list ends at N_17 from above and continues from N = -1 downwards.
 #[test]
-fn sixteen_quarter_waves_are_listed_whatever_beta() {
+fn sixteen_buckled_pairs_are_listed_for_any_beta() {
     for beta in [-1.0, -1.5] {
-        let unloaded = states(&driven(beta, 1.0, 0.0), None);
-        assert_eq!(unloaded.len(), 1 + 2 * HALF_WAVES, "one straight, and a pair each: {beta}");
+        let unloaded = states(&loaded(beta, 1.0, 0.0), None);
+        assert_eq!(unloaded.len(), 1 + 2 * BUCKLING_VALUES, "one straight, and a pair each: {beta}");
         assert!((1..=16).all(|k| unloaded.iter().filter(|s| (s.n_value - buckling(k)).abs() < 1e-13).count() == 2));
         let straight = unloaded.iter().find(|state| state.u_tip == 0.0).expect("the straight beam");
         assert_eq!((straight.n_value, straight.unstable_directions), (beta, None));
     }
-    // A load splits each pair, to both sides of N_k, but for N_1, above which one is; N_17 gives its upper one.
-    let loaded = states(&driven(-1.5, 1.0, 1e-6), None);
-    let shallow: Vec<f64> = loaded.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
-    assert_eq!(shallow.len(), 2 * HALF_WAVES + 1, "{shallow:?}");
-    assert!(shallow.iter().all(|n| *n > buckling(HALF_WAVES as u32 + 1)));
-    assert!(loaded.iter().any(|state| state.n_value < -1.0));
+    // A load splits each pair into one state above and one below N_k; of N_17 only the upper one is listed.
+    let split = states(&loaded(-1.5, 1.0, 1e-6), None);
+    let above_minus_one: Vec<f64> = split.iter().map(|state| state.n_value).filter(|n| *n > -1.0).collect();
+    assert_eq!(above_minus_one.len(), 2 * BUCKLING_VALUES + 1, "{above_minus_one:?}");
+    assert!(above_minus_one.iter().all(|n| *n > buckling(BUCKLING_VALUES as u32 + 1)));
+    assert!(split.iter().any(|state| state.n_value < -1.0));
 }
 
 #[test]
-fn what_cannot_be_told_is_an_error() {
-    let resonant = equilibria(&driven(buckling(2), 0.0, 0.1), None);
+fn undecidable_equilibria_are_errors() {
+    let resonant = equilibria(&loaded(buckling(2), 0.0, 0.1), None);
     assert!(matches!(resonant, Err(EquilibriumError::Resonance { contact: Contact::Free, .. })), "{resonant:?}");
-    let bad = equilibria(&driven(f64::NAN, 1.0, 0.1), None);
+    let bad = equilibria(&loaded(f64::NAN, 1.0, 0.1), None);
     assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
-    assert!(lists_all(&driven(-0.999, 1.0, 0.0)) && !lists_all(&driven(-1.0, 1.0, 0.0)));
-    let last = buckling(HALF_WAVES as u32 + 1);
-    assert!(lists_all(&driven(last + 1e-9, 1.0, 0.0)) && !lists_all(&driven(last - 1e-9, 1.0, 0.0)));
+    assert!(lists_all(&loaded(-0.999, 1.0, 0.0)) && !lists_all(&loaded(-1.0, 1.0, 0.0)));
+    let last = buckling(BUCKLING_VALUES as u32 + 1);
+    assert!(lists_all(&loaded(last + 1e-9, 1.0, 0.0)) && !lists_all(&loaded(last - 1e-9, 1.0, 0.0)));
 }

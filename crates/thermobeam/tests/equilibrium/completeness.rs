@@ -1,13 +1,13 @@
-//! No state is missed and none is found twice.
+//! No state is missed, and none is found twice.
 
-use super::{close, driven, states, stretch_by_quadrature};
+use super::{close, loaded, slope_squared_by_quadrature, states};
 use proptest::prelude::*;
 use thermobeam::equilibrium::{Contact, Equilibrium, equilibria};
 use thermobeam::parameters::{Beam, Obstacles};
 
-/// The textbook formula for one law at one N, integrals by Simpson's rule: (f, c, u(1)).
+/// The textbook formula for one law at one N, with integrals by Simpson's rule: (f, c, u(1)).
 fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64, f64) {
-    let (q, m, drive) = (1.0 / (1.0 + n_value), n_value / (1.0 + n_value), beam.a * beam.theta_a);
+    let (q, m, moment) = (1.0 / (1.0 + n_value), n_value / (1.0 + n_value), beam.a * beam.theta_a);
     let k = m.abs().sqrt();
     let cosine = |y: f64| if m > 0.0 { (k * y).cosh() } else { (k * y).cos() };
     let p = |x: f64| (1.0 - cosine(1.0 - x) / cosine(1.0)) / m;
@@ -19,13 +19,13 @@ fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64
         a += weight * value;
         b += weight * value * value;
     }
-    let c = support.map_or(0.0, |(epsilon, g)| (g - q * drive * a) / (epsilon + q * (1.0 + q * a)));
-    let d = drive + c * q;
-    let stretch = q * q * (d * d * b + 2.0 * d * c * a + c * c);
-    (n_value - beam.beta - beam.rho * stretch, c, q * (d * a + c))
+    let c = support.map_or(0.0, |(epsilon, g)| (g - q * moment * a) / (epsilon + q * (1.0 + q * a)));
+    let d = moment + c * q;
+    let slope_squared = q * q * (d * d * b + 2.0 * d * c * a + c * c);
+    (n_value - beam.beta - beam.rho * slope_squared, c, q * (d * a + c))
 }
 
-/// All states with N > -0.98 by a blind fine scan: (contact, u(1)).
+/// All states with N > -0.98 by a fine scan: (contact, u(1)).
 fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Contact, f64)> {
     let Obstacles { epsilon, g1, g2 } = *obstacles;
     let laws = [(Contact::Free, None), (Contact::Upper, Some((epsilon, g2))), (Contact::Lower, Some((epsilon, g1)))];
@@ -60,12 +60,12 @@ fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Contact,
 }
 
 #[test]
-fn a_blind_scan_with_the_textbook_formula_finds_the_same_states() {
+fn a_fine_scan_of_the_textbook_formula_finds_the_same_states() {
     let cases = [
-        (driven(-0.95, 1.0, 0.05), Obstacles { epsilon: 1e-3, g1: -0.6, g2: 0.1 }, 2.0),
-        (driven(-0.97, 0.5, -0.02), Obstacles { epsilon: 0.1, g1: -2.0, g2: 2.0 }, 2.0),
-        (driven(-1.4, 0.7, 0.4), Obstacles { epsilon: 0.05, g1: -0.2, g2: 0.0 }, 3.0),
-        (driven(-5.0, 1.0, 0.34), Obstacles { epsilon: 1e-3, g1: -0.01, g2: 0.1 }, 3.0),
+        (loaded(-0.95, 1.0, 0.05), Obstacles { epsilon: 1e-3, g1: -0.6, g2: 0.1 }, 2.0),
+        (loaded(-0.97, 0.5, -0.02), Obstacles { epsilon: 0.1, g1: -2.0, g2: 2.0 }, 2.0),
+        (loaded(-1.4, 0.7, 0.4), Obstacles { epsilon: 0.05, g1: -0.2, g2: 0.0 }, 3.0),
+        (loaded(-5.0, 1.0, 0.34), Obstacles { epsilon: 1e-3, g1: -0.01, g2: 0.1 }, 3.0),
     ];
     for (beam, obstacles, largest) in cases {
         let expected = blind_scan(&beam, &obstacles, largest);
@@ -79,8 +79,8 @@ fn a_blind_scan_with_the_textbook_formula_finds_the_same_states() {
 }
 
 fn any_beam() -> impl Strategy<Value = Beam> {
-    (-0.999..3.0_f64, -2.0..4.0_f64, -6.0..1.0_f64, prop::bool::ANY).prop_map(|(beta, rho, drive, up)| {
-        driven(beta, 10.0_f64.powf(rho), if up { 1.0 } else { -1.0 } * 10.0_f64.powf(drive))
+    (-0.999..3.0_f64, -2.0..4.0_f64, -6.0..1.0_f64, prop::bool::ANY).prop_map(|(beta, rho, moment, up)| {
+        loaded(beta, 10.0_f64.powf(rho), if up { 1.0 } else { -1.0 } * 10.0_f64.powf(moment))
     })
 }
 
@@ -96,19 +96,19 @@ fn any_obstacles() -> impl Strategy<Value = Option<Obstacles>> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// The energy grows in all directions, so its gradient has degree 1: one state missed or found twice breaks the sum.
-    /// (A pair missed would not: that is what the blind scan is for.)
+    /// The energy is coercive, so its gradient has degree 1: a state missed or found twice changes the sum.
+    /// A missed pair does not; the fine scan covers that case.
     #[test]
-    fn minima_saddles_and_so_on_add_up_to_one(beam in any_beam(), obstacles in any_obstacles()) {
+    fn the_indices_of_all_states_add_up_to_one(beam in any_beam(), obstacles in any_obstacles()) {
         let found = states(&beam, obstacles.as_ref());
         let parity = |state: &Equilibrium| 1 - 2 * (state.unstable_directions.unwrap() % 2) as i32;
         prop_assert_eq!(found.iter().map(parity).sum::<i32>(), 1, "{:#?}", found);
         prop_assert!(found.iter().any(|state| state.stable));
     }
 
-    /// Upside down, everything is upside down.
+    /// Reflecting beam and obstacles reflects the states.
     #[test]
-    fn the_mirrored_scene_has_the_mirrored_states(beam in any_beam(), obstacles in any_obstacles()) {
+    fn a_mirrored_scene_has_mirrored_states(beam in any_beam(), obstacles in any_obstacles()) {
         let mirrored_beam = Beam { theta_a: -beam.theta_a, ..beam };
         let mirrored_obstacles = obstacles.map(|o| Obstacles { g1: -o.g2, g2: -o.g1, ..o });
         let (found, mirrored) = (states(&beam, obstacles.as_ref()), states(&mirrored_beam, mirrored_obstacles.as_ref()));
@@ -119,16 +119,16 @@ proptest! {
         }
     }
 
-    /// Whatever the coefficients, the states are finite, hold N = β + ρ‖u'‖², and one of them is stable.
+    /// For all coefficients the states are finite, satisfy N = β + ρ‖u'‖², and one of them is stable.
     #[test]
-    fn no_coefficient_is_too_extreme(
+    fn equilibria_are_found_for_extreme_coefficients(
         beta in prop_oneof![-1e6..1e6_f64, -5.0..1.0_f64, -1.01..-0.99_f64],
         rho in -6.0..8.0_f64,
-        drive in prop_oneof![-1e4..1e4_f64, -1.0..1.0_f64, -1e-9..1e-9_f64],
+        moment in prop_oneof![-1e4..1e4_f64, -1.0..1.0_f64, -1e-9..1e-9_f64],
         epsilon in -10.0..6.0_f64,
         (below, above) in (prop_oneof![Just(0.0), 1e-6..10.0_f64], prop_oneof![Just(0.0), 1e-6..10.0_f64]),
     ) {
-        let beam = driven(beta, 10.0_f64.powf(rho), drive);
+        let beam = loaded(beta, 10.0_f64.powf(rho), moment);
         let walls = Obstacles { epsilon: 10.0_f64.powf(epsilon), g1: -below, g2: above };
         for obstacles in [None, Some(&walls)] {
             let found = equilibria(&beam, obstacles);
@@ -136,18 +136,18 @@ proptest! {
             let found = found.unwrap();
             prop_assert!(found.iter().any(|state| state.stable));
             for state in &found {
-                let stretch = stretch_by_quadrature(state);
-                let defect = state.n_value - beta - beam.rho * stretch;
-                // Simpson's rule sees no boundary layer thinner than its step.
+                let slope_squared = slope_squared_by_quadrature(state);
+                let defect = state.n_value - beta - beam.rho * slope_squared;
+                // Simpson's rule does not resolve a boundary layer thinner than its step.
                 let resolved = !(-1.001..=-1.0).contains(&state.n_value);
-                prop_assert!(!resolved || defect.abs() <= 1e-6 * (1.0 + beta.abs() + beam.rho * stretch), "{:?}", state);
+                prop_assert!(!resolved || defect.abs() <= 1e-6 * (1.0 + beta.abs() + beam.rho * slope_squared), "{:?}", state);
             }
         }
     }
 }
 
 #[test]
-fn a_breath_of_heat_leaves_the_buckled_states_in_mirrored_pairs() {
+fn small_heat_load_splits_each_buckled_pair() {
     let tips = |theta_a: f64| {
         let beam = Beam { beta: -0.99, theta_a, ..Beam::default() };
         let mut tips: Vec<f64> = equilibria(&beam, None).unwrap().iter().map(|state| state.u_tip).collect();

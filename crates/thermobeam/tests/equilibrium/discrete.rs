@@ -1,4 +1,4 @@
-//! Steady states and their stability against P1 elements.
+//! Steady states and their stability against a discretisation with P1 elements.
 
 use super::p1_matrices::P1Matrices;
 use super::{scenes, states};
@@ -12,7 +12,7 @@ fn interpolate(p1: &P1Matrices, u: impl Fn(f64) -> f64, phi: impl Fn(f64) -> f64
     DVector::from_fn(2 * n, |i, _| if i < n { u(node(i)) } else { phi(node(i - n)) })
 }
 
-/// Derivative and second derivative of the potential energy.
+/// First and second variation of the potential energy.
 fn variations(
     p1: &P1Matrices,
     beam: &Beam,
@@ -41,7 +41,8 @@ fn variations(
     (first, second)
 }
 
-/// Newton's method on n elements from the exact state: the discrete state and the number of negative eigenvalues there.
+/// Tip of the discrete state on n elements by Newton's method from the exact state, and its number of negative
+/// eigenvalues.
 fn discrete_state(beam: &Beam, obstacles: Option<&Obstacles>, state: &Equilibrium, n: usize) -> (f64, usize) {
     let discrete = P1Matrices::new(n);
     let mut x = interpolate(&discrete, |x| state.u(x), |x| state.phi(x));
@@ -62,7 +63,7 @@ fn discrete_state(beam: &Beam, obstacles: Option<&Obstacles>, state: &Equilibriu
 fn discrete_states_converge_at_second_order_and_have_as_many_unstable_directions() {
     for (beam, obstacles) in scenes() {
         for state in states(&beam, obstacles.as_ref()) {
-            // Finer waves would need finer meshes than dense matrices allow.
+            // Shorter waves need finer meshes than dense matrices allow.
             if state.n_value < -0.985 {
                 continue;
             }
@@ -72,7 +73,7 @@ fn discrete_states_converge_at_second_order_and_have_as_many_unstable_directions
             let rate = (errors.0 / errors.1).log2();
             let floor = 1e-10 * (1.0 + state.u_tip.abs());
             assert!(errors.1.abs() <= floor || (1.85..2.15).contains(&rate), "{beam:?} {state:?} {errors:?}");
-            // A beam that only touches has no second variation in the classical sense.
+            // At a state that touches without pressing, the second variation does not exist.
             let touches = obstacles.is_some_and(|o| state.u_tip == o.g1 || state.u_tip == o.g2);
             if !touches {
                 assert_eq!(state.unstable_directions, Some(negative), "{beam:?} {state:?}");

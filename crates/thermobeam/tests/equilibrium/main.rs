@@ -1,4 +1,4 @@
-//! Steady states against reference numbers, the strong form, a discretisation, and a topological count.
+//! Steady states against reference values, the strong form, a discretisation, and the degree of the energy's gradient.
 
 mod buckling;
 mod completeness;
@@ -7,15 +7,16 @@ mod discrete;
 mod p1_matrices;
 
 use thermobeam::equilibrium::{Contact, Equilibrium, equilibria};
+use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 
 fn heated(beta: f64, theta_a: f64) -> Beam {
     Beam { beta, theta_a, ..Beam::default() }
 }
 
-/// A beam on which the load aθ_A is `drive`.
-fn driven(beta: f64, rho: f64, drive: f64) -> Beam {
-    Beam { zeta: 0.1, beta, rho, a: 1.0, theta_a: drive }
+/// A beam with the thermal moment aθ_A = `moment`.
+fn loaded(beta: f64, rho: f64, moment: f64) -> Beam {
+    Beam { zeta: 0.1, beta, rho, a: 1.0, theta_a: moment }
 }
 
 fn obstacles(epsilon: f64, g1: f64, g2: f64) -> Option<Obstacles> {
@@ -32,7 +33,7 @@ fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{found} is not {expected} to {tolerance:e}");
 }
 
-/// Scenes from all corners: buckled and not, pushed up and down, hard and soft obstacles and none, strong stretching.
+/// Scenes of all kinds: buckled or not, pushed up and down, hard, soft and no obstacles, strong stretching.
 fn scenes() -> Vec<(Beam, Option<Obstacles>)> {
     let paper = Some(Obstacles::default());
     vec![
@@ -45,22 +46,22 @@ fn scenes() -> Vec<(Beam, Option<Obstacles>)> {
         (heated(-0.97, 0.1), None),
         (heated(-0.99, 5.0), paper),
         (heated(-5.0, 20.0), paper),
-        (driven(-0.9, 1e4, -5.1), paper),
-        (driven(0.0, 1e6, -3000.0), None),
-        (driven(-0.985, 2.0, -0.3), obstacles(1e-8, -0.05, 0.0)),
-        (driven(-0.96, 0.5, 0.0), obstacles(1e-8, 0.0, 0.0)),
-        (driven(-0.75, 0.01, 0.02), obstacles(1.0, -0.3, 0.2)),
-        (driven(-2.0, 1.0, 1.5), obstacles(1.0, -0.3, 0.2)),
-        (driven(-5.0, 0.3, -2.0), obstacles(0.5, 0.0, 0.4)),
-        (driven(-5.0, 1.0, 0.0), obstacles(0.5, 0.0, 0.0)),
-        (driven(-5.0, 1.0, 0.0), None),
-        (driven(200.0, 0.0, -7.0), paper),
-        (driven(-0.8, 0.0, 0.3), paper),
+        (loaded(-0.9, 1e4, -5.1), paper),
+        (loaded(0.0, 1e6, -3000.0), None),
+        (loaded(-0.985, 2.0, -0.3), obstacles(1e-8, -0.05, 0.0)),
+        (loaded(-0.96, 0.5, 0.0), obstacles(1e-8, 0.0, 0.0)),
+        (loaded(-0.75, 0.01, 0.02), obstacles(1.0, -0.3, 0.2)),
+        (loaded(-2.0, 1.0, 1.5), obstacles(1.0, -0.3, 0.2)),
+        (loaded(-5.0, 0.3, -2.0), obstacles(0.5, 0.0, 0.4)),
+        (loaded(-5.0, 1.0, 0.0), obstacles(0.5, 0.0, 0.0)),
+        (loaded(-5.0, 1.0, 0.0), None),
+        (loaded(200.0, 0.0, -7.0), paper),
+        (loaded(-0.8, 0.0, 0.3), paper),
     ]
 }
 
 #[test]
-fn reference_states_are_met() {
+fn reference_states_are_reproduced() {
     let paper = Obstacles::default();
     type Row = (Contact, f64, bool);
     let rows: [(f64, f64, &[Row]); 4] = [
@@ -78,30 +79,30 @@ fn reference_states_are_met() {
         assert_eq!(found.len(), expected.len(), "beta = {beta}: {found:#?}");
         for (state, &(contact, u_tip, stable)) in found.iter().zip(expected) {
             assert_eq!((state.contact, state.stable), (contact, stable));
-            // The references carry ten decimals.
+            // The references have ten decimals.
             close(state.u_tip, u_tip, 5.1e-11);
         }
     }
     close(states(&heated(-0.5, 20.0), Some(&paper))[0].phi_tip, 0.1760200007, 5.1e-11);
 }
 
-/// Largest residual of both equations in the interior, derivatives differenced over h.
+/// Largest residual of both equations in the interior, with difference quotients of width h.
 fn strong_residual(beam: &Beam, state: &Equilibrium, h: f64) -> f64 {
-    let drive = beam.a * beam.theta_a;
+    let moment = beam.a * beam.theta_a;
     let residual = |x: f64| {
         let difference = |f: &dyn Fn(f64) -> f64| (f(x + h) - f(x - h)) / (2.0 * h);
         let second = |f: &dyn Fn(f64) -> f64| (f(x + h) - 2.0 * f(x) + f(x - h)) / (h * h);
         let (u, phi) = (|x| state.u(x), |x| state.phi(x));
         let force = (1.0 + state.n_value) * second(&u) - difference(&phi);
-        let moment = second(&phi) + difference(&u) - phi(x) + drive;
+        let moment = second(&phi) + difference(&u) - phi(x) + moment;
         let slopes = (difference(&u) - state.u_x(x)).abs() + (difference(&phi) - state.phi_x(x)).abs();
         force.abs() + moment.abs() + slopes
     };
-    (1..20).map(|i| residual(f64::from(i) / 20.0)).fold(0.0, f64::max)
+    (1..20).map(|i| residual(f64::from(i) / 20.0)).fold(0.0, max_or_nan)
 }
 
 /// ∫ u_x² by Simpson's rule.
-fn stretch_by_quadrature(state: &Equilibrium) -> f64 {
+fn slope_squared_by_quadrature(state: &Equilibrium) -> f64 {
     let n = 4000;
     let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
     (0..=n).map(|i| weight(i) * state.u_x(f64::from(i) / f64::from(n)).powi(2)).sum::<f64>() / (3.0 * f64::from(n))
@@ -111,7 +112,7 @@ fn stretch_by_quadrature(state: &Equilibrium) -> f64 {
 fn every_state_solves_the_strong_form() {
     for (beam, obstacles) in scenes() {
         for state in states(&beam, obstacles.as_ref()) {
-            let size = 1.0 + (0..=20).map(|i| state.u_x(f64::from(i) / 20.0).abs()).fold(0.0, f64::max);
+            let size = 1.0 + (0..=20).map(|i| state.u_x(f64::from(i) / 20.0).abs()).fold(0.0, max_or_nan);
             let (coarse, fine) = (strong_residual(&beam, &state, 4e-3), strong_residual(&beam, &state, 2e-3));
             assert!(fine <= 0.27 * coarse || fine <= 1e-8 * size, "{beam:?} {state:?}: {coarse:e} {fine:e}");
             let stress = (1.0 + state.n_value) * state.u_x(1.0) - state.phi(1.0);
@@ -120,8 +121,8 @@ fn every_state_solves_the_strong_form() {
                 assert!(found.abs() <= 2e-13 * size, "{name} = {found:e} of {beam:?} {state:?}");
             }
             close(state.u(1.0), state.u_tip, 2e-13 * size);
-            let stretch = stretch_by_quadrature(&state);
-            close(state.n_value, beam.beta + beam.rho * stretch, 1e-8 * (1.0 + beam.rho * stretch));
+            let slope_squared = slope_squared_by_quadrature(&state);
+            close(state.n_value, beam.beta + beam.rho * slope_squared, 1e-8 * (1.0 + beam.rho * slope_squared));
         }
     }
 }

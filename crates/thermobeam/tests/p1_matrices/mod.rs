@@ -1,8 +1,8 @@
-//! P1 matrices of the beam, dense, written from the weak form and independently of the solver.
+//! Dense P1 matrices of the beam, written from the weak form (2.2) and independently of the solver.
 
 use nalgebra::DMatrix;
 
-/// Uniform mesh, unknowns (u_1..u_n, φ_1..φ_n); node 0 is clamped.
+/// The matrices on a uniform mesh for the unknowns (u_1..u_n, φ_1..φ_n); node 0 is clamped.
 pub(crate) struct P1Matrices {
     pub(crate) elements: usize,
     pub(crate) mass: DMatrix<f64>,
@@ -27,7 +27,7 @@ impl P1Matrices {
         Self { elements, mass, stiffness, coupling }
     }
 
-    /// The form `(1 + N)‖u'‖² - 2(u', φ) + ‖φ‖² + ‖φ'‖²`.
+    /// The matrix of `(1 + N)‖u'‖² - 2(u', φ) + ‖φ‖² + ‖φ'‖²`.
     pub(crate) fn stiffness_form(&self, axial: f64) -> DMatrix<f64> {
         let n = self.elements;
         let mut form = DMatrix::zeros(2 * n, 2 * n);

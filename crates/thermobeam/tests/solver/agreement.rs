@@ -1,4 +1,4 @@
-//! Different ways to the solution of a step lead to the same one.
+//! Newton's method and the fixed point, and different initial iterates, give the same solution of a step.
 
 use crate::scenes::{
     EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes, simulate, stepping,
@@ -9,7 +9,6 @@ use thermobeam::solve::{Settings, Solver, Start};
 /// Runs all experiments twice, side by side, and compares every nodal value at every step.
 #[track_caller]
 fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
-    let mut worst = 0.0_f64;
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(20) {
             let problem = paper(mesh, experiment);
@@ -21,7 +20,6 @@ fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
                 }
                 let [one, other] = pair.each_mut().map(|simulation| simulation.level());
                 let difference = relative_difference(&one, &other);
-                worst = worst.max(difference);
                 assert!(difference <= allowed, "{experiment:?} {} step {step}: {difference:e}", scheme.name);
             }
         }
@@ -37,9 +35,9 @@ fn newton_and_the_fixed_point_agree() {
     agree(tight(), Settings { solver: Solver::FixedPoint, ..tight() }, 1e-3, 1000, 1e-10);
 }
 
-/// (4.1): a step starts from the level before alone, so that a run goes on from a level as if it had begun there.
+/// By (4.1) a step depends on the previous level only: a run restarted from a level continues bitwise.
 #[test]
-fn the_fixed_point_knows_nothing_but_the_level_before() {
+fn a_fixed_point_step_depends_on_the_previous_level_only() {
     let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
     for (scheme, mesh) in schemes_and_meshes(20) {
         let problem = paper(mesh, EXPERIMENTS[0]);
@@ -77,7 +75,7 @@ fn newton_and_the_fixed_point_agree_under_loads() {
     }
 }
 
-/// Accepted after one iteration, the fixed point's increment is all that the step has changed.
+/// If a step is accepted after one iteration, the increment is the change of the level.
 #[test]
 fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
     for (scheme, mesh) in schemes_and_meshes(20) {

@@ -1,10 +1,11 @@
-//! The paper's fixed point contracts as foretold, and past a factor of one it diverges.
+//! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use crate::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use thermobeam::error::StepFailure;
+use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
@@ -15,7 +16,7 @@ fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) ->
     simulate(problem, Stepping { scheme, settings, ..stepping(dt) })
 }
 
-/// A beam pressed into the upper obstacle by a fifth of the gap, at rest or still on its way up.
+/// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
 fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
     let mesh = uniform(100);
     let mut initial = Initial::at_rest(&mesh, 0.0);
@@ -25,7 +26,7 @@ fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
     Problem { beam: Beam { zeta, ..Beam::default() }, obstacles, mesh, initial }
 }
 
-fn foretold(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
+fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();
     contact_contraction(&problem.beam, problem.obstacles.as_ref().unwrap(), &lengths, scheme, dt, 0.0144)
 }
@@ -37,20 +38,20 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
         for scheme in SCHEMES {
             let problem = pressed(zeta, epsilon, 0.0);
             let report = by_fixed_point(&problem, scheme, dt, 1e-9).advance().unwrap();
-            let (measured, alpha) = (report.contraction.unwrap(), foretold(&problem, &scheme, dt));
+            let (measured, alpha) = (report.contraction.unwrap(), predicted(&problem, &scheme, dt));
             assert!((measured - alpha).abs() <= 0.03 * alpha, "{}: {measured} for {alpha}", scheme.name);
         }
     }
 }
 
 #[test]
-fn past_a_factor_of_one_the_fixed_point_diverges_and_newton_does_not() {
-    // The midpoint rule would let a tip at rest leave the obstacle within such a step: it has to come in fast.
+fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
+    // In the midpoint rule a tip at rest would leave the obstacle within such a step; a fast tip does not.
     for (scheme, dt, speed) in
         [(EULER_CRANK_NICOLSON, 5e-3, 0.0), (EULER_CRANK_NICOLSON, 2e-2, 0.0), (MIDPOINT, 1e-2, 10.0)]
     {
         let problem = pressed(0.1, 1e-3, speed);
-        assert!(foretold(&problem, &scheme, dt) > 1.05);
+        assert!(predicted(&problem, &scheme, dt) > 1.05);
         let mut simulation = by_fixed_point(&problem, scheme, dt, 1e-10);
         let before = simulation.level();
         let error = simulation.advance().unwrap_err();
@@ -65,9 +66,9 @@ fn past_a_factor_of_one_the_fixed_point_diverges_and_newton_does_not() {
 }
 
 #[test]
-fn just_below_a_factor_of_one_the_fixed_point_converges() {
+fn below_a_factor_of_one_the_fixed_point_converges() {
     let problem = pressed(0.1, 1e-3, 0.0);
-    let alpha = foretold(&problem, &EULER_CRANK_NICOLSON, 4.5e-3);
+    let alpha = predicted(&problem, &EULER_CRANK_NICOLSON, 4.5e-3);
     assert!((0.9..1.0).contains(&alpha), "{alpha}");
     let mut simulation = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 4.5e-3, 1e-10);
     assert!(simulation.advance().unwrap().iterations > 100);
@@ -89,11 +90,11 @@ fn spectral_radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
     let (kappa, s) = (scheme.inertia / dt, problem.beam.zeta + 0.5 * dt);
     let to_rotation = (&m * (kappa + s) + &k * s).lu().solve(&(c.transpose() * s)).unwrap();
     let back = (&m * kappa + &k * s).lu().solve(&(&c * s)).unwrap();
-    (back * to_rotation).complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    (back * to_rotation).complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, max_or_nan)
 }
 
 #[test]
-fn free_of_contact_the_fixed_point_contracts_by_the_lag_between_rotation_and_displacement() {
+fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
     let mesh = graded(40);
     for dt in [0.01, 0.1, 1.0, 10.0] {
         for scheme in SCHEMES {
@@ -104,10 +105,10 @@ fn free_of_contact_the_fixed_point_contracts_by_the_lag_between_rotation_and_dis
             let report = by_fixed_point(&problem, scheme, dt, 1e-12).advance().unwrap();
             let measured = report.contraction.unwrap();
             let lengths: Vec<f64> = mesh.lengths().collect();
-            let foretold = coupling_contraction(&beam, &lengths, &scheme, dt, 0.0);
+            let predicted = coupling_contraction(&beam, &lengths, &scheme, dt, 0.0);
             let exact = spectral_radius(&problem, &scheme, dt);
-            assert!((foretold - exact).abs() <= 1e-6 * exact, "{}: {foretold} for {exact}", scheme.name);
-            // A contraction as strong as that of small steps ends the iteration before the slowest mode stands alone.
+            assert!((predicted - exact).abs() <= 1e-6 * exact, "{}: {predicted} for {exact}", scheme.name);
+            // For small steps the iteration converges before the slowest mode dominates.
             let lowest = if dt < 1.0 { 0.0 } else { 0.97 };
             assert!((lowest..1.03).contains(&(measured / exact)), "{}: {measured} for {exact}", scheme.name);
         }

@@ -1,7 +1,6 @@
 //! The scheme (3.7)-(3.8) and its semi-discrete limit as dense systems, written from the equations.
 //!
-//! Everything is an unknown here, nothing is eliminated or lifted by hand: u, v, φ, w at the nodes 1..n and θ~ at the
-//! nodes 1..n-1, five vectors one below the other.
+//! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in this order.
 
 use nalgebra::{DMatrix, DVector};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
@@ -10,7 +9,7 @@ use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::Problem;
 use thermobeam::solve::Level;
 
-/// Where the tip is at the end of a step.
+/// Position of the tip at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
     Between,
@@ -22,7 +21,7 @@ pub(crate) struct Dense {
     beam: Beam,
     obstacles: Option<Obstacles>,
     n: usize,
-    /// On the nodes 1..n.
+    /// M, K and C at the nodes 1..n.
     m: DMatrix<f64>,
     k: DMatrix<f64>,
     c: DMatrix<f64>,
@@ -30,7 +29,7 @@ pub(crate) struct Dense {
     lift: DVector<f64>,
 }
 
-/// The unknowns at one time, θ~ with the nodes 1..n-1.
+/// The unknowns at one time; θ~ at the nodes 1..n-1.
 #[derive(Clone)]
 pub(crate) struct State {
     pub(crate) u: DVector<f64>,
@@ -118,7 +117,7 @@ impl Dense {
         ]
     }
 
-    /// Time derivative of the semi-discrete solution: what both schemes approximate.
+    /// Time derivative of the semi-discrete solution, which both schemes approximate.
     pub(crate) fn rate(&self) -> impl Fn(&State) -> State + '_ {
         let [m_theta, k_theta, c_theta] = self.of_theta();
         let inverse = self.m.clone().try_inverse().unwrap();
@@ -146,7 +145,8 @@ impl Dense {
         }
     }
 
-    /// One step by Newton's method on the whole system, for each side of the obstacles; the side that holds is the answer.
+    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is
+    /// returned.
     pub(crate) fn step(&self, scheme: &Scheme, dt: f64, old: &State, load: &[[f64; 3]]) -> Option<State> {
         let sides: &[Side] =
             if self.obstacles.is_some() { &[Side::Between, Side::Above, Side::Below] } else { &[Side::Between] };
@@ -162,7 +162,7 @@ impl Dense {
         }
     }
 
-    /// G, G' and G'' of a side's branch.
+    /// G, G' and G'' for a tip on the given side.
     fn potential(&self, side: Side, tip: f64) -> [f64; 3] {
         let Some(o) = self.obstacles else { return [0.0; 3] };
         let spring = |depth: f64| [0.5 * depth * depth / o.epsilon, depth / o.epsilon, 1.0 / o.epsilon];
@@ -174,7 +174,7 @@ impl Dense {
     }
 }
 
-/// A step to be done.
+/// The data of a step.
 struct Step<'a> {
     dense: &'a Dense,
     scheme: &'a Scheme,
@@ -188,8 +188,8 @@ impl Step<'_> {
         self.starts(side).into_iter().find_map(|tip| self.solve_from(tip, side))
     }
 
-    /// Tips on the side to start from: the discrete gradient is so bent that Newton's method needs a start near the root,
-    /// or on the one side of it from which it cannot overshoot.
+    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the
+    /// root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
         let old = self.old.u[self.dense.n - 1];
         let Some(o) = self.dense.obstacles else { return vec![old] };
@@ -209,11 +209,10 @@ impl Step<'_> {
         y[n - 1] = tip;
         let mut last = f64::INFINITY;
         for _ in 0..100 {
-            let (residual, jacobian) = self.system(&y, side);
-            let correction = jacobian.lu().solve(&residual)?;
+            let correction = self.jacobian(&y, side).lu().solve(&self.residual(&y, side))?;
             y -= &correction;
             let size = correction.amax() / y.amax();
-            // To the end: until the corrections are round-off and stop shrinking.
+            // Iterate until the corrections are round-off and stop decreasing.
             if size <= 1e-12 && !(size < 0.5 * last) {
                 return Some(State::unstack(&y, n)).filter(|new| self.dense.side(new.u[n - 1]) == side);
             }
@@ -222,8 +221,19 @@ impl Step<'_> {
         None
     }
 
-    /// Residual and Jacobian of (3.7a), (3.8) for u, (3.7b), (3.8) for φ, (3.7c).
-    fn system(&self, y: &DVector<f64>, side: Side) -> (DVector<f64>, DMatrix<f64>) {
+    /// The velocity that carries the step: v itself, or the mean of both levels.
+    fn carry(&self, new: &DVector<f64>, old: &DVector<f64>) -> DVector<f64> {
+        let share = 1.0 / self.scheme.inertia;
+        new * share + old * (1.0 - share)
+    }
+
+    /// `½(N(u) + N(u0))`.
+    fn mean_axial_force(&self, u: &DVector<f64>) -> f64 {
+        0.5 * (self.dense.axial_force(u) + self.dense.axial_force(&self.old.u))
+    }
+
+    /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and the third equation.
+    fn residual(&self, y: &DVector<f64>, side: Side) -> DVector<f64> {
         let Dense { beam, n, m, k, c, lift, .. } = self.dense;
         let (n, dt, old, zeta, a) = (*n, self.dt, self.old, beam.zeta, beam.a);
         let new = State::unstack(y, n);
@@ -231,21 +241,14 @@ impl Step<'_> {
         let load = |component: usize, count: usize| {
             DVector::from_fn(count, |i, _| self.load.get(i + 1).map_or(0.0, |load| load[component]))
         };
-        // The velocity that carries the step: v itself, or the mean of both levels.
-        let share = 1.0 / self.scheme.inertia;
-        let carry = |new: &DVector<f64>, old: &DVector<f64>| new * share + old * (1.0 - share);
-        let (v, w) = (carry(&new.v, &old.v), carry(&new.w, &old.w));
-        let half = |new: &DVector<f64>, old: &DVector<f64>| (new + old) * 0.5;
-        let (u_half, phi_half, theta_half) =
-            (half(&new.u, &old.u), half(&new.phi, &old.phi), half(&new.theta, &old.theta));
-        let mean_n = 0.5 * (self.dense.axial_force(&new.u) + self.dense.axial_force(&old.u));
-        let (force, stiffness) = self.contact(side, new.u[n - 1]);
-
-        let mut r = DVector::zeros(5 * n - 1);
+        let (v, w) = (self.carry(&new.v, &old.v), self.carry(&new.w, &old.w));
+        let [u_half, phi_half, theta_half] =
+            [(&new.u, &old.u), (&new.phi, &old.phi), (&new.theta, &old.theta)].map(|(new, old)| (new + old) * 0.5);
+        let mean_n = self.mean_axial_force(&new.u);
         let mut in_u = m * (&new.v - &old.v) / dt + k * &u_half * (1.0 + mean_n) - c * &phi_half
             + (k * &v - c * &w) * zeta
             - load(0, n);
-        in_u[n - 1] += force;
+        in_u[n - 1] += self.contact(side, new.u[n - 1]).0;
         let in_phi = m * (&new.w - &old.w) / dt + (k + m) * &phi_half - c.transpose() * &u_half
             + ((m + k) * &w - c.transpose() * &v) * zeta
             - &c_theta * &theta_half * a
@@ -254,21 +257,32 @@ impl Step<'_> {
         let in_theta =
             &m_theta * (&new.theta - &old.theta) / dt + &k_theta * &theta_half + c_theta.transpose() * &w * a
                 - load(2, n - 1);
+        let mut r = DVector::zeros(5 * n - 1);
         for (row, part) in
             [in_u, &new.u - &old.u - &v * dt, in_phi, &new.phi - &old.phi - &w * dt, in_theta].into_iter().enumerate()
         {
             r.rows_mut(row * n, part.len()).copy_from(&part);
         }
+        r
+    }
 
+    /// Derivative of [`Self::residual`] with respect to (u, v, φ, w, θ~).
+    fn jacobian(&self, y: &DVector<f64>, side: Side) -> DMatrix<f64> {
+        let Dense { beam, n, m, k, c, .. } = self.dense;
+        let (n, dt, zeta, a) = (*n, self.dt, beam.zeta, beam.a);
+        let new = State::unstack(y, n);
+        let [m_theta, k_theta, c_theta] = self.dense.of_theta();
+        let share = 1.0 / self.scheme.inertia;
         let mut j = DMatrix::zeros(5 * n - 1, 5 * n - 1);
         let mut put = |row: usize, column: usize, block: DMatrix<f64>| {
             j.view_mut((row * n, column * n), block.shape()).copy_from(&block);
         };
         let one = || DMatrix::identity(n, n);
         // d/du of ½(N(u) + N(u0)) K u½: N'(u) = 2ρ (K u)ᵀ.
+        let u_half = (&new.u + &self.old.u) * 0.5;
         let rank_one = k * &u_half * (k * &new.u).transpose() * beam.rho;
-        let mut u_by_u = k * (0.5 * (1.0 + mean_n)) + rank_one;
-        u_by_u[(n - 1, n - 1)] += stiffness;
+        let mut u_by_u = k * (0.5 * (1.0 + self.mean_axial_force(&new.u))) + rank_one;
+        u_by_u[(n - 1, n - 1)] += self.contact(side, new.u[n - 1]).1;
         put(0, 0, u_by_u);
         put(0, 1, m / dt + k * (zeta * share));
         put(0, 2, c * -0.5);
@@ -284,7 +298,7 @@ impl Step<'_> {
         put(3, 3, one() * (-dt * share));
         put(4, 3, c_theta.transpose() * (a * share));
         put(4, 4, m_theta / dt + k_theta * 0.5);
-        (r, j)
+        j
     }
 
     /// The contact force and its derivative.
@@ -293,7 +307,7 @@ impl Step<'_> {
         let [g, dg, ddg] = self.dense.potential(side, tip);
         match self.scheme.contact {
             ContactRule::Implicit => (dg, ddg),
-            // On one side G is a parabola: its difference quotient is the mean slope.
+            // G is a parabola on one side: its difference quotient is the mean of the slopes.
             ContactRule::DiscreteGradient if self.dense.side(start) == side => {
                 (0.5 * (dg + self.dense.potential(side, start)[1]), 0.5 * ddg)
             }

@@ -1,4 +1,4 @@
-//! Steps of the solver against a dense formulation, on random small systems.
+//! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
 use crate::dense::{Dense, State};
 use crate::scenes::{relative_difference, simulate};
@@ -13,9 +13,9 @@ use thermobeam::simulation::{Initial, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
 const STEPS: usize = 3;
-const MOST: usize = 8;
+const MAX_ELEMENTS: usize = 8;
 
-/// How far the coefficients go.
+/// Ranges of the coefficients.
 #[derive(Debug, Clone, Copy)]
 struct Range {
     log_dt: (f64, f64),
@@ -24,10 +24,12 @@ struct Range {
     beta: (f64, f64),
 }
 
-/// Where Newton's method has to work.
-const WIDE: Range = Range { log_dt: (-4.0, -0.5), log_epsilon: (-6.0, 0.0), log_rho: (-2.0, 4.0), beta: (-0.7, 50.0) };
-/// Where the fixed point converges.
-const TAME: Range = Range { log_dt: (-4.0, -3.0), log_epsilon: (-1.0, 0.0), log_rho: (-2.0, 0.5), beta: (-0.7, 2.0) };
+/// Coefficients for Newton's method.
+const NEWTON_RANGE: Range =
+    Range { log_dt: (-4.0, -0.5), log_epsilon: (-6.0, 0.0), log_rho: (-2.0, 4.0), beta: (-0.7, 50.0) };
+/// Coefficients for which the fixed point converges.
+const FIXED_POINT_RANGE: Range =
+    Range { log_dt: (-4.0, -3.0), log_epsilon: (-1.0, 0.0), log_rho: (-2.0, 0.5), beta: (-0.7, 2.0) };
 
 #[derive(Debug, Clone)]
 struct Random {
@@ -48,8 +50,8 @@ fn integrate(slopes: &[f64], mesh: &Mesh) -> Vec<f64> {
 }
 
 prop_compose! {
-    /// Elements in ratios of up to 1000.
-    fn mesh()(logs in vec(-3.0..0.0f64, 1..=MOST)) -> Mesh {
+    /// A mesh with ratios of element lengths up to 1000.
+    fn mesh()(logs in vec(-3.0..0.0f64, 1..=MAX_ELEMENTS)) -> Mesh {
         let parts: Vec<f64> = logs.iter().map(|log| 10f64.powf(*log)).collect();
         let total: f64 = parts.iter().sum();
         let mut sum = 0.0;
@@ -76,7 +78,7 @@ prop_compose! {
     }
 }
 
-/// A row that the table does not have: the solvers serve any.
+/// A scheme that is not in the table, to test other inertias.
 const BETWEEN: Scheme = Scheme {
     name: "between",
     order: 1.0,
@@ -89,8 +91,8 @@ prop_compose! {
     fn random(range: Range, solver: Solver)(
         mesh in mesh(), mut beam in beam(range), obstacles in proptest::option::weighted(0.8, obstacles(range)),
         log_dt in range.log_dt.0..range.log_dt.1, row in 0..=SCHEMES.len(), loaded: bool, cold in proptest::bool::weighted(0.2),
-        fields in vec(vec(-1.0..1.0f64, MOST), 5),
-        loads in vec(vec(proptest::array::uniform3(-1.0..1.0f64), MOST + 1), STEPS),
+        fields in vec(vec(-1.0..1.0f64, MAX_ELEMENTS), 5),
+        loads in vec(vec(proptest::array::uniform3(-1.0..1.0f64), MAX_ELEMENTS + 1), STEPS),
     ) -> Random {
         if cold {
             (beam.a, beam.theta_a) = (0.0, 0.0);
@@ -116,7 +118,7 @@ prop_compose! {
     }
 }
 
-/// Does the steps and compares each with the dense one from the same level; how often the tip pressed above and below.
+/// Compares each step with the dense one from the same level; whether the tip pressed the upper and the lower obstacle.
 fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
     let Random { problem, stepping, loads } = case;
     let dense = Dense::new(problem);
@@ -144,7 +146,7 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
     Ok(pressed)
 }
 
-/// Compares on so many random cases; both obstacles must have been pressed in a tenth of them.
+/// Compares on the given number of random cases; each obstacle must be pressed in a tenth of them.
 fn compare_all(range: Range, solver: Solver, cases: u32) {
     let config =
         ProptestConfig { cases, failure_persistence: None, max_global_rejects: 10, ..ProptestConfig::default() };
@@ -162,10 +164,10 @@ fn compare_all(range: Range, solver: Solver, cases: u32) {
 
 #[test]
 fn a_newton_step_solves_the_equations_of_the_scheme() {
-    compare_all(WIDE, Solver::Newton, 1000);
+    compare_all(NEWTON_RANGE, Solver::Newton, 1000);
 }
 
 #[test]
 fn a_fixed_point_step_solves_the_equations_of_the_scheme() {
-    compare_all(TAME, Solver::FixedPoint, 500);
+    compare_all(FIXED_POINT_RANGE, Solver::FixedPoint, 500);
 }

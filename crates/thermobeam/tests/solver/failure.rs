@@ -1,4 +1,4 @@
-//! Failure is a value: typed, with step and time, and the simulation stands where it stood.
+//! A failed step returns an error with step and time and leaves the simulation at its level; invalid input is rejected.
 
 use crate::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
@@ -8,7 +8,7 @@ use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
-fn everywhere() -> impl Iterator<Item = Stepping> {
+fn all_steppings() -> impl Iterator<Item = Stepping> {
     SCHEMES.into_iter().flat_map(|scheme| {
         Solver::ALL.map(|solver| {
             let settings = Settings { solver, ..Settings::default() };
@@ -19,11 +19,11 @@ fn everywhere() -> impl Iterator<Item = Stepping> {
 
 #[test]
 fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
-    for stepping in everywhere() {
+    for stepping in all_steppings() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for component in 0..3 {
                 for node in [1, 5, 10] {
-                    // A temperature is given at the tip: there is no equation that a load could enter.
+                    // The temperature is prescribed at the tip: no equation there contains the load.
                     if (component, node) == (2, 10) {
                         continue;
                     }
@@ -58,8 +58,8 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
 }
 
 #[test]
-fn the_contact_force_of_the_start_is_that_of_the_initial_tip() {
-    for stepping in everywhere() {
+fn the_initial_contact_force_is_that_of_the_initial_tip() {
+    for stepping in all_steppings() {
         let mut problem = paper(uniform(10), (0.0, 0.0));
         problem.initial.u = problem.mesh.nodes().iter().map(|x| 0.12 * x).collect();
         let expected = problem.obstacles.unwrap().force(problem.initial.u[10]);
@@ -70,7 +70,7 @@ fn the_contact_force_of_the_start_is_that_of_the_initial_tip() {
 
 #[test]
 fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
-    for stepping in everywhere() {
+    for stepping in all_steppings() {
         let mut problem = paper(uniform(10), (0.0, 0.0));
         problem.beam.rho = 1e4;
         let failed_at = |max_iterations: usize| {
@@ -85,24 +85,24 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
             assert!(increment > 0.0, "{error}");
             (increment, contraction)
         };
-        let mut told = 0;
+        let mut compared = 0;
         let mut previous = f64::NAN;
         for max_iterations in 1..=4 {
             let (increment, contraction) = failed_at(max_iterations);
-            // Newton's method does not know it before it searches for the root.
+            // Newton's method has a contraction factor only in the safeguarded iteration.
             if !contraction.is_nan() {
                 assert_eq!(contraction, increment / previous, "{stepping:?} {max_iterations}");
-                told += 1;
+                compared += 1;
             }
             previous = increment;
         }
-        assert!(told > 1, "{stepping:?}");
+        assert!(compared > 1, "{stepping:?}");
     }
 }
 
 #[test]
 fn a_lost_pivot_is_reported_by_both_solvers() {
-    for stepping in everywhere() {
+    for stepping in all_steppings() {
         let stepping = Stepping { dt: 1.0, ..stepping };
         let mut simulation = simulate(&paper(uniform(10), (-3.0, 0.0)), stepping);
         let error = simulation.advance().unwrap_err();
@@ -113,7 +113,7 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
 }
 
 #[track_caller]
-fn refused(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
+fn rejection(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
     let (mut problem, mut stepping) = (paper(uniform(4), (0.0, 20.0)), stepping(1e-3));
     change(&mut problem, &mut stepping);
     match Simulation::new(problem, stepping) {
@@ -123,7 +123,7 @@ fn refused(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
 }
 
 #[test]
-fn data_that_break_a_boundary_condition_are_refused() {
+fn initial_data_that_violate_a_boundary_condition_are_rejected() {
     type Field = fn(&mut Initial) -> &mut Vec<f64>;
     let fields: [(&str, Field, usize, f64); 6] = [
         ("u", |i| &mut i.u, 0, 0.0),
@@ -135,33 +135,33 @@ fn data_that_break_a_boundary_condition_are_refused() {
     ];
     for (name, of, node, boundary) in fields {
         let x = node as f64 / 4.0;
-        let error = refused(|problem, _| of(&mut problem.initial)[node] = boundary + 1e-9);
+        let error = rejection(|problem, _| of(&mut problem.initial)[node] = boundary + 1e-9);
         assert_eq!(error, SetupError::Boundary { field: name, x, found: boundary + 1e-9, allowed: boundary });
-        let error = refused(|problem, _| of(&mut problem.initial)[node] = f64::INFINITY);
+        let error = rejection(|problem, _| of(&mut problem.initial)[node] = f64::INFINITY);
         assert_eq!(error, SetupError::NotFinite { field: name, node, found: f64::INFINITY });
-        let error = refused(|problem, _| of(&mut problem.initial).push(0.0));
+        let error = rejection(|problem, _| of(&mut problem.initial).push(0.0));
         assert_eq!(error, SetupError::Length { field: name, found: 6, expected: 5 });
     }
-    let error = refused(|problem, _| problem.initial.phi[2] = f64::NAN);
+    let error = rejection(|problem, _| problem.initial.phi[2] = f64::NAN);
     assert!(matches!(error, SetupError::NotFinite { field: "phi", node: 2, found } if found.is_nan()));
 }
 
 #[test]
-fn settings_that_stop_nothing_are_refused() {
+fn invalid_settings_are_rejected() {
     for dt in [0.0, -1.0, f64::INFINITY] {
-        assert_eq!(refused(|_, stepping| stepping.dt = dt), SetupError::TimeStep { found: dt });
+        assert_eq!(rejection(|_, stepping| stepping.dt = dt), SetupError::TimeStep { found: dt });
     }
-    assert!(matches!(refused(|_, stepping| stepping.dt = f64::NAN), SetupError::TimeStep { .. }));
+    assert!(matches!(rejection(|_, stepping| stepping.dt = f64::NAN), SetupError::TimeStep { .. }));
     for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
-        let error = refused(|_, stepping| stepping.settings.tolerance = tolerance);
+        let error = rejection(|_, stepping| stepping.settings.tolerance = tolerance);
         assert!(matches!(error, SetupError::Setting { name: "tolerance", .. }), "{error}");
     }
-    let error = refused(|_, stepping| stepping.settings.max_iterations = 0);
+    let error = rejection(|_, stepping| stepping.settings.max_iterations = 0);
     assert!(matches!(error, SetupError::Setting { name: "max_iterations", .. }), "{error}");
 }
 
 #[test]
-fn coefficients_out_of_range_are_refused_by_name() {
+fn coefficients_out_of_range_are_rejected_by_name() {
     type Change = fn(&mut Beam, &mut Obstacles);
     let changes: [(&str, Change); 9] = [
         ("zeta", |beam, _| beam.zeta = -1.0),
@@ -175,13 +175,13 @@ fn coefficients_out_of_range_are_refused_by_name() {
         ("g2", |_, obstacles| obstacles.g2 = -1e-9),
     ];
     for (name, change) in changes {
-        let error = refused(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
+        let error = rejection(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
         assert!(matches!(&error, SetupError::Parameter(parameter) if parameter.name == name), "{error}");
     }
 }
 
 #[test]
-fn nodes_that_are_no_mesh_are_refused() {
+fn invalid_nodes_are_rejected() {
     for nodes in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.6, 0.6, 1.0], vec![0.0, f64::NAN, 1.0]] {
         assert!(matches!(Mesh::from_nodes(nodes).map_err(SetupError::from), Err(SetupError::Mesh(_))));
     }

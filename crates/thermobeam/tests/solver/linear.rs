@@ -1,4 +1,4 @@
-//! On the linear beam (ρ = 0) Newton's method has nothing to iterate.
+//! For the linear beam (ρ = 0) one pass of Newton's method solves a step.
 
 use crate::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::parameters::Beam;
@@ -6,7 +6,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Settings, Start};
 
 #[test]
-fn newton_takes_one_pass_on_a_linear_beam_with_contact_and_without() {
+fn newton_takes_one_pass_per_step_on_a_linear_beam() {
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(20) {
             for (start, free) in [

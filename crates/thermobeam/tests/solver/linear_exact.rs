@@ -1,4 +1,4 @@
-//! The linear beam against the matrix exponential of its semi-discrete system: the exact answer in time.
+//! The linear beam against the matrix exponential of its semi-discrete system, which is exact in time.
 
 use crate::dense::{Dense, State};
 use crate::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};

@@ -1,4 +1,4 @@
-//! The laws of the solver, each held against something that knows nothing of how it computes.
+//! Tests of the solver against exact solutions, dense matrices, an independent implementation, and conservation laws.
 
 mod scenes;
 

@@ -1,11 +1,11 @@
-//! Numbers of an independent implementation of the scheme.
+//! Comparison with numbers from an independent implementation of the scheme.
 
 use crate::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 
 #[test]
-fn both_solvers_reach_the_reference_to_nine_digits() {
+fn both_solvers_agree_with_the_reference_to_nine_digits() {
     let rows = [
         ((0.0, 0.0), [-1.174001195293e-2, -9.730912695990e-2, 4.539642780254e-1]),
         ((-0.5, 20.0), [-1.094811531838e-2, -2.193974223913e-2, 5.155906791580e-1]),

@@ -1,14 +1,15 @@
-//! The paper's experiments, the meshes they run on, and what the laws ask of a run.
+//! The paper's experiments, the meshes for them, and comparisons of levels.
 
 use std::f64::consts::PI;
 use thermobeam::mesh::Mesh;
-use thermobeam::norms::TheoremSquares;
+use thermobeam::norms::{TheoremSquares, max_or_nan};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
-/// (β, θ_A) of the paper's seven experiments: (5.3) with a cold end, (5.5) with a hot one, and the buckled beam.
+/// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with θ_A = 0, (5.5) with θ_A
+/// = 20, and the buckled beam.
 pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
     [(-0.5, 0.0), (0.0, 0.0), (5.0, 0.0), (-0.5, 20.0), (0.0, 20.0), (5.0, 20.0), (-0.8, 0.0)];
 
@@ -29,7 +30,7 @@ pub(crate) fn uniform(elements: usize) -> Mesh {
     Mesh::uniform(elements).unwrap()
 }
 
-/// Finest at both ends: the largest element is 4.4 times the smallest.
+/// A mesh refined at both ends; its largest element is 4.4 times the smallest.
 pub(crate) fn graded(elements: usize) -> Mesh {
     Mesh::mapped(elements, |s| s - 0.1 * (2.0 * PI * s).sin()).unwrap()
 }
@@ -44,7 +45,7 @@ pub(crate) fn simulate(problem: &Problem, stepping: Stepping) -> Simulation {
     Simulation::new(problem.clone(), stepping).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Does so many steps, each of which must succeed.
+/// Does the given number of steps, each of which must succeed.
 #[track_caller]
 pub(crate) fn advance(simulation: &mut Simulation, steps: usize) {
     for _ in 0..steps {
@@ -52,7 +53,7 @@ pub(crate) fn advance(simulation: &mut Simulation, steps: usize) {
     }
 }
 
-/// A problem that starts from a level of another run.
+/// The problem with a level of another run as initial data.
 pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
     let theta_a = problem.beam.theta_a;
     let theta = level.theta.iter().zip(problem.mesh.nodes()).map(|(theta, x)| theta + theta_a * (1.0 - x)).collect();
@@ -61,7 +62,7 @@ pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
     Problem { initial, ..problem.clone() }
 }
 
-/// Distance of two levels in the norm of Theorem 3.4's left-hand side.
+/// Distance of two levels in the norm of (3.14).
 pub(crate) fn distance(mesh: &Mesh, a: &Level, b: &Level) -> f64 {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let minus = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(p, q)| p - q).collect::<Vec<_>>();
@@ -81,27 +82,22 @@ pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
     [("u", &level.u), ("v", &level.v), ("phi", &level.phi), ("w", &level.w), ("theta", &level.theta)]
 }
 
-/// Largest difference of any nodal value, relative to the largest value of its field in `b`; NaN stays.
+/// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if there is one.
 pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
     let mut worst = 0.0;
     for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {
-        let scale = largest(b.iter().copied()).max(1e-3);
-        worst = larger(worst, largest(a.iter().zip(b).map(|(a, b)| (a - b) / scale)));
+        let scale = max_or_nan(largest(b.iter().copied()), 1e-3);
+        worst = max_or_nan(worst, largest(a.iter().zip(b).map(|(a, b)| (a - b) / scale)));
     }
     worst
 }
 
-/// The largest magnitude; NaN if there is one.
-pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |sofar, value| larger(sofar, value.abs()))
+/// The largest absolute value; NaN if there is one.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, max_or_nan)
 }
 
-/// The larger of two numbers; NaN if either is.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
-}
-
-/// Slope between the last two of (dt, error) in log-log.
+/// Slope of log(error) over log(dt) between the last two of (dt, error).
 pub(crate) fn last_rate(errors: &[(f64, f64)]) -> f64 {
     let [.., (dt0, e0), (dt1, e1)] = errors else { panic!("a rate needs two levels") };
     (e0 / e1).ln() / (dt0 / dt1).ln()

@@ -1,11 +1,11 @@
-//! With a hot clamped end the beam ends in its steady state, known in closed form.
+//! With a hot clamped end the beam converges to its steady state, which is known in closed form.
 
 use crate::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::equilibrium::{Contact, equilibria};
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::Settings;
 
-/// Errors of u(1), φ(1) and the contact force in the steady state of a run with so many elements.
+/// Errors of u(1), φ(1) and the contact force in the steady state with the given number of elements.
 fn errors(beta: f64, contact: Contact, elements: usize) -> [f64; 3] {
     let problem = paper(uniform(elements), (beta, 20.0));
     let states = equilibria(&problem.beam, problem.obstacles.as_ref()).unwrap();
@@ -13,7 +13,7 @@ fn errors(beta: f64, contact: Contact, elements: usize) -> [f64; 3] {
     assert_eq!(state.contact, contact);
     let settings = Settings { tolerance: 1e-12, ..Settings::default() };
     let mut simulation = simulate(&problem, Stepping { settings, ..stepping(0.05) });
-    // Backward Euler damps every mode; the slowest heat mode alone needs t = 3 for its 13 digits.
+    // Backward Euler damps every mode; the slowest thermal mode decays by 13 digits until t = 3.
     advance(&mut simulation, 4000);
     let level = simulation.level();
     let motion = level.v.iter().chain(&level.w).chain(&level.theta).fold(0.0, |sum: f64, value| sum + value.abs());

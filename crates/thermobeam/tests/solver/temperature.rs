@@ -1,4 +1,4 @@
-//! The temperature is left out where nothing heats the beam, and leaving it out changes nothing.
+//! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
 use crate::scenes::{
     EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping, uniform,
@@ -15,7 +15,7 @@ fn cold(problem: Problem) -> Problem {
 }
 
 #[test]
-fn a_cold_beam_moves_as_one_whose_temperature_is_computed() {
+fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(20) {
             for linear_and_free in [true, false] {
@@ -45,7 +45,7 @@ fn a_cold_beam_moves_as_one_whose_temperature_is_computed() {
 }
 
 #[test]
-fn whatever_heats_the_beam_is_computed() {
+fn the_temperature_is_computed_when_anything_heats_the_beam() {
     let base = cold(paper(uniform(8), (0.0, 0.0)));
     let coupled = Problem { beam: Beam { a: 0.017, ..base.beam }, ..base.clone() };
     assert!(simulate(&coupled, stepping(1e-3)).is_heated());

@@ -1,4 +1,4 @@
-//! What a scene does not have is not computed: counted, because counts are exact where times are noisy.
+//! Work that a scene does not need is not done. Counts are tested, because unlike times they are exact.
 
 use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::{Problem, Stepping};
@@ -7,7 +7,7 @@ use thermobeam::solve::{Level, Settings, Solver, Start};
 const STEPS: usize = 50;
 
 #[test]
-fn levels_are_copied_for_observers_and_loads_filled_only_as_often_as_asked_for() {
+fn loads_and_observations_are_counted_exactly() {
     let problem = paper(uniform(20), EXPERIMENTS[0]);
     let mut level = Level::new(21);
     for solver in Solver::ALL {
@@ -28,7 +28,8 @@ fn levels_are_copied_for_observers_and_loads_filled_only_as_often_as_asked_for()
                 let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
                 assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
                 assert!(work.passes >= STEPS, "{work:?}");
-                // A factor is kept over many steps; in the fixed point m changes with every iterate.
+                // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every
+                // iterate.
                 let expected = if solver == Solver::Newton { 1..STEPS } else { work.passes..work.passes + 1 };
                 assert!(expected.contains(&work.factorizations), "{solver:?}: {work:?}");
             }
@@ -49,7 +50,7 @@ fn a_free_linear_beam_is_solved_once_a_step_and_factorized_once() {
     problem.beam.rho = 0.0;
     problem.obstacles = None;
     assert_eq!(passes(&problem), (STEPS, 1));
-    assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "more passes, with the same factor: {nonlinear:?}");
+    assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "expected more passes with one factorisation: {nonlinear:?}");
 }
 
 #[test]

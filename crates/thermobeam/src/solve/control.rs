@@ -1,0 +1,70 @@
+//! The state of one case in the Newton iteration: scalars of the present step, and those kept from step to step.
+
+use crate::contact::Tip;
+use crate::norms::slope_squared;
+use crate::solve::newton::Case;
+use crate::solve::{Level, Work};
+
+/// The state of one case.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Control {
+    /// ‖u_x‖² at the old level.
+    pub(super) slope_squared: f64,
+    /// N at the last three levels, the latest first.
+    pub(super) forces: [f64; 3],
+    /// m̄, for which the matrix was factorised; NaN without a valid factorisation.
+    pub(super) factorized: f64,
+    /// m of the present pass.
+    pub(super) m: f64,
+    /// ‖u_x‖² of the iterate.
+    pub(super) new_slope_squared: f64,
+    /// ‖δV_x‖ of the last pass.
+    pub(super) increment_slope: f64,
+    /// The tip of the iterate.
+    pub(super) tip: Tip,
+    /// The contact force of the step that led to the old level.
+    pub(super) force: f64,
+    pub(super) iterations: usize,
+    /// Bound on the next increment.
+    pub(super) increment: f64,
+    pub(super) state: Progress,
+    /// Passes and factorisations for this case: as many as it would take alone.
+    pub(super) work: Work,
+}
+
+/// The stage of a case within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Progress {
+    /// Iterating with the kept factorisation.
+    Iterating,
+    /// The iterate is within the tolerance.
+    Accepted,
+    /// To be solved by the safeguarded iteration.
+    NeedsSafeguard,
+    /// In the safeguarded iteration, which treats one case at a time.
+    Safeguarded,
+    /// The step has failed.
+    Failed,
+}
+
+impl Control {
+    /// At the given level, before the first step.
+    pub(super) fn new(case: &Case, level: &Level) -> Self {
+        let slope_squared = slope_squared(&case.lengths, &level.u);
+        let (u, force) = (level.u[level.u.len() - 1], level.contact_force);
+        Self {
+            slope_squared,
+            forces: [case.beam.axial_force(slope_squared); 3],
+            factorized: f64::NAN,
+            m: f64::NAN,
+            new_slope_squared: f64::NAN,
+            increment_slope: f64::NAN,
+            tip: Tip { u, force, stiffness: 0.0 },
+            force,
+            iterations: 0,
+            increment: f64::NAN,
+            state: Progress::Iterating,
+            work: Work::default(),
+        }
+    }
+}

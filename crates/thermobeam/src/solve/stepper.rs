@@ -1,0 +1,60 @@
+//! The interface of a solver to a simulation, and its extension for several cases in lanes.
+
+use crate::energy::Balance;
+use crate::error::StepFailure;
+use crate::lanes::Lane;
+use crate::scheme::Scheme;
+use crate::solve::newton::{Case, Newton};
+use crate::solve::{Level, Settings, StepReport, Work};
+
+/// A solver of the steps of one case (`T = f64`) or of several cases in lanes.
+pub(crate) trait Stepper<T: Lane>: Send + Sync {
+    /// Does one step of every case that has not failed, without allocating memory.
+    ///
+    /// A case that fails keeps its last level and does not affect the others. A single case may try the step again.
+    ///
+    /// * `outcomes`: overwritten, one for each lane.
+    fn advance(&mut self, outcomes: &mut [Result<StepReport, StepFailure>]);
+
+    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes; allocated by the first call.
+    fn load_mut(&mut self) -> &mut [[T; 3]];
+
+    /// Copies the present level of case k into `level`; the last one before the failure if the case has failed.
+    fn read(&self, k: usize, level: &mut Level);
+
+    /// Counts of the work done so far; a pass over all lanes counts once.
+    fn work(&self) -> Work;
+}
+
+/// A solver of several cases in lanes.
+pub(crate) trait Batch<T: Lane>: Stepper<T> {
+    /// The [`Balance`] of the last step of every case that has done it; the others are left unchanged.
+    fn balances(&self, balances: &mut [Balance]);
+
+    /// u(1) of the present level of case k; of the last one before the failure if the case has failed.
+    fn tip(&self, k: usize) -> f64;
+
+    /// The contact force of the last step of case k.
+    fn contact_force(&self, k: usize) -> f64;
+
+    /// The work for case k so far: as much as it would take alone.
+    fn work_of(&self, k: usize) -> Work;
+}
+
+/// Newton's method for one case per lane, with or without the temperature.
+///
+/// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
+/// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
+pub(crate) fn newton<T: Lane + 'static>(
+    cases: Vec<Case>,
+    scheme: Scheme,
+    settings: Settings,
+    levels: &[&Level],
+    heated: bool,
+) -> Box<dyn Batch<T>> {
+    if heated {
+        Box::new(Newton::<T, 3>::new(cases, scheme, settings, levels))
+    } else {
+        Box::new(Newton::<T, 2>::new(cases, scheme, settings, levels))
+    }
+}

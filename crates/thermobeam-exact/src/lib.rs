@@ -9,11 +9,13 @@
 //! * [`factors`]: T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
 //! * [`errors`]: the errors in each [`norm`].
+//! * [`any_order`]: the same for elements of any degree.
 //! * [`quadrature`]: integrals for errors against other functions.
 //!
 //! The code that runs in every step of a convergence study is a separate crate, because it is compiled with
 //! optimisation and the code that reads files and reports is not: a clean build takes a fifth less time.
 
+pub mod any_order;
 pub mod errors;
 pub mod expression;
 pub mod factors;

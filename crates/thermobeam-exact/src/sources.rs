@@ -16,7 +16,9 @@
 use crate::factors::Factors;
 use crate::quadrature::RULE;
 use crate::solution::{Manufactured, Product};
+use std::rc::Rc;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
+use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
@@ -72,8 +74,16 @@ pub struct Sources {
     gram: Vec<f64>,
     /// X_j(1).
     tip: Vec<f64>,
+    /// Where the boundary loads at x = 1 belong: the last node, or its block.
+    tip_index: usize,
     boundary: Boundary,
 }
+
+/// The vectors of one product, tested with the functions of each of the three equations.
+type PerEquation = [Rc<Vectors>; 3];
+
+/// Quadrature points an element beyond the degree p: the loads are then exact to round-off for smooth functions.
+const EXTRA_POINTS: usize = 12;
 
 /// Values at x = 1 for the boundary loads; zero if the space vectors contain them.
 #[derive(Debug, Clone, Default)]
@@ -118,6 +128,30 @@ impl Vectors {
         }
         let [tip, tip_slope, _] = product.x.derivatives(1.0);
         Self { value, slope, curvature, tip, boundary_value: tip, boundary_slope: tip_slope }
+    }
+
+    /// The integrals by quadrature, with the basis functions of one equation on elements of any degree.
+    fn any_order(product: &Product, space: &Space, field: Field) -> Self {
+        let points = Space::gauss(space.degree() + EXTRA_POINTS);
+        let tested = |f: &dyn Fn([f64; 3]) -> f64| {
+            let mut load = vec![[0.0; 3]; space.blocks()];
+            space.add_load(field, &points, |x| f(product.x.derivatives(x)), &mut load);
+            let equation = match field {
+                Field::U | Field::V => 0,
+                Field::Phi | Field::W => 1,
+                Field::Theta => 2,
+            };
+            load.into_iter().map(|entry| entry[equation]).collect()
+        };
+        let [tip, tip_slope, _] = product.x.derivatives(1.0);
+        Self {
+            value: tested(&|[x, _, _]| x),
+            slope: tested(&|[_, x1, _]| x1),
+            curvature: tested(&|[_, _, x2]| -x2),
+            tip,
+            boundary_value: tip,
+            boundary_slope: tip_slope,
+        }
     }
 
     /// The integrals of the nodal interpolant, by the scheme's own matrices.
@@ -177,59 +211,70 @@ impl Nodal {
 impl Sources {
     /// The loads from the strong form (1.1) and the boundary conditions (1.3).
     pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
-        let vectors = |products: &[Product]| products.iter().map(|p| Vectors::strong(p, mesh)).collect::<Vec<_>>();
-        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u))
+        let vectors = |product: &Product| alike(Vectors::strong(product, mesh));
+        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u), mesh.elements())
+    }
+
+    /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any degree.
+    pub fn any_order(exact: &Manufactured, beam: &Beam, space: &Space) -> Self {
+        let vectors = |product: &Product| -> PerEquation {
+            [Field::U, Field::Phi, Field::Theta].map(|field| Rc::new(Vectors::any_order(product, space, field)))
+        };
+        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u), space.mesh().elements())
     }
 
     /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let matrices = Matrices { mass: mass(mesh), stiffness: stiffness(mesh), slope: coupling(mesh).transpose() };
-        let vectors =
-            |products: &[Product]| products.iter().map(|p| Vectors::discrete(p, &matrices, mesh)).collect::<Vec<_>>();
+        let vectors = |product: &Product| alike(Vectors::discrete(product, &matrices, mesh));
         let nodal: Vec<_> = exact.u.iter().map(|product| nodal(product, mesh)).collect();
         let mut gram = vec![];
         for left in &nodal {
             let image = matrices.stiffness.multiply(left);
             gram.extend(nodal.iter().map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()));
         }
-        Self::assemble(exact, beam, vectors, gram)
+        Self::assemble(exact, beam, vectors, gram, mesh.elements())
     }
 
     fn assemble(
         exact: &Manufactured,
         beam: &Beam,
-        vectors: impl Fn(&[Product]) -> Vec<Vectors>,
+        vectors: impl Fn(&Product) -> PerEquation,
         gram: Vec<f64>,
+        tip_index: usize,
     ) -> Self {
         let mut terms = vec![];
         let mut add = |equation: usize, coefficient: Coefficient, vector: Vec<f64>| {
             terms.push(Term { equation, coefficient, vector });
         };
-        let (u, phi) = (vectors(&exact.u), vectors(&exact.phi));
-        let tip = u.iter().map(|vectors| vectors.tip).collect();
+        let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<PerEquation>>();
+        let (u, phi) = (all(&exact.u), all(&exact.phi));
+        let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
         let boundary = Boundary {
-            u_slope: u.iter().map(|vectors| vectors.boundary_slope).collect(),
-            phi: phi.iter().map(|vectors| vectors.boundary_value).collect(),
-            phi_slope: phi.iter().map(|vectors| vectors.boundary_slope).collect(),
+            u_slope: u.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
+            phi: phi.iter().map(|[vectors, ..]| vectors.boundary_value).collect(),
+            phi_slope: phi.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
         };
-        for (j, v) in u.into_iter().enumerate() {
-            add(0, Coefficient::Inertia(j), v.value);
-            add(0, Coefficient::Tension(j), v.curvature);
-            add(1, Coefficient::Shear(j), v.slope.iter().map(|s| -s).collect());
+        let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
+        for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
+            add(0, Coefficient::Inertia(j), in_u.value.clone());
+            add(0, Coefficient::Tension(j), in_u.curvature.clone());
+            add(1, Coefficient::Shear(j), scaled(-1.0, &in_phi.slope));
         }
-        for (k, v) in phi.into_iter().enumerate() {
-            add(1, Coefficient::Rotation(k), v.curvature.iter().zip(&v.value).map(|(c, y)| c + y).collect());
-            add(1, Coefficient::RotationInertia(k), v.value);
-            add(2, Coefficient::RotationRate(k), v.slope.iter().map(|s| beam.a * s).collect());
-            add(0, Coefficient::Rotation(k), v.slope);
+        for (k, [in_u, in_phi, in_theta]) in phi.iter().enumerate() {
+            let turned = in_phi.curvature.iter().zip(&in_phi.value).map(|(c, y)| c + y).collect();
+            add(1, Coefficient::Rotation(k), turned);
+            add(1, Coefficient::RotationInertia(k), in_phi.value.clone());
+            add(2, Coefficient::RotationRate(k), scaled(beam.a, &in_theta.slope));
+            add(0, Coefficient::Rotation(k), in_u.slope.clone());
         }
-        for (l, v) in vectors(&exact.theta).into_iter().enumerate() {
-            add(1, Coefficient::Temperature(l), v.slope.iter().map(|s| beam.a * s).collect());
+        for (l, [_, in_phi, in_theta]) in all(&exact.theta).iter().enumerate() {
+            add(1, Coefficient::Temperature(l), scaled(beam.a, &in_phi.slope));
             // The test functions of θ vanish at both ends: no boundary load.
-            add(2, Coefficient::Temperature(l), v.curvature);
-            add(2, Coefficient::TemperatureRate(l), v.value);
+            add(2, Coefficient::Temperature(l), in_theta.curvature.clone());
+            add(2, Coefficient::TemperatureRate(l), in_theta.value.clone());
         }
-        Self { beam: *beam, terms, gram, tip, boundary }
+        Self { beam: *beam, terms, gram, tip, tip_index, boundary }
     }
 
     /// N(u) of the exact solution with the factors T_j, (2.3).
@@ -270,7 +315,7 @@ impl Sources {
                 load[term.equation] += coefficient * entry;
             }
         }
-        let tip = load.len() - 1;
+        let tip = self.tip_index;
         if loads != BoundaryLoads::WithoutStress {
             load[tip][0] += self.tip_stress(factors, n_value) + contact_force;
         }
@@ -309,6 +354,12 @@ impl Sources {
             Coefficient::TemperatureRate(l) => theta.rate[l],
         }
     }
+}
+
+/// Test functions that are the same in every equation.
+fn alike(vectors: Vectors) -> PerEquation {
+    let vectors = Rc::new(vectors);
+    [Rc::clone(&vectors), Rc::clone(&vectors), vectors]
 }
 
 /// `∫ X_j' X_k'` over [0, 1].

@@ -4,6 +4,7 @@
 //! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
+pub mod any_order;
 pub mod bifurcation;
 pub mod calibration;
 mod complete;

@@ -4,13 +4,13 @@ use convergence_study::study::KindRow;
 
 use super::untyped::reader;
 use super::{
-    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
+    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
     frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
 };
 use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 18] = [
     KindRow {
         name: CONVERGENCE,
         read: reader::<convergence::Convergence>,
@@ -148,4 +148,5 @@ pub const KINDS: [KindRow; 17] = [
         judged: "The measured boundary against the one foretold; the energy and its balance at every point.",
         failure: "The scheme or a solver is not as stable as theory says.",
     },
+    any_order::ROW,
 ];

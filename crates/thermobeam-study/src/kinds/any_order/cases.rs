@@ -1,0 +1,73 @@
+//! One run a case, its errors measured at the end and inside every step.
+
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::{Case, CaseFailure};
+use convergence_study::text::number::max_or_nan;
+use thermobeam::dg::{Level, Problem, Simulation, Space, Stepping};
+
+use super::{AnyOrder, Errors, Over, Resolution};
+use crate::exact::any_order::{self, LevelErrors, ManufacturedLoad};
+
+/// Where inside a step the errors are measured: no Gauss or Radau point, where they are smaller.
+const INSIDE: [f64; 2] = [0.13, 0.61];
+
+pub(super) fn cases(study: &AnyOrder) -> Vec<Case<Resolution>> {
+    let case = |data: Resolution| {
+        let Resolution { degree, elements, time_degree, steps } = data;
+        let label = match study.over {
+            Over::Space => format!("p = {degree}, n = {elements}"),
+            Over::Time => format!("q = {time_degree}, {steps} steps"),
+            Over::Degree => format!("p = {degree}"),
+        };
+        let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
+        Case { label, cost, data }
+    };
+    study.resolutions().map(case).collect()
+}
+
+pub(super) fn run(study: &AnyOrder, resolution: Resolution) -> Result<Errors, CaseFailure> {
+    let mut simulation = simulation(study, resolution)?;
+    let mut level = simulation.level().clone();
+    let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
+    let mut patience = Patience::new(simulation.space().blocks() * (resolution.time_degree + 1));
+    let measured = |space: &Space, level: &Level| any_order::errors(&study.exact, study.beam.theta_a, space, level);
+    loop {
+        patience.check(simulation.work().steps, || simulation.t())?;
+        if simulation.step(study.t_end)?.is_none() {
+            break;
+        }
+        // Only a study over time judges these.
+        if study.over == Over::Time {
+            let (from, to) = (simulation.old_level().t, simulation.t());
+            for s in INSIDE {
+                if simulation.level_into(from + s * (to - from), &mut level) {
+                    let LevelErrors { values: [u, _, u_t, ..], .. } = measured(simulation.space(), &level);
+                    inside_u = max_or_nan(inside_u, u);
+                    inside_u_t = max_or_nan(inside_u_t, u_t);
+                }
+            }
+        }
+    }
+    let LevelErrors { values, slopes } = measured(simulation.space(), simulation.level());
+    let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
+    Ok(Errors { fields: together(values), slopes: together(slopes), inside_u, inside_u_t })
+}
+
+fn simulation(study: &AnyOrder, resolution: Resolution) -> Result<Simulation, CaseFailure> {
+    let Resolution { degree, elements, time_degree, steps } = resolution;
+    let dt = study.t_end / steps as f64;
+    let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
+    let problem = || -> Result<Problem, CaseFailure> {
+        Ok(Problem {
+            beam: study.beam,
+            obstacles: study.obstacles,
+            mesh: study.mesh(elements)?,
+            degree,
+            initial: any_order::initial(&study.exact),
+        })
+    };
+    // The loads need the elements that the simulation makes.
+    let space = Simulation::new(problem()?, stepping)?.space().clone();
+    let load = ManufacturedLoad::new(&study.exact, &study.beam, study.obstacles, &space);
+    Ok(Simulation::with_load(problem()?, stepping, Box::new(load))?)
+}

@@ -12,6 +12,7 @@ pub mod controls;
 pub mod convergence;
 pub mod energy;
 pub mod equilibrium;
+pub mod exact_experiments;
 pub mod experiment;
 pub mod extremes;
 pub mod fixed_point;

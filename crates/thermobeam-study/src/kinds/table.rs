@@ -4,13 +4,14 @@ use convergence_study::study::KindRow;
 
 use super::untyped::reader;
 use super::{
-    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
-    frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
+    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment,
+    extremes, fixed_point, frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration,
+    work_precision,
 };
 use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 18] = [
+pub const KINDS: [KindRow; 19] = [
     KindRow {
         name: CONVERGENCE,
         read: reader::<convergence::Convergence>,
@@ -149,4 +150,5 @@ pub const KINDS: [KindRow; 18] = [
         failure: "The scheme or a solver is not as stable as theory says.",
     },
     any_order::ROW,
+    exact_experiments::ROW,
 ];

@@ -107,6 +107,8 @@ pub struct AnyOrderRun {
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
+    /// States at the times asked for.
+    pub at_times: Vec<State>,
     /// States at equally spaced times; empty unless asked for.
     pub history: Vec<State>,
     /// Displacement over space and time; empty unless asked for.
@@ -123,8 +125,21 @@ pub struct AnyOrderRun {
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
 pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
+    run_at(scene, &[], times, progress)
+}
+
+/// Runs a scene; a step ends at each of the times `at`, which increase, and the state there is kept.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_at(
+    scene: &AnyOrderScene,
+    at: &[f64],
+    times: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<AnyOrderRun, SetupError> {
     let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
-    let mut observed = Observed::new(&simulation, scene, times);
+    let mut observed = Observed::new(&simulation, scene, at, times);
     let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
@@ -133,7 +148,9 @@ pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -
             break;
         }
         let started = Instant::now();
-        let outcome = simulation.step(scene.t_end);
+        // A step ends at each time asked for: its end is of order 2q + 1, its inside of order q + 1.
+        let limit = at.iter().copied().find(|&t| t > simulation.t()).unwrap_or(scene.t_end).min(scene.t_end);
+        let outcome = simulation.step(limit);
         wall += started.elapsed();
         match outcome {
             Ok(Some(report)) => observed.step(&simulation, report.iterations),
@@ -157,13 +174,15 @@ struct Observed<'s> {
     iterations: (usize, usize),
     largest_increase: f64,
     largest_residual: f64,
+    at: &'s [f64],
+    at_times: Vec<State>,
     times: usize,
     history: Vec<State>,
     frames: Frames,
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize) -> Self {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, at: &'s [f64], times: usize) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -175,6 +194,8 @@ impl<'s> Observed<'s> {
             iterations: (0, 0),
             largest_increase: f64::NAN,
             largest_residual: 0.0,
+            at,
+            at_times: vec![],
             times,
             history: vec![],
             frames: Frames { points, ..Frames::default() },
@@ -209,6 +230,12 @@ impl<'s> Observed<'s> {
     /// The states of the history that lie in the last step.
     fn sample(&mut self, simulation: &Simulation, from: f64, to: f64) {
         let t_end = self.scene.t_end;
+        for &t in self.at.iter().filter(|&&t| t > from && t <= to) {
+            if simulation.level_into(t, &mut self.level) {
+                let state = state(simulation, self.scene, &self.level);
+                self.at_times.push(state);
+            }
+        }
         for t in grid(t_end, self.times, from, to) {
             if simulation.level_into(t, &mut self.level) {
                 let state = state(simulation, self.scene, &self.level);
@@ -244,6 +271,7 @@ impl<'s> Observed<'s> {
             },
             events: simulation.events().to_vec(),
             work: simulation.work(),
+            at_times: self.at_times,
             history: self.history,
             frames: self.frames,
             failure,

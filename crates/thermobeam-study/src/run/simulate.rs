@@ -46,6 +46,11 @@ pub use object::Object;
 pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
 pub use together::{Together, run_together};
 
+/// The value at x = 1/2 of nodal values on a mesh.
+pub(crate) fn middle_value(mesh: &Mesh, values: &[f64]) -> f64 {
+    Middle::of(mesh).value(values)
+}
+
 /// Where x = 1/2 lies in a mesh.
 #[derive(Debug, Clone, Copy)]
 struct Middle {

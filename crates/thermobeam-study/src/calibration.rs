@@ -36,12 +36,15 @@
 //!
 //! The generator is splitmix64, so the same seed gives the same numbers on every machine with the same libm.
 
-use crate::fit::Level;
+use crate::fit::{FLOOR_MARGIN, Level};
 use crate::time_limit::{Patience, TimeUp};
 use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, Verdict};
 use thiserror::Error;
 
 use crate::random::SplitMix;
+
+pub mod comparison;
+pub mod laws;
 
 /// Tolerance that is calibrated.
 pub const TOLERANCE: f64 = 0.05;
@@ -238,7 +241,7 @@ pub fn calibrate(samples: usize, seed: u64) -> Result<Calibration, CalibrationEr
         let (index, turn) = (k % FAMILIES.len(), k / FAMILIES.len());
         let family = &FAMILIES[index];
         let sample = Sample::draw(family, turn, &mut random);
-        let counted = sample.count(&judge.clone().with_floor(sample.floor)?);
+        let counted = sample.count(&judge.clone().with_floor(FLOOR_MARGIN * sample.floor)?);
         families[index].add(&counted);
         if family.declared {
             let scattered = if family.noise > SMOOTH { LEVEL_COUNTS } else { 0 };
@@ -286,16 +289,17 @@ impl Sample {
     /// The tally of this one sample.
     fn count(&self, judge: &Judge) -> Tally {
         let mut tally = Tally::default();
-        let outcome = judge.judge(&self.levels, self.claim);
+        let reading = judge.read(&self.levels);
+        let verdict = judge.decide(&reading, self.claim);
         if self.order == self.claim {
             tally.right += 1;
-            tally.false_fail += usize::from(outcome.verdict == Verdict::Fail);
-            tally.inconclusive += usize::from(outcome.verdict == Verdict::Inconclusive);
+            tally.false_fail += usize::from(verdict == Verdict::Fail);
+            tally.inconclusive += usize::from(verdict == Verdict::Inconclusive);
         } else {
             tally.wrong += 1;
-            tally.false_pass += usize::from(outcome.verdict == Verdict::Pass);
+            tally.false_pass += usize::from(verdict == Verdict::Pass);
         }
-        if let Some([low, high]) = outcome.interval {
+        if let Some([low, high]) = reading.fit.map(|fit| fit.interval) {
             tally.intervals += 1;
             tally.covered += usize::from(low <= self.order && self.order <= high);
         }

@@ -26,7 +26,8 @@ mod surface;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 pub use candidates::{
-    PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOWEST_POLLUTION, rate_interval,
+    PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOW, SLOW_PENALTY, SLOWEST_POLLUTION,
+    rate_interval,
 };
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
 pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};

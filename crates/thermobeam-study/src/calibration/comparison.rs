@@ -2,8 +2,8 @@
 //!
 //! * *least squares*: the slope of a straight line through all levels, ± nothing.
 //! * *last pair*: the finest pairwise rate, ± nothing.
-//! * *ensemble*: median ± 3 median absolute deviations of the slopes over all runs of three levels or more, in the manner of StREEQ
-//!   (Rider et al., Sandia National Laboratories, which has several norms and weights beside).
+//! * *ensemble*: median ± 3 median absolute deviations of the slopes over all runs of three levels or more, in the manner of StREEQ, which fits
+//!   with several norms and weights beside.
 //!
 //! Each passes when its interval lies within the tolerance of the claim. Only ours knows a third answer; what the others do not pass they fail.
 //!
@@ -12,7 +12,30 @@
 //!
 //! # Measured
 //!
-//! MEASURED
+//! 100 tables of each law and mesh, seed 104729 (the study `rule-calibration-full`), in per cent. The *former rule* is the one of version 0.1.0
+//! up to commit b23c8e9: the hull of the plausible among nine candidates, without a veto. It was run once on the very same tables, by the same
+//! generators, and is no longer in the code. This rule was tuned on seeds 1000 to 7002, with the project's own studies in view; 104729 and 7919, the
+//! seed of the quick study, were drawn afterwards.
+//!
+//! | 4 to 8 levels, ratios 1.5 to 3 | false pass at 0.05, 0.1, 0.2 | true pass | false fail |
+//! | --- | --- | --- | --- |
+//! | this rule | 0.07, 0.05, 0.42 | 32.6, 41.4, 51.2 | 3.0, 2.5, 2.7 |
+//! | former rule | 0.52, 0.90, 0.60 | 27.5, 36.0, 46.0 | 10.7, 8.4, 6.3 |
+//! | least squares | 9.39, 9.55, 6.41 | 45.0, 56.7, 69.7 | 55.0, 43.3, 30.3 |
+//! | last pair | 7.81, 8.88, 7.07 | 47.4, 57.3, 69.6 | 52.7, 42.7, 30.5 |
+//! | ensemble | 0.75, 1.81, 1.13 | 31.5, 40.7, 54.2 | 68.5, 59.3, 45.8 |
+//!
+//! | this rule, former rule | false pass at 0.05, 0.1, 0.2 | true pass | false fail |
+//! | --- | --- | --- | --- |
+//! | 8 levels | 0.13, 0.07, 0.40 (0.65, 0.97, 0.68) | 49.1, 59.6, 67.0 (40.7, 51.0, 60.4) | 2.8, 1.8, 1.9 (10.4, 7.9, 5.3) |
+//! | scattered laws | 0.07, 0.06, 0.05 (0.09, 0.08, 0.03) | 34.1, 43.6, 52.4 (24.7, 33.3, 42.3) | 1.8, 1.3, 0.9 (3.0, 2.6, 2.2) |
+//! | 3 to 12 levels, ratios 1.1 to 4 | 0.10, 0.27, 0.45 (0.39, 1.20, 0.68) | 27.3, 33.4, 41.0 (24.0, 30.2, 39.2) | 6.5, 5.9, 5.7 (17.2, 15.5, 12.3) |
+//!
+//! | a hidden term of | 5 % | 7 % | 10 % | 15 % | 20 % |
+//! | --- | --: | --: | --: | --: | --: |
+//! | ±0.1, 6 levels (former rule) | 48 (66) | 35 (49) | 16 (24) | 7 (18) | 2 (0) |
+//! | ±0.1, 8 levels | 33 (79) | 28 (62) | 4 (46) | 1 (25) | 0 (3) |
+//! | ±0.2, 8 levels | 61 (100) | 31 (100) | 27 (78) | 23 (62) | 2 (45) |
 
 use super::laws::{Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, USUAL, WIDE, hidden_term};
 use super::{CalibrationError, ELEMENTS_OF_A_SAMPLE, Level, Patience, SplitMix, share};
@@ -89,20 +112,32 @@ impl Score {
 pub struct Slice {
     /// What it is.
     pub name: &'static str,
-    counts: fn(&Law, usize) -> bool,
+    /// Laws and numbers of levels that count; all of them where there is nothing here.
+    part: Option<fn(&Law, usize) -> bool>,
     wide: bool,
+}
+
+impl Slice {
+    /// Whether it has all laws on all meshes of its kind.
+    pub fn whole(&self) -> bool {
+        self.part.is_none()
+    }
+
+    fn counts(&self, law: &Law, levels: usize, wide: bool) -> bool {
+        self.wide == wide && self.part.is_none_or(|part| part(law, levels))
+    }
 }
 
 /// The sets, in the order of [`Comparison::scores`].
 pub const SLICES: [Slice; 4] = [
-    Slice { name: "4 to 8 levels, ratios 1.5 to 3", counts: |_, _| true, wide: false },
-    Slice { name: "8 levels, ratios 1.5 to 3", counts: |_, levels| levels == 8, wide: false },
+    Slice { name: "4 to 8 levels, ratios 1.5 to 3", part: None, wide: false },
+    Slice { name: "8 levels, ratios 1.5 to 3", part: Some(|_, levels| levels == 8), wide: false },
     Slice {
         name: "scattered, 4 to 8 levels, ratios 1.5 to 3",
-        counts: |law, _| law.group == Group::Scattered,
+        part: Some(|law, _| law.group == Group::Scattered),
         wide: false,
     },
-    Slice { name: "3 to 12 levels, ratios 1.1 to 4", counts: |_, _| true, wide: true },
+    Slice { name: "3 to 12 levels, ratios 1.1 to 4", part: None, wide: true },
 ];
 
 /// Outcome of [`compare`].
@@ -189,7 +224,7 @@ impl Rules {
                 Some(other) => score.count(table, |order, claim| inside(intervals[other], order, CLAIMS[claim].0)),
             }
             for (slice, total) in SLICES.iter().zip(scores) {
-                if slice.wide == wide && (slice.counts)(law, table.levels.len()) {
+                if slice.counts(law, table.levels.len(), wide) {
                     total.add(&score);
                 }
             }

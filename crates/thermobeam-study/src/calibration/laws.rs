@@ -285,3 +285,57 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     };
     Table { levels: (0..levels).map(level).collect(), shown: p, order: (q > 0.0).then_some(q) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::pairwise_rates;
+
+    /// On steps that reach far enough the rate is the order, whatever was drawn.
+    #[test]
+    fn each_law_has_the_order_that_it_says() {
+        let mesh = Mesh { levels: 60, ratio: 2.0 };
+        let mut random = SplitMix::new(11);
+        for law in &LAWS {
+            for _ in 0..20 {
+                let table = law.draw(mesh, &mut random);
+                let finest = pairwise_rates(&table.levels)[58];
+                match (law.group, table.order) {
+                    (Group::Stagnating, order) => assert_eq!(order, None, "{}", law.name),
+                    (Group::Emerging, Some(order)) => assert!(order < table.shown, "{}", law.name),
+                    // log h changes by one part in forty: the exponent of the logarithm shows.
+                    (Group::Polluted, Some(order)) => {
+                        assert!((finest - order).abs() < 0.05, "{}: {finest} {order}", law.name)
+                    }
+                    (Group::Scattered, Some(order)) => {
+                        let mean = (table.levels[0].error / table.levels[59].error).log2() / 59.0;
+                        assert!((mean - order).abs() < 0.1, "{}: {mean} {order}", law.name);
+                    }
+                    _ => panic!("{} has no order", law.name),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_hidden_term_has_its_share_of_the_finest_error() {
+        let mut random = SplitMix::new(12);
+        for share in HIDDEN_SHARES {
+            for _ in 0..50 {
+                let table = hidden_term(8, share, &mut random);
+                let rates = pairwise_rates(&table.levels);
+                // Where nothing else pollutes, half of the tables, the first rate is p but for what is left of the term there.
+                assert!(
+                    table.levels.iter().all(|level| level.error > 0.0) && rates.iter().all(|rate| rate.is_finite())
+                );
+                assert!((rates[6] - table.shown).abs() > 0.01 * share, "{share} leaves a trace: {rates:?}");
+                assert!(table.order.is_none_or(|order| order < table.shown));
+            }
+        }
+    }
+
+    #[test]
+    fn the_meshes_are_all_combinations() {
+        assert_eq!((WIDE.each().count(), USUAL.each().count(), LAWS.len()), (24, 12, 29));
+    }
+}

@@ -5,8 +5,8 @@ use crate::fit::Level;
 /// A fall goes on while the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;
 
-/// Changes of the rate below this share of the tolerance are none.
-const LEAST_CHANGE: f64 = 0.05;
+/// A departure counts when the rate has moved by this share of the tolerance in three refinements.
+const DEPARTED: f64 = 0.2;
 
 /// Changes of the rate between one refinement and the next.
 fn changes(rates: &[f64]) -> Vec<f64> {
@@ -78,17 +78,98 @@ pub fn moves_away(rates: &[f64], tolerance: f64) -> bool {
     }
 }
 
-/// Whether the last three changes of the rate have one sign and grow: a plateau, a wrong limit or a lower order about to show.
+/// Whether the last three changes of the rate have one sign and grow, and add up to more than a fifth of the tolerance: a plateau, a wrong limit or
+/// a lower order about to show.
 ///
-/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. Of noise this asks six times to be in a row:
-/// it costs less than 1 in 100 of the passes. Changes below a twentieth of the tolerance are ignored.
+/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. Three changes of noise are in such a row
+/// once in a hundred tables. Less than a fifth is what the error of a reference solution leaves on the finest levels of a sound study.
 pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     match changes(rates)[..] {
         [.., first, second, third] => {
             let one_way = first * second > 0.0 && second * third > 0.0;
             let growing = first.abs() < second.abs() && second.abs() < third.abs();
-            one_way && growing && third.abs() > LEAST_CHANGE * tolerance
+            one_way && growing && (first + second + third).abs() > DEPARTED * tolerance
         }
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scatter_is_what_goes_to_and_fro() {
+        assert_eq!(scatter(&[]), 0.0);
+        assert_eq!(scatter(&[1.0]), 0.0);
+        assert_eq!(scatter(&[1.0, 0.75]), 0.25, "a single change may be either");
+        assert_eq!(scatter(&[1.0, 1.25, 1.5, 2.5]), 0.0, "one way");
+        assert_eq!(scatter(&[1.0, 1.5, 1.25]), 0.25);
+        assert_eq!(scatter(&[1.0, 1.25, 0.5, 1.0, 1.125]), 0.5);
+    }
+
+    #[test]
+    fn errors_grow_when_scatter_does_not_explain_it() {
+        for (rates, expected) in [
+            (&[0.0, 0.0][..], true),
+            (&[0.0, 0.0, 0.0], true),
+            (&[1.0, 1.0, -0.5], true),
+            (&[1.0, -0.25], false),
+            (&[1.0, 1.125, 1.0, -0.25], true),
+            (&[1.0, 1.125, 1.0, -0.125], false),
+            (&[1.0, 1.0, 0.125], false),
+            (&[], false),
+        ] {
+            assert_eq!(grows(rates), expected, "{rates:?}");
+        }
+    }
+
+    #[test]
+    fn a_fall_is_one_that_goes_on() {
+        for (rates, order, expected) in [
+            // Always low, come to rest, half of the way, beyond scatter.
+            (&[1.5, 1.25, 1.0][..], 2.0, true),
+            (&[1.02, 1.01, 1.0], 2.0, false),
+            (&[2.0, 1.5, 1.25, 1.125, 1.0625], 2.0, false),
+            (&[1.25, 1.125, 1.0], 2.0, false),
+            (&[1.5, 1.25, 1.0], 2.25, false),
+            (&[2.0, 1.0, 1.5, 1.25, 1.0], 2.0, false),
+        ] {
+            assert_eq!(falls_away(rates, order), expected, "{rates:?}");
+        }
+    }
+
+    #[test]
+    fn a_departure_has_one_sign_and_a_growing_pace() {
+        for (rates, tolerance, expected) in [
+            (&[2.0, 1.9375, 1.8125, 1.5625][..], 0.25, true),
+            (&[2.0, 2.0625, 2.1875, 2.4375], 0.25, true),
+            (&[2.5, 2.0, 1.9375, 1.8125, 1.5625], 0.25, true),
+            // Not growing, not one way, too few.
+            (&[2.0, 1.9375, 1.875, 1.625], 0.25, false),
+            (&[2.0, 2.0625, 1.9375, 1.6875], 0.25, false),
+            (&[2.0, 1.9375, 1.8125], 0.25, false),
+            // 7/1024 in three refinements: more than a fifth of 1/32, less than one of 3/64.
+            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.03125, true),
+            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.046875, false),
+        ] {
+            assert_eq!(departs(rates, tolerance), expected, "{rates:?} {tolerance}");
+        }
+    }
+
+    #[test]
+    fn two_powers_never_take_over_from_each_other_steeply() {
+        for (p, q) in [(2.0, 0.0), (1.0, -1.0), (3.0, -2.0), (2.0, 1.0)] {
+            for shift in 0..40 {
+                let f = 2.0_f64.powi(-shift);
+                let level = |k: i32| 1.3_f64.powi(-k);
+                let levels: Vec<Level> =
+                    (0..8).map(level).map(|h| Level { step: h, error: h.powf(p) + f * h.powf(q) }).collect();
+                assert!(!steep(&levels, &crate::fit::pairwise_rates(&levels), p), "{p} {q} {f}");
+            }
+        }
+        let levels: Vec<Level> =
+            [1.0, 0.5, 0.25, 0.5].iter().zip(0..).map(|(&error, k)| Level { step: 1.1_f64.powi(-k), error }).collect();
+        assert!(steep(&levels, &crate::fit::pairwise_rates(&levels), 1.0));
     }
 }

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use thermobeam_study::fit::{
-    Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOWEST_POLLUTION, fit_line, rate_interval,
+    Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOW_PENALTY, SLOWEST_POLLUTION, fit_line,
+    rate_interval,
 };
 
 use crate::{HALVED, UNEVEN, levels, quantiles};
@@ -54,7 +55,9 @@ fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
     let finest = (y[m - 2] - y[m - 1]) / ratio;
     let rate = fit.coefficients[1];
     let pair = variance.sqrt() * deviations[m - 2].hypot(deviations[m - 1]) / ratio;
-    let mut correction = ((rate - finest).abs() - pair).max(0.0);
+    let correction = ((rate - finest).abs() - pair).max(0.0);
+    let student = quantiles().t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
+    let mut half_width = SAFETY * (student + correction);
     if m == 3 {
         // Rates p + c (h_k^r - h_k+1^r) / log(h_k / h_k+1): two equations for p and c.
         let step = |k: usize| levels[k].step;
@@ -63,11 +66,11 @@ fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
         };
         let coarse = (y[0] - y[1]) / (step(0) / step(1)).ln();
         let limit = (finest * shift(0) - coarse * shift(1)) / (shift(0) - shift(1));
-        correction = correction.max((rate - limit).abs());
+        half_width = (student + correction).max((rate - limit).abs());
     }
-    let log_weight = -0.5 * m as f64 * fit.rss.ln() - PENALTY * columns.len() as f64;
-    let student = quantiles().t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
-    Explanation { rate, pollution, log_weight, half_width: SAFETY * (student + correction) }
+    let rare = if pollution.is_some_and(|r| r < 0.7) { SLOW_PENALTY } else { 0.0 };
+    let log_weight = -0.5 * m as f64 * fit.rss.ln() - PENALTY * columns.len() as f64 - rare;
+    Explanation { rate, pollution, log_weight, half_width }
 }
 
 /// Rate, pollution and interval by the rule that the module states.

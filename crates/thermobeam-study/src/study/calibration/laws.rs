@@ -75,7 +75,8 @@ impl Laws {
 
     pub(super) fn checks(&self, measured: &Measured) -> Vec<Check> {
         let mut checks = vec![];
-        for (slice, described) in SLICES.iter().enumerate() {
+        // The parts of a set of meshes are shown; with few tables of each law chance moves them too far.
+        for (slice, described) in SLICES.iter().enumerate().filter(|(_, slice)| slice.whole()) {
             for (claim, (tolerance, off)) in CLAIMS.into_iter().enumerate() {
                 let share = measured.value(&key("false pass", 0, slice, claim));
                 let allowed = percent(self.false_pass);

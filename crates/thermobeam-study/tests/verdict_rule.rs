@@ -95,6 +95,14 @@ fn a_rate_is_shown_whatever_the_verdict() {
     assert!(refused.kind == Reason::ToleranceTooWide && refused.fitted.is_some());
 }
 
+#[test]
+fn a_rate_of_zero_that_wavers_is_too_low_and_never_passes() {
+    let outcome = judge(&with_rates(&[-0.002, 0.001, -0.0005]), 1.0, 0.05);
+    assert_eq!((outcome.kind, outcome.verdict), (Reason::TooLow, Verdict::Fail), "{outcome:?}");
+    let scattered = judge(&with_rates(&[1.3, 0.2, 1.9, -0.1]), 1.0, 0.05);
+    assert_eq!(scattered.verdict, Verdict::Inconclusive, "{scattered:?}");
+}
+
 /// Deviates of a normal law, from the sum of twelve uniform ones.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;

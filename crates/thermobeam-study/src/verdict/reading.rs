@@ -71,7 +71,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Steps 4 to 7: what forbids to ask the interval.
+    /// Steps 4 to 7: what forbids asking the interval.
     fn not_convergent(&self, order: f64) -> Option<Reason> {
         let above_floor = self.range.used.end;
         // The step down to the floor is a rate like any other for being wild; those between levels at the floor mean nothing.
@@ -84,8 +84,6 @@ impl<'a> Reading<'a> {
             Some(Reason::FallsAway)
         } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
             Some(Reason::WildRate)
-        } else if rates.last().is_some_and(|finest| *finest <= 0.0) {
-            Some(Reason::IntervalTooWide)
         } else if self.range.used.len() >= FEWEST_LEVELS {
             None
         } else if self.range.at_floor >= self.range.pre_asymptotic {
@@ -100,9 +98,13 @@ impl<'a> Reading<'a> {
         let Some(fit) = &self.fit else { return Reason::TooFewLevels };
         let asymptotic = &self.pairwise[self.used.start..self.used.end - 1];
         if trend::moves_away(asymptotic, tolerance) || trend::departs(self.rates(), tolerance) {
-            Reason::NotAsymptotic
-        } else {
-            compare(fit.interval, order, tolerance)
+            return Reason::NotAsymptotic;
+        }
+        match compare(fit.interval, order, tolerance) {
+            Reason::TooLow => Reason::TooLow,
+            // The finest error is not smaller, which scatter may explain: there is no order to agree with.
+            _ if self.rates().last().is_some_and(|finest| *finest <= 0.0) => Reason::IntervalTooWide,
+            reason => reason,
         }
     }
 

@@ -10,7 +10,7 @@ pub const FLOOR_MARGIN: f64 = 1e3;
 /// Coarse levels are dropped while a pairwise rate there differs from the finest one by more than this.
 ///
 /// Pollution of c h^r shifts a rate by about r c h^r: at 0.4 the terms of order c², which no fit here knows, shift it by less than 0.1 and fade
-/// twice as fast, and candidates with fading scatter trust coarse levels little. At 0.2 scattered data lose levels for nothing, and 1 in 100 sound
+/// twice as fast, and candidates with fading scatter trust coarse levels little. At 0.2 scattered data lose levels for nothing, and 2 in 100 sound
 /// tables no longer passes; above 0.4 coverage falls.
 pub const PRE_ASYMPTOTIC_SPREAD: f64 = 0.4;
 

@@ -1,7 +1,8 @@
 //! What the judge must never do, and what it must always do.
 
 use convergence_study::judge::verdict::{
-    Judge, JudgeError, Level, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict, falls_away, judge, judge_pairs, moves_away,
+    Aside, Judge, JudgeError, Level, ROUND_OFF_FLOOR, RateVerdict, Reason, SetAside, Verdict, falls_away, judge,
+    judge_pairs, moves_away,
 };
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
@@ -187,7 +188,7 @@ fn steps_that_do_not_decrease_are_inconclusive() {
 
 #[test]
 fn rates_that_still_change_are_inconclusive() {
-    check_rates(&[0.2, 0.5, 0.8, 1.1], 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
+    check_rates(&[0.1, 0.6, 1.1], 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
 }
 
 #[test]
@@ -200,17 +201,18 @@ fn a_coarse_level_that_is_not_asymptotic_is_set_aside_and_said_so() {
 
 #[test]
 fn levels_at_the_known_floor_are_set_aside() {
-    let errors = [1e-4, 2.5e-5, 6.25e-6, 1.5625e-6, 2e-9, 1.9e-9, 2.1e-9];
-    let judge = Judge::new(0.05).and_then(|judge| judge.with_floor(2e-9)).expect("usable settings");
+    let errors = [1e-4, 2.5e-5, 6.25e-6, 1.5625e-6, 2e-8, 1.9e-8, 2.1e-8];
+    let judge = Judge::new(0.05).and_then(|judge| judge.with_floor(2.1e-8)).expect("usable settings");
     let outcome = judge.judge(&with_errors(&errors), 2.0);
-    // 1000 times the floor is 2e-6, so the fourth level goes as well.
+    // The fourth level is less than 100 times the floor, and counts.
     check(&outcome, Reason::Agrees, Verdict::Pass);
-    assert_eq!(outcome.used, 0..3);
+    assert_eq!(outcome.used, 0..4);
+    assert_eq!(outcome.set_aside, [4, 5, 6].map(|level| SetAside { level, because: Aside::AtFloor }));
 }
 
 #[test]
 fn nothing_but_floor_is_inconclusive() {
-    let errors = [1.0, 0.7, 1.2, 0.9].map(|error| error * ROUND_OFF_FLOOR);
+    let errors = [0.7, 0.6, 1.0, 0.9].map(|error| error * ROUND_OFF_FLOOR);
     check_errors(&errors, 1.0, Reason::RoundOffFloor, Verdict::Inconclusive);
 }
 
@@ -259,7 +261,7 @@ fn more_confidence_takes_a_wider_interval_and_a_higher_floor_fewer_levels() {
     let judge = || Judge::new(0.4).expect("usable");
     let width = |judge: Judge| judge.judge(&levels, 1.0).interval.map(|[low, high]| high - low).expect("regular");
     assert!(width(judge().with_confidence(0.99).expect("usable")) > 1.5 * width(judge()));
-    let floor = judge().with_floor(levels[4].error / 1000.0).expect("usable");
+    let floor = judge().with_floor(levels[4].error).expect("usable");
     assert_eq!(floor.judge(&levels, 1.0).used, 0..4);
 }
 
@@ -312,7 +314,7 @@ fn a_rate_five_orders_off_is_wild_and_one_of_just_that_is_not() {
     // The step down to the floor counts, those at the floor do not.
     let floored = |rates: &[f64], floor_at: usize| {
         let levels = with_rates(rates);
-        let floor = levels[floor_at].error / 999.0;
+        let floor = levels[floor_at].error;
         Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
     };
     check(&floored(&[1.0, 1.0, 7.0], 3), Reason::WildRate, Verdict::Inconclusive);
@@ -323,7 +325,7 @@ fn a_rate_five_orders_off_is_wild_and_one_of_just_that_is_not() {
 fn too_few_levels_are_put_down_to_what_removed_more_of_them() {
     let judged = |rates: &[f64], at_floor: usize| {
         let levels = with_rates(rates);
-        let floor = levels[levels.len() - at_floor].error / 999.0;
+        let floor = levels[levels.len() - at_floor].error;
         Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
     };
     check(&judged(&[0.5, 1.0, 1.0], 1), Reason::RoundOffFloor, Verdict::Inconclusive);
@@ -346,6 +348,7 @@ fn a_verdict_says_on_what_it_rests() {
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
     let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
     assert_eq!((nothing.reason.as_str(), nothing.used), ("too few levels", 0..0));
+    assert_eq!(outcome.set_aside, [SetAside { level: 0, because: Aside::PreAsymptotic }]);
     assert_eq!(
         format!("{:>14}|{:<6}|{}", Verdict::Inconclusive, Verdict::Pass, Verdict::Fail),
         "  inconclusive|pass  |fail"

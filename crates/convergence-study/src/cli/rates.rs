@@ -26,7 +26,7 @@ pub struct Arguments {
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
     #[arg(long, value_name = "T", default_value_t = 0.05)]
     tolerance: f64,
-    /// Errors below are round-off, and left out: some hundred rounding errors of quantities of order 1
+    /// Errors not above are round-off, and left out: a thousand times that of quantities of order 1
     #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR)]
     floor: f64,
     /// How the result is printed

@@ -11,7 +11,7 @@
 //!
 //! * [`pairwise_rates`]: the raw rates, level by level, nothing left out;
 //! * [`fit_line`]: least squares with a Student-t interval, right when the scatter outweighs the bend;
-//! * [`rate_interval`]: least squares for p with the bend fitted beside it, right in both cases;
+//! * [`rate_interval`]: several least-squares fits, with the bend and without, weighed against each other: right in both cases;
 //! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
 //! * [`fit_surface`]: space and time rates at once, over a grid of (h, dt).
@@ -25,7 +25,10 @@ mod surface;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-pub use candidates::{PLAUSIBLE, POLLUTION_EXPONENTS, RateInterval, rate_interval};
+pub use candidates::{
+    PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOW, SLOW_PENALTY, SLOWEST_POLLUTION,
+    rate_interval,
+};
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
 pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};
 pub use surface::{ConfidenceRegion, SurfaceError, SurfaceFit, SurfacePoint, fit_surface};

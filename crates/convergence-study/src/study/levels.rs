@@ -133,6 +133,7 @@ fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
         interval: None,
         extrapolated: None,
         used: 0..0,
+        set_aside: vec![],
         verdict: Verdict::Inconclusive,
         kind: Reason::ToleranceTooWide,
         reason: error.to_string(),

@@ -4,7 +4,7 @@ mod regression;
 mod surface;
 
 use convergence_study::judge::fit::{
-    FLOOR_MARGIN, Level, Quantiles, asymptotic_range, extrapolated_rate, fit_line, pairwise_rates, rate_interval,
+    Level, Quantiles, asymptotic_range, extrapolated_rate, fit_line, pairwise_rates, rate_interval,
 };
 
 fn quantiles() -> Quantiles {
@@ -102,19 +102,17 @@ fn pairwise_rates_keep_what_is_not_finite() {
 
 #[test]
 fn the_range_is_what_its_two_rules_leave() {
-    // Rates 1.5, 1.25, 1.0, 1.0, all exact: the first differs by 0.5 from the finest, the second by 0.25.
-    let data = with_log2(&[0.0, -1.5, -2.75, -3.75, -4.75]);
+    // Rates 1.75, 1.5, 1.0, 1.0, all exact: the first differs by 0.75 from the finest, the second by 0.5.
+    let data = with_log2(&[0.0, -1.75, -3.25, -4.25, -5.25]);
     let range = asymptotic_range(&data, 0.0);
     assert_eq!((range.used, range.pre_asymptotic, range.at_floor), (2..5, 2, 0));
-    // A level counts while its error is above, not at, so many times the floor.
-    let at_the_finest = data[4].error / FLOOR_MARGIN;
-    let above = asymptotic_range(&data, at_the_finest * (1.0 - 1e-12));
+    let near = with_log2(&[0.0, -1.375, -2.375, -3.375]);
+    assert_eq!(asymptotic_range(&near, 0.0).pre_asymptotic, 0, "0.375 is near");
+    // A level counts while its error is above, not at, the floor.
+    let above = asymptotic_range(&data, data[4].error * (1.0 - 1e-12));
     assert_eq!((above.used, above.at_floor), (2..5, 0));
-    let below = asymptotic_range(&data, at_the_finest * (1.0 + 1e-12));
-    assert_eq!((below.used, below.pre_asymptotic, below.at_floor), (2..4, 2, 1));
-    let exact = with_log2(&[3.0, 2.0, 1.0, (FLOOR_MARGIN / 1024.0).log2()]);
-    assert_eq!(exact[3].error, FLOOR_MARGIN / 1024.0, "at, and not above: all exact in binary");
-    assert_eq!(asymptotic_range(&exact, 1.0 / 1024.0).at_floor, 1);
+    let at = asymptotic_range(&data, data[4].error);
+    assert_eq!((at.used, at.pre_asymptotic, at.at_floor), (2..4, 2, 1));
     // Only the finest levels are dropped for the floor: one that dips down to it and comes back counts.
     let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
     assert_eq!(asymptotic_range(&dip, 1e-10).at_floor, 0);
@@ -141,6 +139,6 @@ fn a_limit_is_found_wherever_the_pollution_is_one_that_is_looked_for() {
 fn the_range_never_drops_a_plateau_above_the_floor() {
     let data = levels(&HALVED, |h| h * h + 1e-3);
     assert_eq!(asymptotic_range(&data, 1e-13).at_floor, 0);
-    assert_eq!(asymptotic_range(&data, 1e-3).at_floor, 6);
+    assert_eq!(asymptotic_range(&data, 1.0).at_floor, 6);
     assert_eq!(asymptotic_range(&[], 0.0).used, 0..0);
 }

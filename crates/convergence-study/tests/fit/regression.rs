@@ -1,6 +1,9 @@
 //! Lines and candidates against multiple linear regression over the same columns, by a library that knows nothing of rates.
 
-use convergence_study::judge::fit::{Level, PLAUSIBLE, POLLUTION_EXPONENTS, fit_line, rate_interval};
+use convergence_study::judge::fit::{
+    Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOW_PENALTY, SLOWEST_POLLUTION, fit_line,
+    rate_interval,
+};
 use nalgebra::{DMatrix, DVector};
 
 use crate::{HALVED, UNEVEN, levels, quantiles};
@@ -29,29 +32,65 @@ fn columns(levels: &[Level], pollution: Option<f64>) -> Vec<Vec<f64>> {
     [Some(column(&|_| 1.0)), Some(column(&f64::ln)), polluted].into_iter().flatten().collect()
 }
 
+/// One candidate by weighted least squares: rate, pollution, logarithm of its weight, half-width.
+struct Explanation {
+    rate: f64,
+    pollution: Option<f64>,
+    log_weight: f64,
+    half_width: f64,
+}
+
+/// What the candidate with this pollution and scatter proportional to h^s says, every row divided by the deviation expected of it.
+fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
+    let m = levels.len();
+    let mean = levels.iter().map(|level| level.step.ln()).sum::<f64>() / m as f64;
+    let deviations: Vec<f64> = levels.iter().map(|level| (s * (level.step.ln() - mean)).exp()).collect();
+    let scaled = |column: &[f64]| column.iter().zip(&deviations).map(|(value, d)| value / d).collect::<Vec<_>>();
+    let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
+    let columns: Vec<Vec<f64>> = columns(levels, pollution).iter().map(|column| scaled(column)).collect();
+    let fit = regression(&columns, &scaled(&y));
+    let dof = m - columns.len();
+    let variance = fit.rss / dof as f64;
+    let ratio = (levels[m - 2].step / levels[m - 1].step).ln();
+    let finest = (y[m - 2] - y[m - 1]) / ratio;
+    let rate = fit.coefficients[1];
+    let pair = variance.sqrt() * deviations[m - 2].hypot(deviations[m - 1]) / ratio;
+    let correction = ((rate - finest).abs() - pair).max(0.0);
+    let student = quantiles().t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
+    let mut half_width = SAFETY * (student + correction);
+    if m == 3 {
+        // Rates p + c (h_k^r - h_k+1^r) / log(h_k / h_k+1): two equations for p and c.
+        let step = |k: usize| levels[k].step;
+        let shift = |k: usize| {
+            (step(k).powf(SLOWEST_POLLUTION) - step(k + 1).powf(SLOWEST_POLLUTION)) / (step(k) / step(k + 1)).ln()
+        };
+        let coarse = (y[0] - y[1]) / (step(0) / step(1)).ln();
+        let limit = (finest * shift(0) - coarse * shift(1)) / (shift(0) - shift(1));
+        half_width = (student + correction).max((rate - limit).abs());
+    }
+    let rare = if pollution.is_some_and(|r| r < 0.7) { SLOW_PENALTY } else { 0.0 };
+    let log_weight = -0.5 * m as f64 * fit.rss.ln() - PENALTY * columns.len() as f64 - rare;
+    Explanation { rate, pollution, log_weight, half_width }
+}
+
 /// Rate, pollution and interval by the rule that the module states.
 fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
-    let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
-    let m = levels.len();
-    let finest = (y[m - 1] - y[m - 2]) / (levels[m - 1].step.ln() - levels[m - 2].step.ln());
-    let candidate = |pollution: Option<f64>| {
-        let columns = columns(levels, pollution);
-        let dof = m - columns.len();
-        let fit = regression(&columns, &y);
-        let rate = fit.coefficients[1];
-        let deviation = (fit.rss / dof as f64 * fit.inverse[(1, 1)]).sqrt();
-        (rate, pollution, fit.rss, quantiles().t(dof) * deviation + (rate - finest).abs())
+    let all = || {
+        let pollutions = std::iter::once(None).chain(POLLUTION_EXPONENTS.map(Some));
+        pollutions.flat_map(|pollution| SCATTER_EXPONENTS.map(|s| (pollution, s)))
     };
-    let mut candidates = vec![candidate(None)];
-    if m >= 4 {
-        candidates.extend(POLLUTION_EXPONENTS.map(|r| candidate(Some(r))));
-    }
-    let best = candidates.iter().copied().min_by(|a, b| a.2.total_cmp(&b.2)).expect("at least one");
-    let plausible = candidates.iter().filter(|candidate| candidate.2 <= PLAUSIBLE * best.2);
-    let hull = plausible.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high]: [f64; 2], (rate, _, _, half)| {
-        [low.min(rate - half), high.max(rate + half)]
-    });
-    (best.0, best.1, hull)
+    let candidates: Vec<Explanation> = if levels.len() < 4 {
+        vec![explain(levels, None, 0.0)]
+    } else {
+        all().map(|(pollution, s)| explain(levels, pollution, s)).collect()
+    };
+    let heaviest = candidates.iter().max_by(|a, b| a.log_weight.total_cmp(&b.log_weight)).expect("at least one");
+    let weights: Vec<f64> = candidates.iter().map(|c| (c.log_weight - heaviest.log_weight).exp()).collect();
+    let total: f64 = weights.iter().sum();
+    let rate = candidates.iter().zip(&weights).map(|(c, w)| w * c.rate).sum::<f64>() / total;
+    let square = |c: &Explanation| c.half_width * c.half_width + 4.0 * (c.rate - rate) * (c.rate - rate);
+    let half = (candidates.iter().zip(&weights).map(|(c, w)| w * square(c)).sum::<f64>() / total).sqrt();
+    (rate, heaviest.pollution, [rate - half, rate + half])
 }
 
 /// Errors of order 1.4 with pollution of one sign or the other and scatter of some percent, on the first `m` of the steps.
@@ -114,17 +153,11 @@ fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
     for (m, unit) in [(3, 5.0), (3, 1e-9), (4, 5.0), (6, 1.0), (6, 1e-9)] {
         let data = levels(&UNEVEN[..m].iter().map(|h| unit * h).collect::<Vec<_>>(), |h| h);
         let scale = data.iter().fold(1.0_f64, |scale, level| scale.max(level.error.ln().abs()));
-        let half_width = |columns: Vec<Vec<f64>>| {
-            let inverse = regression(&columns, &vec![0.0; m]).inverse;
-            quantiles().t(m - columns.len()) * 8.0 * f64::EPSILON * scale * inverse[(1, 1)].sqrt()
-        };
-        let mut widest = half_width(columns(&data, None));
-        if m >= 4 {
-            widest = POLLUTION_EXPONENTS.iter().map(|&r| half_width(columns(&data, Some(r)))).fold(widest, f64::max);
-        }
+        let inverse = regression(&columns(&data, None), &vec![0.0; m]).inverse;
+        let straight = SAFETY * quantiles().t(m - 2) * 8.0 * f64::EPSILON * scale * inverse[(1, 1)].sqrt();
         let found = rate_interval(&data, &quantiles()).expect("regular");
-        for ratio in found.interval.map(|end| (end - 1.0).abs() / widest) {
-            assert!((ratio - 1.0).abs() < 0.1, "{m} levels, unit {unit}: {found:?}, {widest:e}");
+        for ratio in found.interval.map(|end| (end - 1.0).abs() / straight) {
+            assert!((0.7..10.0).contains(&ratio), "{m} levels, unit {unit}: {found:?}, {straight:e}");
         }
     }
 }

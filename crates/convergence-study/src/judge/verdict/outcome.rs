@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use crate::judge::fit::{Level, pairwise_rates};
+use super::reading::Reading;
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,7 +48,7 @@ pub enum Reason {
     NegativeError,
     /// The error does not fall on the finest refinement above the round-off floor.
     ErrorGrows,
-    /// The rates fall away from the order on the finest refinements.
+    /// The rates fall away from the order on the finest refinements, and go on falling.
     FallsAway,
     /// The whole interval lies below the band.
     TooLow,
@@ -64,13 +64,13 @@ pub enum Reason {
     ToleranceTooWide,
     /// Fewer levels than a rate needs.
     TooFewLevels,
-    /// The rates are still changing, or move away.
+    /// The rates are still changing, or move away faster and faster.
     NotAsymptotic,
     /// Too few levels are left above the round-off floor.
     RoundOffFloor,
     /// A pairwise rate that belongs to no convergent family of this order.
     WildRate,
-    /// The interval is wider than the band and overlaps it.
+    /// The interval is wider than the band and overlaps it, or the rates scatter so much that an error that grows proves nothing.
     IntervalTooWide,
     /// The interval is narrow enough, but holds an end of the band.
     AtTheEdge,
@@ -115,6 +115,34 @@ impl Reason {
     }
 }
 
+/// A level without a say in the rate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct SetAside {
+    /// Index of the level, 0 the coarsest.
+    pub level: usize,
+    /// Why.
+    pub because: Aside,
+}
+
+/// Why a level was set aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Aside {
+    /// Coarse: the rates there are still too far from the finest one.
+    PreAsymptotic,
+    /// Fine: the error is not above the floor, and neither is that of any finer level.
+    AtFloor,
+}
+
+impl Aside {
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::PreAsymptotic => "not yet asymptotic",
+            Self::AtFloor => "at or below the floor",
+        }
+    }
+}
+
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateVerdict {
@@ -124,14 +152,17 @@ pub struct RateVerdict {
     pub tolerance: f64,
     /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept.
     pub pairwise: Vec<f64>,
-    /// The rate at h → 0 by the best-fitting candidate of [`rate_interval`](crate::judge::fit::rate_interval).
+    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
+    /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
     pub fitted: Option<f64>,
-    /// The interval that was judged; it holds `fitted`.
+    /// The interval of `fitted`, which is its middle. It is what was judged, unless the reason is another one.
     pub interval: Option<[f64; 2]>,
     /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
     pub extrapolated: Option<f64>,
     /// Indices of the levels that the fit used; empty when there was none.
     pub used: Range<usize>,
+    /// Levels that the fit did not use, coarsest first, each with the reason: what a table of errors should mark.
+    pub set_aside: Vec<SetAside>,
     /// The outcome.
     pub verdict: Verdict,
     /// The reason by name.
@@ -141,38 +172,31 @@ pub struct RateVerdict {
 }
 
 impl RateVerdict {
-    /// Nothing fitted, nothing decided.
-    pub(super) fn blank(levels: &[Level], order: f64, tolerance: f64) -> Self {
+    /// Puts the verdict together, with the words that quote its numbers.
+    pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
+        let levels = reading.levels;
+        let used = reading.used.clone();
+        let (fitted, interval) = reading.fit.map_or((None, None), |fit| (Some(fit.rate), Some(fit.interval)));
+        let reason = match interval {
+            Some([low, high]) => {
+                let (first, last) = (used.start + 1, used.end);
+                let found = format!("{}: {low:.3} to {high:.3} from levels {first} to {last} of {levels}", kind.text());
+                if kind == Reason::ClaimUnusable { found } else { format!("{found}, claimed {order} ± {tolerance}") }
+            }
+            None => kind.text().to_owned(),
+        };
         Self {
             order,
             tolerance,
-            pairwise: pairwise_rates(levels),
-            fitted: None,
-            interval: None,
-            extrapolated: None,
-            used: 0..0,
-            verdict: Verdict::Inconclusive,
-            kind: Reason::TooFewLevels,
-            reason: String::new(),
+            pairwise: reading.pairwise.clone(),
+            fitted,
+            interval,
+            extrapolated: reading.extrapolated,
+            used,
+            set_aside: reading.set_aside(),
+            verdict: kind.verdict(),
+            kind,
+            reason,
         }
-    }
-
-    /// Settles the verdict; call it last, the words quote the other fields.
-    pub(super) fn because(mut self, kind: Reason) -> Self {
-        let levels = if self.pairwise.is_empty() { 0 } else { self.pairwise.len() + 1 };
-        self.verdict = kind.verdict();
-        self.kind = kind;
-        self.reason = match self.interval {
-            Some([low, high]) => format!(
-                "{}: {low:.3} to {high:.3} from levels {} to {} of {levels}, claimed {} ± {}",
-                kind.text(),
-                self.used.start + 1,
-                self.used.end,
-                self.order,
-                self.tolerance
-            ),
-            None => kind.text().to_owned(),
-        };
-        self
     }
 }

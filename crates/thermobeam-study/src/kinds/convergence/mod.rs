@@ -83,6 +83,7 @@ impl Convergence {
                 interval: None,
                 extrapolated: None,
                 used: 0..0,
+                set_aside: vec![],
                 verdict: Verdict::Inconclusive,
                 kind: Reason::ToleranceTooWide,
                 reason: error.to_string(),

@@ -1,0 +1,174 @@
+//! What a sequence of errors says by itself, whatever is claimed of it.
+
+use std::ops::Range;
+
+use super::outcome::{Aside, Reason, SetAside};
+use super::{FEWEST_LEVELS, trend};
+use crate::judge::fit::{
+    AsymptoticRange, Level, Quantiles, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
+};
+
+/// A sequence of errors, read once and held against any claim.
+#[derive(Debug, Clone)]
+pub(crate) struct Reading<'a> {
+    sequence: &'a [Level],
+    /// Number of levels.
+    pub(super) levels: usize,
+    /// All rates between neighbouring levels.
+    pub(super) pairwise: Vec<f64>,
+    range: AsymptoticRange,
+    /// Levels of the fit: the asymptotic range, or the three finest levels above the floor where it is shorter.
+    pub(super) used: Range<usize>,
+    pub(crate) fit: Option<RateInterval>,
+    pub(super) extrapolated: Option<f64>,
+    /// What makes rates impossible to form.
+    unusable: Option<Reason>,
+}
+
+impl<'a> Reading<'a> {
+    /// * `quantiles`: without them there is no rate.
+    pub(super) fn new(sequence: &'a [Level], floor: f64, quantiles: Option<&Quantiles>) -> Self {
+        let unusable = unusable(sequence);
+        let range = match unusable {
+            Some(_) => AsymptoticRange { used: 0..0, pre_asymptotic: 0, at_floor: 0 },
+            None => asymptotic_range(sequence, floor),
+        };
+        let end = range.used.end;
+        let start = if range.used.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.used.start };
+        let fit = quantiles.and_then(|quantiles| rate_interval(&sequence[start..end], quantiles));
+        let used = if fit.is_some() { start..end } else { 0..0 };
+        Self {
+            sequence,
+            levels: sequence.len(),
+            pairwise: pairwise_rates(sequence),
+            extrapolated: extrapolated_rate(&sequence[used.clone()]),
+            range,
+            used,
+            fit,
+            unusable,
+        }
+    }
+
+    /// The levels that the fit leaves out.
+    pub(super) fn set_aside(&self) -> Vec<SetAside> {
+        if self.unusable.is_some() {
+            return vec![];
+        }
+        let above_floor = self.range.used.end;
+        let coarse = 0..if self.used.is_empty() { self.range.used.start } else { self.used.start };
+        let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
+        aside(coarse, Aside::PreAsymptotic).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
+    }
+
+    /// The reason of the verdict on a claim: the steps of the rule, in their order.
+    pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
+        let sensible = order > 0.0 && order.is_finite();
+        match self.unusable {
+            Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)) => reason,
+            _ if !sensible => Reason::ClaimUnusable,
+            Some(reason) => reason,
+            None => self.not_convergent(order).unwrap_or_else(|| self.held_against(order, tolerance)),
+        }
+    }
+
+    /// Steps 4 to 7: what forbids asking the interval.
+    fn not_convergent(&self, order: f64) -> Option<Reason> {
+        let above_floor = self.range.used.end;
+        // The step down to the floor is a rate like any other for being wild; those between levels at the floor mean nothing.
+        let down_to_floor = &self.pairwise[..self.pairwise.len().min(above_floor)];
+        let rates = self.rates();
+        let possible = !trend::steep(self.sequence, rates, order);
+        if possible && trend::grows(rates) {
+            Some(Reason::ErrorGrows)
+        } else if possible && trend::falls_away(rates, order) {
+            Some(Reason::FallsAway)
+        } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
+            Some(Reason::WildRate)
+        } else if self.range.used.len() >= FEWEST_LEVELS {
+            None
+        } else if self.range.at_floor >= self.range.pre_asymptotic {
+            Some(Reason::RoundOffFloor)
+        } else {
+            Some(Reason::NotAsymptotic)
+        }
+    }
+
+    /// Steps 8 and 9: where the rates are going, and the interval against the band.
+    fn held_against(&self, order: f64, tolerance: f64) -> Reason {
+        let Some(fit) = &self.fit else { return Reason::TooFewLevels };
+        let asymptotic = &self.pairwise[self.used.start..self.used.end - 1];
+        if trend::moves_away(asymptotic, tolerance) || trend::departs(self.rates(), tolerance) {
+            return Reason::NotAsymptotic;
+        }
+        match compare(fit.interval, order, tolerance) {
+            Reason::TooLow => Reason::TooLow,
+            // The finest error is not smaller, which scatter may explain: there is no order to agree with.
+            _ if self.rates().last().is_some_and(|finest| *finest <= 0.0) => Reason::IntervalTooWide,
+            reason => reason,
+        }
+    }
+
+    /// The rates between levels above the floor.
+    fn rates(&self) -> &[f64] {
+        &self.pairwise[..self.range.used.end.saturating_sub(1)]
+    }
+}
+
+/// Steps 1 to 3 of the rule, without what the claim has to do with them.
+fn unusable(levels: &[Level]) -> Option<Reason> {
+    let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
+    let decreasing = levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
+    if levels.iter().any(|level| !level.error.is_finite()) {
+        Some(Reason::NonFiniteError)
+    } else if levels.iter().any(|level| level.error < 0.0) {
+        Some(Reason::NegativeError)
+    } else if levels.len() < FEWEST_LEVELS {
+        Some(Reason::TooFewLevels)
+    } else if levels.iter().any(|level| level.error == 0.0) {
+        Some(Reason::ZeroError)
+    } else if !decreasing {
+        Some(Reason::StepsNotDecreasing)
+    } else {
+        None
+    }
+}
+
+/// The interval against the band.
+fn compare([low, high]: [f64; 2], order: f64, tolerance: f64) -> Reason {
+    let (least, most) = (order - tolerance, order + tolerance);
+    if least <= low && high <= most {
+        Reason::Agrees
+    } else if high < least {
+        Reason::TooLow
+    } else if low > most {
+        Reason::TooHigh
+    } else if high - low > 2.0 * tolerance {
+        Reason::IntervalTooWide
+    } else {
+        Reason::AtTheEdge
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_is_compared_with_its_ends_and_those_of_the_band() {
+        for (interval, reason) in [
+            ([0.75, 1.25], Reason::Agrees),
+            ([0.875, 1.0], Reason::Agrees),
+            ([0.5, 0.625], Reason::TooLow),
+            ([1.375, 1.5], Reason::TooHigh),
+            // They share a point with the band.
+            ([0.5, 0.75], Reason::AtTheEdge),
+            ([1.25, 1.5], Reason::AtTheEdge),
+            ([0.5, 1.0], Reason::AtTheEdge),
+            ([1.0, 1.5], Reason::AtTheEdge),
+            ([0.5, 1.0625], Reason::IntervalTooWide),
+            ([0.5, 1.5], Reason::IntervalTooWide),
+        ] {
+            assert_eq!(compare(interval, 1.0, 0.25), reason, "{interval:?}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Where the rates are going: what tells a lost order from noise.
+
+use crate::judge::fit::Level;
+
+/// A fall goes on while the finest rate is lower than the one before by more than this.
+const STILL_FALLING: f64 = 0.1;
+
+/// A departure counts when the rate has moved by this share of the tolerance in three refinements.
+const DEPARTED: f64 = 0.2;
+
+/// Changes of the rate between one refinement and the next.
+fn changes(rates: &[f64]) -> Vec<f64> {
+    rates.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+/// How far the rates scatter: the largest part of two consecutive changes of opposite sign that cancels.
+///
+/// Pollution, plateaus and terms of another order change the rates one way and have a scatter of zero; noise changes them to and fro.
+/// A single change (three levels) may be either, and counts as scatter.
+pub fn scatter(rates: &[f64]) -> f64 {
+    let changes = changes(rates);
+    match changes[..] {
+        [only] => only.abs(),
+        _ => {
+            let cancelled = |pair: &[f64]| if pair[0] * pair[1] < 0.0 { pair[0].abs().min(pair[1].abs()) } else { 0.0 };
+            changes.windows(2).map(cancelled).fold(0.0, f64::max)
+        }
+    }
+}
+
+/// Whether the finest rate is zero or less beyond what scatter explains: no convergence.
+pub fn grows(rates: &[f64]) -> bool {
+    rates.last().is_some_and(|finest| finest + 2.0 * scatter(rates) <= 0.0)
+}
+
+/// Whether the rates fell on each of the last two refinements, are still falling, have fallen at least half of the way from the order to where
+/// they are now, and ended more than half an order below the claim beyond what scatter explains.
+///
+/// Pollution fades, so it does the contrary. Errors that level off above the round-off floor do this, which is what a coefficient that differs
+/// between the scheme and the sources leads to; dropping the levels where it shows would hide it. Rates that have always been low, or that
+/// have come to rest, are those of a lost order: [`Reason::TooLow`](super::Reason::TooLow) says so, with the rate.
+pub fn falls_away(rates: &[f64], order: f64) -> bool {
+    let highest = rates.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    match rates {
+        [.., before, middle, finest] => {
+            let falling = before > middle && middle - finest > STILL_FALLING;
+            let fell = highest - finest >= 0.5 * (order - finest);
+            falling && fell && finest + 2.0 * scatter(rates) < order - 0.5
+        }
+        _ => false,
+    }
+}
+
+/// Whether one of the last two changes of the rate is faster than any two powers of h that take over from each other make it.
+///
+/// Where `e = h^p + f h^q`, the rate changes by at most (p - q)²/4 for each unit of log h, half way between p and q. Here p is the order and q = -2, the
+/// round-off of second differences. A steeper change is an outlier or noise on narrow steps, not an order that is lost.
+pub(super) fn steep(levels: &[Level], rates: &[f64], order: f64) -> bool {
+    let steepest = 0.25 * (order + 2.0).powi(2);
+    // From the middle of one pair of levels to the middle of the next, in log h.
+    let apart = |k: usize| 0.5 * (levels[k].step / levels[k + 2].step).ln();
+    let too_steep = |(k, change): (usize, f64)| change.abs() > steepest * apart(k);
+    changes(rates).into_iter().enumerate().rev().take(2).any(too_steep)
+}
+
+/// Whether the finest change of the rate is larger than every earlier one, than half the tolerance, and than scatter explains.
+///
+/// Changes shrink by ratio^-r where pollution fades. Where they grow, a term of lower order is emerging from below: the rates 2, 2, 1.98, 1.94
+/// are on their way to 1, however well 2 fits.
+pub fn moves_away(rates: &[f64], tolerance: f64) -> bool {
+    match changes(rates).split_last() {
+        Some((finest, earlier)) if !earlier.is_empty() => {
+            let finest = finest.abs();
+            let largest = earlier.iter().all(|change| change.abs() < finest);
+            largest && finest > 0.5 * tolerance && finest > 2.0 * scatter(rates)
+        }
+        _ => false,
+    }
+}
+
+/// Whether the last three changes of the rate have one sign and grow, and add up to more than a fifth of the tolerance: a plateau, a wrong limit or
+/// a lower order about to show.
+///
+/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. Three changes of noise are in such a row
+/// once in a hundred tables. Less than a fifth is what the error of a reference solution leaves on the finest levels of a sound study.
+pub fn departs(rates: &[f64], tolerance: f64) -> bool {
+    match changes(rates)[..] {
+        [.., first, second, third] => {
+            let one_way = first * second > 0.0 && second * third > 0.0;
+            let growing = first.abs() < second.abs() && second.abs() < third.abs();
+            one_way && growing && (first + second + third).abs() > DEPARTED * tolerance
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scatter_is_what_goes_to_and_fro() {
+        assert_eq!(scatter(&[]), 0.0);
+        assert_eq!(scatter(&[1.0]), 0.0);
+        assert_eq!(scatter(&[1.0, 0.75]), 0.25, "a single change may be either");
+        assert_eq!(scatter(&[1.0, 1.25, 1.5, 2.5]), 0.0, "one way");
+        assert_eq!(scatter(&[1.0, 1.5, 1.25]), 0.25);
+        assert_eq!(scatter(&[1.0, 1.25, 0.5, 1.0, 1.125]), 0.5);
+    }
+
+    #[test]
+    fn errors_grow_when_scatter_does_not_explain_it() {
+        for (rates, expected) in [
+            (&[0.0, 0.0][..], true),
+            (&[0.0, 0.0, 0.0], true),
+            (&[1.0, 1.0, -0.5], true),
+            (&[1.0, -0.25], false),
+            (&[1.0, 1.125, 1.0, -0.25], true),
+            (&[1.0, 1.125, 1.0, -0.125], false),
+            (&[1.0, 1.0, 0.125], false),
+            (&[], false),
+        ] {
+            assert_eq!(grows(rates), expected, "{rates:?}");
+        }
+    }
+
+    #[test]
+    fn a_fall_is_one_that_goes_on() {
+        for (rates, order, expected) in [
+            // Always low, come to rest, half of the way, beyond scatter.
+            (&[1.5, 1.25, 1.0][..], 2.0, true),
+            (&[1.02, 1.01, 1.0], 2.0, false),
+            (&[2.0, 1.5, 1.25, 1.125, 1.0625], 2.0, false),
+            (&[1.25, 1.125, 1.0], 2.0, false),
+            (&[1.5, 1.25, 1.0], 2.25, false),
+            (&[2.0, 1.0, 1.5, 1.25, 1.0], 2.0, false),
+        ] {
+            assert_eq!(falls_away(rates, order), expected, "{rates:?}");
+        }
+    }
+
+    #[test]
+    fn a_departure_has_one_sign_and_a_growing_pace() {
+        for (rates, tolerance, expected) in [
+            (&[2.0, 1.9375, 1.8125, 1.5625][..], 0.25, true),
+            (&[2.0, 2.0625, 2.1875, 2.4375], 0.25, true),
+            (&[2.5, 2.0, 1.9375, 1.8125, 1.5625], 0.25, true),
+            // Not growing, not one way, too few.
+            (&[2.0, 1.9375, 1.875, 1.625], 0.25, false),
+            (&[2.0, 2.0625, 1.9375, 1.6875], 0.25, false),
+            (&[2.0, 1.9375, 1.8125], 0.25, false),
+            // 7/1024 in three refinements: more than a fifth of 1/32, less than one of 3/64.
+            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.03125, true),
+            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.046875, false),
+        ] {
+            assert_eq!(departs(rates, tolerance), expected, "{rates:?} {tolerance}");
+        }
+    }
+
+    #[test]
+    fn two_powers_never_take_over_from_each_other_steeply() {
+        for (p, q) in [(2.0, 0.0), (1.0, -1.0), (3.0, -2.0), (2.0, 1.0)] {
+            for shift in 0..40 {
+                let f = 2.0_f64.powi(-shift);
+                let level = |k: i32| 1.3_f64.powi(-k);
+                let levels: Vec<Level> =
+                    (0..8).map(level).map(|h| Level { step: h, error: h.powf(p) + f * h.powf(q) }).collect();
+                assert!(!steep(&levels, &crate::judge::fit::pairwise_rates(&levels), p), "{p} {q} {f}");
+            }
+        }
+        let levels: Vec<Level> =
+            [1.0, 0.5, 0.25, 0.5].iter().zip(0..).map(|(&error, k)| Level { step: 1.1_f64.powi(-k), error }).collect();
+        assert!(steep(&levels, &crate::judge::fit::pairwise_rates(&levels), 1.0));
+    }
+}

@@ -94,7 +94,7 @@ mod tests {
         for (asked, words) in [
             (&["a-space", "a-spice"][..], "`a-spice` matches no study; allowed is a-space, a-time, b-space"),
             (&["b*"], "`b*` matches no study in the tier quick, and 1 with --tier full"),
-            (&["["], "`[` is no pattern"),
+            (&["["], "`[` is not a pattern"),
             (&[""], "`` matches no study"),
         ] {
             let error = meant(Tier::Quick, asked).unwrap_err();

@@ -14,11 +14,18 @@ const SWATCH_WIDTH: f64 = 46.0;
 const SWATCH_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 26.0;
 
-/// The little picture before a legend's text.
+/// The sample before the text of an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Swatch {
-    /// A line of this width (none for 0) with markers.
-    Line { look: Look, width: f64, marks: Marks },
+    /// A line with markers.
+    Line {
+        /// Colour, dashes and marker.
+        look: Look,
+        /// Width of the line in px; 0 for markers alone.
+        width: f64,
+        /// How the marker is drawn.
+        marks: Marks,
+    },
     /// A patch of colour.
     Fill(RGBColor),
     /// A patch with diagonal strokes.
@@ -28,7 +35,9 @@ pub enum Swatch {
 /// A line of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
+    /// The sample before the text.
     pub swatch: Swatch,
+    /// The text; one that is too long is cut.
     pub label: String,
 }
 
@@ -50,6 +59,7 @@ impl Legend {
         Self { columns: entries.len().div_ceil(rows).max(1), column_width, entries }
     }
 
+    /// Height of all rows in px.
     pub fn height(&self) -> f64 {
         self.entries.len().div_ceil(self.columns) as f64 * ROW_HEIGHT
     }
@@ -97,7 +107,7 @@ impl Legend {
     }
 }
 
-/// A text cut to fit a width, with an ellipsis where it was cut.
+/// A text of this size cut to fit a width, both in px, with an ellipsis where it was cut.
 pub fn elide(text: &str, size: f64, width: f64) -> String {
     if text_width(text, size) <= width {
         return text.to_owned();

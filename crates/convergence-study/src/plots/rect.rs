@@ -6,21 +6,28 @@ pub type Point = (f64, f64);
 /// A rectangle in px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
+    /// Left edge.
     pub left: f64,
+    /// Upper edge; less than `bottom`.
     pub top: f64,
+    /// Right edge.
     pub right: f64,
+    /// Lower edge.
     pub bottom: f64,
 }
 
 impl Rect {
+    /// Horizontal extent.
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
+    /// Vertical extent.
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
+    /// The point in the middle.
     pub fn centre(&self) -> Point {
         (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
     }

@@ -77,8 +77,8 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a file and waits until it is on the disk.
-pub fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file that does not exist yet and waits until it is on the disk.
+pub(super) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fill_through(path, |file| file.write_all(bytes))
 }
 
@@ -88,7 +88,8 @@ fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
-pub fn naming(path: &Path, error: &io::Error) -> io::Error {
+/// The same error with the file named in front.
+pub(super) fn naming(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 

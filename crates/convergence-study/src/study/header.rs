@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::input::{self, InputError, Section};
 
 /// The kind of a study whose file has no `kind`.
-pub const DEFAULT_KIND: &str = "convergence";
+const DEFAULT_KIND: &str = "convergence";
 
 /// Longest id: it is part of file names, of which some systems take 255 bytes.
 const LONGEST_NAME: usize = 100;

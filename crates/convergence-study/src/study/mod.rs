@@ -18,4 +18,4 @@ pub use case::{Case, CaseFailure, Ran};
 pub use header::{Header, Tier};
 pub use kind::{FromFile, Kind, Plan, Study, erased, run_cases_here, run_here};
 pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
-pub use registry::{KindRow, Kinds, StudyFile, reader};
+pub use registry::{KindRow, Kinds, Reader, StudyFile, reader};

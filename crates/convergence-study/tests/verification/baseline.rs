@@ -2,7 +2,7 @@ use std::fs;
 
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::{Baseline, BaselineError, Refusal};
-use convergence_study::study::outcome::Quantity;
+use convergence_study::study::{Quantity, erased};
 
 use crate::fake::{Does, Fake, fake, finished, ids, study};
 
@@ -13,7 +13,7 @@ fn blessed(studies: Vec<Fake>) -> Baseline {
 }
 
 fn run(studies: Vec<Fake>) -> Vec<Finished> {
-    finished(studies.into_iter().map(|study| Box::new(study) as _).collect())
+    finished(studies.into_iter().map(|study| erased(study)).collect())
 }
 
 /// The changes in words.

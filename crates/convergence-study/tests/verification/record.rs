@@ -1,12 +1,13 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::store::record::{Precision, Record, json};
+use convergence_study::study::erased;
 use serde_json::Value;
 
 use crate::fake::{Does, Fake, fake, finished, study};
 
 fn record(does: Does, precision: Precision) -> Value {
     let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };
-    let finished = finished(vec![Box::new(exact)]);
+    let finished = finished(vec![erased(exact)]);
     let record = Record::new("quick", Verdict::Pass, vec![], &finished, precision);
     serde_json::from_str(&json(&record).unwrap()).unwrap()
 }

@@ -24,7 +24,7 @@ pub struct InputError {
     pub file: String,
     /// The place; `None` where the file could not be read at all.
     pub place: Option<Place>,
-    /// The field by its dotted name, such as `beam.zeta`; `None` where the whole file is meant.
+    /// The field by its dotted name, such as `solver.tolerance`; `None` where the whole file is meant.
     pub field: Option<String>,
     /// What is wrong.
     pub complaint: Box<Complaint>,
@@ -39,7 +39,7 @@ pub enum Complaint {
         /// The operating system's reason.
         reason: String,
     },
-    /// The file is too large to be a scene or a study.
+    /// The file is larger than any file that people write by hand.
     #[error("found more than {allowed} bytes; allowed is a file of at most {allowed} bytes")]
     TooLarge {
         /// Bytes allowed.

@@ -20,19 +20,19 @@ pub use error::{Complaint, InputError, Place, visible};
 pub use field::{Field, Misread, shorten};
 pub use section::Section;
 
-/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
+/// Largest file that is read, in bytes. Study files are small; this keeps a wrong path from filling the memory.
 const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
 #[derive(Debug, Clone, Copy)]
-pub struct Source<'a> {
-    pub file: &'a str,
-    pub text: &'a str,
+pub(crate) struct Source<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) text: &'a str,
 }
 
 impl Source<'_> {
     /// Line and column, from 1, of a byte of the text.
-    pub fn place(&self, offset: usize) -> Place {
+    pub(crate) fn place(&self, offset: usize) -> Place {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
             offset -= 1;

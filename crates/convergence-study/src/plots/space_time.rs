@@ -8,7 +8,7 @@ use super::sheet::Plan;
 use super::xy::left_out;
 use plotters::style::RGBColor;
 
-/// Cells of the picture along time and along the beam, finest first. Even noise, which merges nowhere, stays below
+/// Cells of the picture along time and along space, finest first. Even noise, which merges nowhere, stays below
 /// 400 kB on the coarsest.
 const RESOLUTIONS: [(usize, usize); 3] = [(220, 140), (190, 120), (170, 105)];
 /// Runs of equal cells at most, of about 17 bytes each.

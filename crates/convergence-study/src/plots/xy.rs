@@ -175,7 +175,7 @@ impl Xy {
         }
         sheet.canvas.draw(Layer::clipped(plot), |pen| {
             for &(left, right) in &spans {
-                // A contact shorter than a pixel still leaves a trace.
+                // An interval shorter than a pixel still leaves a trace.
                 pen.rect(Rect { left, right: right.max(left + 0.7), ..plot }, style::SHADE);
             }
         });

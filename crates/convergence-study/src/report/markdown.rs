@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn anchors_are_those_of_the_web_page() {
-        assert_eq!(anchor("theorem-3.4-space"), "theorem-34-space");
+        assert_eq!(anchor("heat-2.1-space"), "heat-21-space");
         assert_eq!(anchor("Moved from the baseline"), "moved-from-the-baseline");
     }
 

@@ -4,7 +4,7 @@
 //! writes. Nothing but a blessing changes it. Numbers stand there with all their digits.
 //!
 //! ```json
-//! { "schema": 1, "studies": { "theorem-3.4-space": { "error of velocity": { "value": 4.4e-8, "tolerance": 0.001 } } } }
+//! { "schema": 1, "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } } }
 //! ```
 //!
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cli::output;
+use crate::text::visible;
 
 /// For the end of `--help`.
 pub const HELP: &str =
@@ -26,7 +27,7 @@ pub struct Unusable(String);
 impl Unusable {
     /// An error that does not name the file it is about.
     pub fn file(path: &Path, error: &dyn Error) -> Self {
-        Self(format!("{}: {error}", path.display()))
+        Self(format!("{}: {error}", visible::path(path)))
     }
 
     /// Something that is wrong with the arguments.

@@ -9,6 +9,7 @@ use super::{output, workspace};
 use crate::explain;
 use crate::project::Project;
 use crate::study::StudyFile;
+use crate::text::visible::{self, visible};
 
 /// Tell in words what a study claims, why it should hold, how it is judged, and what a failure would mean
 #[derive(Debug, Args)]
@@ -65,5 +66,5 @@ fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) 
         || format!("`{} explain` lists all that can be explained", project.command),
         |meant| format!("did you mean {meant}?"),
     );
-    format!("found no study, term, reason or kind `{name}` in {}; {hint}", folder.display())
+    format!("found no study, term, reason or kind `{}` in {}; {hint}", visible(name), visible::path(folder))
 }

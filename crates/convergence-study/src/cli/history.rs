@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::exit::Unusable;
+use crate::store::regular;
 
 /// Where `verify` leaves its records, below the workspace; of two of the same age the later one counts.
 const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
@@ -80,7 +81,7 @@ impl History {
 /// A file and when it was written; `None` where it is missing.
 fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<(SystemTime, T)>, Unusable> {
     let name = |error: &dyn Error| Unusable::file(path, error);
-    let text = match fs::read_to_string(path) {
+    let text = match regular::read_to_string(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         other => other.map_err(|error| name(&error))?,
     };

@@ -1,6 +1,7 @@
 //! What moved away from the baseline, so that it can be read: hundreds of numbers may move at once.
 
 use crate::store::baseline::Change;
+use crate::text::visible::visible;
 
 /// Changes of a study that are told one by one.
 const TOLD: usize = 3;
@@ -12,7 +13,7 @@ pub fn lines(changes: &[Change], all: bool) -> String {
 }
 
 fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {
-    changes.into_iter().map(|change| format!("baseline: {change}\n")).collect()
+    changes.into_iter().map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect()
 }
 
 fn condensed(changes: &[Change]) -> String {

@@ -7,6 +7,7 @@ use crate::project::Project;
 use crate::report::{can_be_blessed, key_numbers, sentence};
 use crate::run::Finished;
 use crate::study::{Study, StudyFile, Tier};
+use crate::text::visible;
 use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
@@ -82,7 +83,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
-        Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
+        Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::visible(&refusal.to_string())),
         None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
             text += &format!("if that is meant: {} --bless\n", request.scope.command(project));
         }
@@ -105,5 +106,5 @@ fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
 
 /// A path as seen from the workspace.
 fn below(path: &Path, root: &Path) -> String {
-    path.strip_prefix(root).unwrap_or(path).display().to_string()
+    visible::path(path.strip_prefix(root).unwrap_or(path))
 }

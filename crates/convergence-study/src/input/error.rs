@@ -5,6 +5,7 @@ use std::fmt;
 use thiserror::Error;
 
 use crate::text::names::did_you_mean;
+use crate::text::visible::{self, visible};
 
 /// A place in a text file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,11 +84,6 @@ pub enum Complaint {
     },
 }
 
-/// A name as it can be shown: a file may name anything, and a terminal obeys control characters.
-pub fn visible(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
-}
-
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&visible(&self.file))?;
@@ -97,6 +93,6 @@ impl fmt::Display for InputError {
         if let Some(field) = &self.field {
             write!(f, ": {}", visible(field))?;
         }
-        write!(f, ": {}", self.complaint)
+        write!(f, ": {}", visible::lines(&self.complaint.to_string()))
     }
 }

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeInteger, DeValue};
 
-use super::error::{Complaint, InputError, visible};
+use super::error::{Complaint, InputError};
 use super::{Section, Source};
 use crate::text::names::nearest;
+use crate::text::visible;
 
 /// A text that cannot be read: where, and why.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -90,7 +91,7 @@ impl<'a> Field<'a> {
         match fs::metadata(&path) {
             Ok(_) => Ok(path),
             Err(error) => {
-                let found = format!("{}, but {}: {error}", self.as_written(), visible(&path.display().to_string()));
+                let found = format!("{}, but {}: {error}", self.as_written(), visible::path(&path));
                 Err(self.refuse(found, "the name of a file, relative to this file's folder"))
             }
         }

@@ -16,7 +16,8 @@ use toml::de::{DeTable, DeValue};
 
 pub mod error_table;
 
-pub use error::{Complaint, InputError, Place, visible};
+pub use crate::text::visible::visible;
+pub use error::{Complaint, InputError, Place};
 pub use field::{Field, Misread, shorten};
 pub use section::Section;
 

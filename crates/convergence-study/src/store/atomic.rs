@@ -7,6 +7,7 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::store::writing;
+use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
@@ -89,8 +90,8 @@ fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Resu
 }
 
 /// The same error with the file named in front.
-pub(super) fn naming(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+pub fn naming(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
 }
 
 /// A name in the same folder that no other thread or process uses.

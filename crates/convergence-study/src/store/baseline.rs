@@ -12,16 +12,16 @@
 mod change;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::input::visible;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::atomic;
+use crate::store::{atomic, regular};
+use crate::text::visible;
 
 pub use change::{Change, Movement};
 
@@ -56,8 +56,8 @@ fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64,
 /// A baseline that cannot be read or written.
 #[derive(Debug, Error)]
 pub enum BaselineError {
-    /// The file system's word.
-    #[error("{}: {error}", .path.display())]
+    /// The file cannot be read or written.
+    #[error("{}: {error}", visible::path(.path))]
     File {
         /// The file.
         path: PathBuf,
@@ -65,7 +65,7 @@ pub enum BaselineError {
         error: io::Error,
     },
     /// Not the form of a baseline.
-    #[error("{}: {}; restore it, or remove it and run `verify --bless`", .path.display(), visible(&.error.to_string()))]
+    #[error("{}: {}; restore it, or remove it and run `verify --bless`", visible::path(.path), visible::visible(&.error.to_string()))]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -73,7 +73,7 @@ pub enum BaselineError {
         error: serde_json::Error,
     },
     /// A form of another version.
-    #[error("{}: schema: found {found}; allowed is {SCHEMA}", .path.display())]
+    #[error("{}: schema: found {found}; allowed is {SCHEMA}", visible::path(.path))]
     Schema {
         /// The file.
         path: PathBuf,
@@ -119,7 +119,7 @@ impl Baseline {
     /// # Errors
     /// [`BaselineError`] where there is a file that is not a baseline.
     pub fn read(path: &Path) -> Result<Self, BaselineError> {
-        let text = match fs::read_to_string(path) {
+        let text = match regular::read_to_string(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(error) => return Err(BaselineError::File { path: path.to_owned(), error }),
             Ok(text) => text,

@@ -3,3 +3,4 @@
 pub mod columns;
 pub mod names;
 pub mod number;
+pub mod visible;

@@ -143,3 +143,13 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
     fs::write(&file, r#"{ "schema": 2, "studies": {} }"#).unwrap();
     assert!(Baseline::read(&file).unwrap_err().to_string().ends_with("schema: found 2; allowed is 1"));
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_the_baseline_is_refused_and_does_not_hang() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    assert!(std::process::Command::new("mkfifo").arg(&file).status().unwrap().success());
+    let refused = Baseline::read(&file).unwrap_err().to_string();
+    assert!(refused.contains("baseline.json: expected a regular file"), "{refused}");
+}

@@ -1,6 +1,6 @@
 //! What differs between a baseline and a run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
 use super::Guarded;
@@ -79,7 +79,8 @@ pub(super) fn between(study: &str, expected: &BTreeMap<String, Guarded>, found: 
             None => changes.push(change(&quantity.name, Movement::New { value: quantity.value })),
         }
     }
-    let vanished = expected.iter().filter(|(name, _)| !found.iter().any(|quantity| quantity.name == **name));
+    let names: HashSet<&str> = found.iter().map(|quantity| quantity.name.as_str()).collect();
+    let vanished = expected.iter().filter(|(name, _)| !names.contains(name.as_str()));
     changes.extend(vanished.map(|(name, guarded)| change(name, Movement::Vanished { value: guarded.value })));
     changes
 }

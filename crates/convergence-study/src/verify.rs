@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::io;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use thiserror::Error;
 
@@ -165,6 +167,33 @@ pub fn verify(
     let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
     write_reports(project, &verification, request, &target, &folder).map_err(fail)?;
     Ok(verification)
+}
+
+/// Runs studies on all threads of the machine and writes a report on them, without a baseline.
+///
+/// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
+/// * Returns the verdict with the studies; there are no changes and no blessing.
+///
+/// # Errors
+/// [`VerificationError`].
+pub fn run_and_report(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    folder: &Path,
+) -> Result<Verification, VerificationError> {
+    let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let finished = run::run(studies, jobs, &|_| {})?;
+    let verdict = verdict(&finished, &[]);
+    let found = Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() };
+    let scope = Scope::Selection(vec![]);
+    let publish = || {
+        let local = folder.join("local");
+        let _lock = lock(&local.join("lock"))?;
+        let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
+        target.publish(&found.findings(project, &scope, project.command).files()?)
+    };
+    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })?;
+    Ok(found)
 }
 
 /// Completes or clears away what a run that was killed has left, whatever that run was of.

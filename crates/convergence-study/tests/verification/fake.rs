@@ -14,14 +14,8 @@ use convergence_study::study::{
 use convergence_study::verify::{Request, Scope};
 
 /// The project of these studies; none is read from a file.
-pub(crate) const PROJECT: Project = Project {
-    name: "fakes",
-    command: "cargo xtask",
-    about: "Studies with a prescribed behaviour",
-    kinds: &[],
-    terms: &[],
-    front_pictures: &[("a-front.svg", "front.svg")],
-};
+pub(crate) const PROJECT: Project =
+    Project { front_pictures: &[("a-front.svg", "front.svg")], ..Project::new("fakes", "cargo xtask") };
 
 /// What the cases of a study do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,8 +49,7 @@ pub(crate) struct Fake {
 }
 
 pub(crate) fn fake(id: &str, does: Does) -> Fake {
-    let (claim, kind) = ("errors | fall < with *h*".to_owned(), "fake".to_owned());
-    let header = Header { id: id.to_owned(), claim, tier: Tier::Quick, kind };
+    let header = Header { kind: "fake".to_owned(), ..Header::new(id, "errors | fall < with *h*") };
     Fake { header, does, scale: 1.0, tolerance: 1e-3, quantity: "finest error" }
 }
 

@@ -27,7 +27,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// A name that nothing has, and a study file that cannot be used.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Some(name) = arguments.name.as_deref() else {
         output::print(&contents(project))?;
         return Ok(Ended::Well);

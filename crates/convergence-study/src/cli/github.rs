@@ -14,7 +14,7 @@ use crate::cli::output;
 /// Appends the table to the page of the job and marks what did not pass.
 ///
 /// A page that cannot be written is reported on standard error; it does not change the verdict.
-pub fn announce(findings: &Findings<'_>) {
+pub(super) fn announce(findings: &Findings<'_>) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
         let file = regular::open(page.as_ref(), File::options().append(true).create(true));
         if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {

@@ -20,7 +20,7 @@ const TIMES: &str = "reports/local/provenance.json";
 
 /// By study.
 #[derive(Debug, Default)]
-pub struct History {
+pub(super) struct History {
     verdicts: HashMap<String, String>,
     seconds: HashMap<String, f64>,
 }
@@ -52,7 +52,7 @@ impl History {
     ///
     /// # Errors
     /// A file that is there and cannot be read, or is no record.
-    pub fn read(root: &Path) -> Result<Self, Unusable> {
+    pub(super) fn read(root: &Path) -> Result<Self, Unusable> {
         let mut records: Vec<(SystemTime, Record)> = vec![];
         for path in RECORDS {
             records.extend(read(&root.join(path))?);
@@ -68,12 +68,12 @@ impl History {
     }
 
     /// The verdict of the newest record that has the study.
-    pub fn verdict(&self, id: &str) -> Option<&str> {
+    pub(super) fn verdict(&self, id: &str) -> Option<&str> {
         self.verdicts.get(id).map(String::as_str)
     }
 
     /// Its time over all threads, if it was in the last run on this machine.
-    pub fn seconds(&self, id: &str) -> Option<f64> {
+    pub(super) fn seconds(&self, id: &str) -> Option<f64> {
         self.seconds.get(id).copied()
     }
 }

@@ -33,7 +33,7 @@ const NARROWEST: usize = 24;
 ///
 /// # Errors
 /// Study files or records that cannot be read, and a selection without a study.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();

@@ -7,7 +7,7 @@ use crate::text::visible::visible;
 const TOLD: usize = 3;
 
 /// One line for each change; of a study with many, their number and those of most weight, unless all are wanted.
-pub fn lines(changes: &[Change], all: bool) -> String {
+pub(super) fn lines(changes: &[Change], all: bool) -> String {
     let studies = changes.chunk_by(|one, next| one.study == next.study);
     studies.map(|of_study| if all || of_study.len() <= TOLD { each(of_study) } else { condensed(of_study) }).collect()
 }

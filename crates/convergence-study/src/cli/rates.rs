@@ -46,7 +46,7 @@ fn claim(text: &str) -> Result<(Option<String>, f64), String> {
 ///
 /// # Errors
 /// A table or claims that cannot be used.
-pub fn run(arguments: &Arguments) -> Outcome {
+pub(super) fn run(arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let table = RateTable::read(&arguments.file)?;
     let orders = orders(arguments, &table)?;

@@ -32,7 +32,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Study files that cannot be used.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let watched = Watched::new(&studies, true);

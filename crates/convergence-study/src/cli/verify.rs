@@ -42,7 +42,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();

@@ -153,7 +153,7 @@ fn without_ballast(fragment: &str) -> String {
 }
 
 /// Text that XML accepts: markup escaped, control characters blanked.
-pub fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

@@ -43,7 +43,7 @@ pub struct Entry {
 
 /// Entries arranged for a page of given width.
 #[derive(Clone, Debug)]
-pub struct Legend {
+pub(super) struct Legend {
     entries: Vec<Entry>,
     columns: usize,
     column_width: f64,
@@ -51,7 +51,7 @@ pub struct Legend {
 
 impl Legend {
     /// As many equal columns as fit, rows filled evenly.
-    pub fn arrange(entries: Vec<Entry>, width: f64) -> Self {
+    pub(super) fn arrange(entries: Vec<Entry>, width: f64) -> Self {
         let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
         let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
         let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
@@ -60,12 +60,12 @@ impl Legend {
     }
 
     /// Height of all rows in px.
-    pub fn height(&self) -> f64 {
+    pub(super) fn height(&self) -> f64 {
         self.entries.len().div_ceil(self.columns) as f64 * ROW_HEIGHT
     }
 
     /// Draws the legend centred on `centre`, its first row below `top`.
-    pub fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
         let width = self.columns as f64 * self.column_width - COLUMN_GAP;
         // Centred on the plot, but on the page in any case.
         let left = (centre - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);

@@ -56,7 +56,7 @@ fn along(a: Point, b: Point, s: f64) -> Point {
 }
 
 /// What remains of a line within a rectangle.
-pub fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
+pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
     if line.iter().all(holds) {
         return vec![line.to_vec()];
@@ -74,7 +74,7 @@ pub fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
 }
 
 /// What remains of a segment outside a rectangle: up to two pieces.
-pub fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
+pub(super) fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
     match inside(a, b, r) {
         None => vec![[a, b]],
         Some((enter, leave)) => {

@@ -223,7 +223,7 @@ impl Xy {
 }
 
 /// The note on data that a figure cannot show.
-pub fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
+pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
     let points = |n: usize, what: &str, why: &str| {
         let s = if n == 1 { "" } else { "s" };
         (n > 0).then(|| format!("{n} {what} point{s} not drawn{why}"))

@@ -13,7 +13,7 @@ fn blessed(studies: Vec<Fake>) -> Baseline {
 }
 
 fn run(studies: Vec<Fake>) -> Vec<Finished> {
-    finished(studies.into_iter().map(|study| erased(study)).collect())
+    finished(studies.into_iter().map(erased).collect())
 }
 
 /// The changes in words.

@@ -21,7 +21,7 @@ use crate::store::writing;
 use crate::study::{Study, Tier};
 use crate::text::visible;
 
-/// Which studies were asked for, and so where the reports go: a part never replaces the report on the whole.
+/// Which studies were asked for. It decides where the report goes: one on a selection never replaces that on a tier.
 ///
 /// | scope | reports |
 /// | --- | --- |
@@ -196,7 +196,7 @@ pub fn run_and_report(
     Ok(found)
 }
 
-/// Completes or clears away what a run that was killed has left, whatever that run was of.
+/// Completes or removes what killed runs have left, of any scope.
 fn tidy(request: &Request) -> io::Result<()> {
     let reports = request.root.join("reports");
     let local = reports.join("local");
@@ -213,7 +213,7 @@ fn tidy(request: &Request) -> io::Result<()> {
         .try_for_each(|scope| scope.report_folder(&reports).tidy())
 }
 
-/// Each study is judged on its own; the baseline can only make the whole worse.
+/// The worst verdict of all studies; fail where the baseline differs.
 fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }

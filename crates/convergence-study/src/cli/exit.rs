@@ -16,7 +16,7 @@ pub const HELP: &str =
 pub enum Ended {
     /// Exit status 0.
     Well,
-    /// Exit status 1; what failed has been said.
+    /// Exit status 1; the failure has been reported.
     Badly,
 }
 
@@ -58,7 +58,7 @@ impl<E: Error> From<E> for Unusable {
 /// What a command returns.
 pub type Outcome = Result<Ended, Unusable>;
 
-/// Says what is unusable, and turns the outcome into the exit status.
+/// Reports what is unusable, and turns the outcome into the exit status.
 pub fn code(outcome: Outcome) -> ExitCode {
     match outcome {
         Ok(Ended::Well) => ExitCode::SUCCESS,

@@ -1,4 +1,4 @@
-//! What GitHub Actions shows of a run: a page and annotations. Elsewhere nothing happens.
+//! For GitHub Actions: the job summary, and annotations for what did not pass. Elsewhere nothing is written.
 
 use std::env;
 use std::fs::File;
@@ -11,9 +11,9 @@ use crate::text::visible::{self, visible};
 
 use crate::cli::output;
 
-/// Appends the table to the page of the job and marks what did not pass.
+/// Appends the table to the job summary and annotates what did not pass.
 ///
-/// A page that cannot be written is reported on standard error; it does not change the verdict.
+/// A summary that cannot be written is reported on standard error; it does not change the exit status.
 pub(super) fn announce(findings: &Findings<'_>) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
         let file = regular::open(page.as_ref(), File::options().append(true).create(true));

@@ -1,4 +1,4 @@
-//! What earlier runs have left: the last verdict of each study, and its time on this machine.
+//! Records of earlier runs: the last verdict of each study, and its time on this machine.
 
 use std::collections::HashMap;
 use std::error::Error;

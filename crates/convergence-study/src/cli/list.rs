@@ -1,4 +1,4 @@
-//! `list`: the studies that there are, what became of them last, and what they cost.
+//! `list`: the studies with their last verdicts and their costs.
 
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};

@@ -1,4 +1,4 @@
-//! Which studies are meant: a tier, or ids and patterns.
+//! Selection of studies by tier, id or pattern.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glob::Pattern;

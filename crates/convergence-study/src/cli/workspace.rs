@@ -1,4 +1,4 @@
-//! Where the studies are.
+//! Finds the workspace and its studies.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};

@@ -1,4 +1,4 @@
-//! The one error of everything that reads files.
+//! The error of everything that reads input files.
 
 use std::fmt;
 
@@ -52,7 +52,7 @@ pub enum Complaint {
         /// The parser's reason.
         reason: String,
     },
-    /// A key that nobody reads.
+    /// A key that has no meaning here.
     #[error("unknown key `{found}`{}; allowed is {allowed}", did_you_mean(.suggestion))]
     UnknownKey {
         /// The key.
@@ -62,7 +62,7 @@ pub enum Complaint {
         /// The keys known here.
         allowed: String,
     },
-    /// A key that has no default is not there.
+    /// A key without default is missing.
     #[error("missing; allowed is {allowed}")]
     Missing {
         /// What would have to be there, in words.
@@ -76,10 +76,10 @@ pub enum Complaint {
         /// The values allowed, in words.
         allowed: String,
     },
-    /// A text that its reader refuses.
+    /// A text that cannot be read.
     #[error("{reason}")]
     Invalid {
-        /// The reader's words.
+        /// Why.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! A value that knows where it stands.
+//! A value with its place in the file.
 
 use std::fs;
 use std::ops::{Range, RangeInclusive};
@@ -11,7 +11,7 @@ use super::{Section, Source};
 use crate::text::names::nearest;
 use crate::text::visible;
 
-/// A text that cannot be read: where, and why.
+/// An error of a reader of texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Misread {
     /// Byte of the text.

@@ -1,7 +1,7 @@
-//! TOML files whose every complaint names file, line, field, what was found and what is allowed.
+//! Reads TOML files; every error names file, line, field, the value found and the values allowed.
 //!
-//! A thin layer over the spanned values of the `toml` crate: a `Section` is a table that knows where it stands, a
-//! `Field` a value that does. Readers ask them for what they need and never build a message's position by hand.
+//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its place in the file, a [`Field`] a
+//! value with its place. Readers ask them for values and never compute the position of a message.
 
 mod error;
 mod field;

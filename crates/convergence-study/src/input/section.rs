@@ -1,4 +1,4 @@
-//! A table that knows where it stands.
+//! A table with its place in the file.
 
 use std::ops::Range;
 

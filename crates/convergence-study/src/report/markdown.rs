@@ -1,4 +1,4 @@
-//! Markdown that says what the text says.
+//! Text set in Markdown without a change of its meaning.
 
 use crate::text::columns::Columns;
 

@@ -35,14 +35,14 @@ pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
     match (changes.len(), guarded) {
-        (0, 0) => "no number is guarded".to_owned(),
-        (0, n) => format!("of {n} guarded numbers none has moved"),
-        (1, _) => "one guarded number is not what it was".to_owned(),
-        (n, _) => format!("{n} guarded numbers are not what they were"),
+        (0, 0) => "no baseline values".to_owned(),
+        (0, n) => format!("all {n} baseline values unchanged"),
+        (1, _) => "1 baseline value changed".to_owned(),
+        (n, _) => format!("{n} baseline values changed"),
     }
 }
 
-/// Whether a blessing is worth a hint: it is refused where a study does not pass.
+/// Whether `--bless` would be accepted: it is refused where a study does not pass.
 pub fn can_be_blessed(finished: &[Finished]) -> bool {
     finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
 }

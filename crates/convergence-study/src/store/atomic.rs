@@ -1,4 +1,4 @@
-//! Files that are there as a whole or not at all.
+//! Writes files atomically: a reader sees the old content or the new one, never a part.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -14,7 +14,7 @@ use crate::text::visible;
 /// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
 ///
 /// # Errors
-/// What the file system says, the file named in front; the old file is then untouched and nothing is left beside it.
+/// That of the operating system, `path` named in front of it; the old file is then untouched and nothing stays behind.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     write_with(path, |file| file.write_all(bytes.as_ref()))
 }
@@ -32,7 +32,7 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
     let beside = name_beside(path)?;
     let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
-        // The first error is the one to tell; that the rest cannot be cleared away follows from it.
+        // The first error is reported; a failure to remove the file would only follow from it.
         let _ = fs::remove_file(&beside);
     }
     written.map_err(naming)
@@ -49,7 +49,7 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
 }
 
-/// Removes what writers of `path` that were killed have left beside it. Call it where no other process writes this file.
+/// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.
 ///
 /// # Errors
 /// That of the operating system.

@@ -1,7 +1,7 @@
-//! The guard against regressions: numbers of a former run that a new one must meet, each within its tolerance.
+//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance.
 //!
-//! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among what a run
-//! writes. Nothing but a blessing changes it. Numbers stand there with all their digits.
+//! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among the files that a run
+//! writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
 //! { "schema": 1, "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } } }
@@ -72,7 +72,7 @@ pub enum BaselineError {
         /// What was wrong, with line and column.
         error: serde_json::Error,
     },
-    /// A form of another version.
+    /// Written for another version of the harness.
     #[error("{}: schema: found {found}; allowed is {SCHEMA}", visible::path(.path))]
     Schema {
         /// The file.
@@ -82,10 +82,10 @@ pub enum BaselineError {
     },
 }
 
-/// Why a run does not become the baseline.
+/// Why a run was not taken for the baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Refusal {
-    /// Its own verdict is no pass.
+    /// A study does not pass.
     #[error("not blessed: the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass")]
     NotPassing {
         /// The first such study.

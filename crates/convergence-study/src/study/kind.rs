@@ -29,7 +29,7 @@ pub trait Kind: Send + Sync {
     /// [`CaseFailure`] where the computation did not complete.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must not pass unseen.
+    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
     /// What this study does, for `explain`: paragraphs, each with its title.

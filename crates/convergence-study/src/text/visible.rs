@@ -21,7 +21,7 @@ pub fn lines(text: &str) -> String {
 /// Text in which no line is a command to GitHub Actions, which obeys lines of a log that begin with `::`.
 pub fn without_commands(text: &str) -> String {
     let is_command = |line: &str| line.trim_start().starts_with("::");
-    if !text.split(['\n', '\r']).any(is_command) {
+    if !text.contains("::") || !text.split(['\n', '\r']).any(is_command) {
         return text.to_owned();
     }
     let tamed = |line: &str| if is_command(line) { line.replacen("::", ": :", 1) } else { line.to_owned() };

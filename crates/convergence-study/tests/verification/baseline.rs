@@ -37,8 +37,8 @@ fn a_number_that_moved_is_named_with_how_far() {
         (0.9991, None),
         (1.0011, Some("a: finest error moved from 0.00234375 to 0.00234633, by +0.11 %, tolerated 0.1 %")),
         (0.4, Some("a: finest error moved from 0.00234375 to 9.375e-4, by -60 %, tolerated 0.1 %")),
-        (f64::NAN, Some("a: finest error moved from 0.00234375 to NaN, and what is not finite meets nothing")),
-        (f64::INFINITY, Some("a: finest error moved from 0.00234375 to inf, and what is not finite meets nothing")),
+        (f64::NAN, Some("a: finest error moved from 0.00234375 to NaN, which is not finite and matches nothing")),
+        (f64::INFINITY, Some("a: finest error moved from 0.00234375 to inf, which is not finite and matches nothing")),
     ] {
         let found = changes(&baseline, vec![Fake { scale, ..fake("a", Does::Converge) }], None);
         assert_eq!(found, words.map(str::to_owned).into_iter().collect::<Vec<_>>(), "{scale}");

@@ -13,7 +13,7 @@ fn record(does: Does, precision: Precision) -> Value {
 }
 
 #[test]
-fn a_record_has_the_contracted_fields() {
+fn a_record_has_the_documented_fields() {
     let record = record(Does::Converge, Precision::Full);
     assert_eq!(record["schema"], 1);
     let study = &record["studies"][0];

@@ -7,7 +7,7 @@ use super::Guarded;
 use crate::study::outcome::Quantity;
 use crate::text::number::plain_text;
 
-/// A guarded number that is not what it was.
+/// A guarded number that changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// The study.
@@ -50,8 +50,8 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// What to look at first: by how many times the tolerance a number has moved. What cannot be compared comes ahead of
-    /// all, but for what is only new.
+    /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite where old and new
+    /// value cannot be compared, 0 for a new number.
     pub fn weight(&self) -> f64 {
         match *self {
             Self::Moved { from, to, tolerance } => {
@@ -64,7 +64,7 @@ impl Movement {
     }
 }
 
-/// Whether a number is what it was. Nothing meets NaN or infinity, and a tolerance that is neither is no tolerance.
+/// Whether two values agree within a finite tolerance; NaN and infinity agree with nothing.
 pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
     tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()
 }
@@ -120,7 +120,7 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
     } else if from == 0.0 && to.is_finite() {
         write!(f, ", and nothing but 0 is tolerated")
     } else {
-        write!(f, ", and what is not finite meets nothing")
+        write!(f, ", which is not finite and matches nothing")
     }
 }
 

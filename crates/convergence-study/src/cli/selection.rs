@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn what_matches_nothing_is_an_error_even_beside_what_does() {
+    fn a_word_without_a_match_is_an_error_even_beside_others() {
         for (asked, words) in [
             (&["a-space", "a-spice"][..], "`a-spice` matches no study; allowed is a-space, a-time, b-space"),
             (&["b*"], "`b*` matches no study in the tier quick, and 1 with --tier full"),

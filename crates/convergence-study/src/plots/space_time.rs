@@ -74,8 +74,8 @@ fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
     (0..=cells).map(|k| from + (to - from) * k as f64 / cells.max(1) as f64).collect()
 }
 
-/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, interpolated in space,
-/// where the elements are linear too.
+/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in
+/// space.
 fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec<Vec<f64>> {
     if figure.times.is_empty() || figure.nodes.is_empty() {
         return Vec::new();

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_stays_what_it_says() {
+    fn markup_in_a_text_is_escaped() {
         for (raw, written) in [
             ("a | b", "a \\| b"),
             ("`a|b` < c", "`a\\|b` < c"),

@@ -94,13 +94,13 @@ mod tests {
     }
 
     #[test]
-    fn rates_that_hold_are_told_with_the_farthest_from_its_order() {
+    fn passing_rates_are_summed_up_by_the_farthest_from_its_order() {
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
         assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders");
     }
 
     #[test]
-    fn what_does_not_pass_is_told_with_what_decides() {
+    fn rates_and_checks_that_do_not_pass_are_counted() {
         let checks = vec![Check::that(false, "c", "e"), Check::that(true, "d", "e")];
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(1.5, 2.0)], checks);
         let told = "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";

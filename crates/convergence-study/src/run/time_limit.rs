@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_that_is_reached_is_told_with_step_and_time_and_ends_with_the_case() {
+    fn a_limit_is_reported_with_step_and_time_and_ends_with_its_case() {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
         assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit }));

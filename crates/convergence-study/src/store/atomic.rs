@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_writer_left_is_removed_and_nothing_else() {
+    fn unfinished_files_of_killed_writers_are_removed_and_no_others() {
         let folder = tempfile::tempdir().unwrap();
         for name in [".a.json.17-0", ".a.json.17-x", ".b.json.17-0", "a.json", ".a.json.-0", "a.json.17-0"] {
             fs::write(folder.path().join(name), "").unwrap();

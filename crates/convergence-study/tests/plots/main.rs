@@ -88,7 +88,7 @@ fn points_that_cannot_be_drawn_are_counted() {
 }
 
 #[test]
-fn nothing_to_draw_is_no_reason_to_panic() {
+fn figures_without_data_do_not_panic() {
     let empty = [
         convergence(&Convergence::default()),
         surface(&Surface::default()),
@@ -102,7 +102,7 @@ fn nothing_to_draw_is_no_reason_to_panic() {
 }
 
 #[test]
-fn extreme_data_are_no_reason_to_panic() {
+fn figures_of_extreme_data_do_not_panic() {
     let values = [0.0, -0.0, 1.0, -1.0, 1e-320, 1e308, -1e308, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     for x in values {
         for y in values {
@@ -213,7 +213,7 @@ fn a_missing_cell_is_noted_unless_it_is_marked() {
 }
 
 #[test]
-fn what_is_drawn_can_be_read_back() {
+fn markers_lie_where_the_values_in_the_picture_say() {
     let svg = convergence(&gallery::space_errors());
     let doc = parse(&svg);
     let root = doc.root_element();

@@ -23,7 +23,7 @@ fn changes(baseline: &Baseline, studies: Vec<Fake>, known: Option<&[&str]>) -> V
 }
 
 #[test]
-fn what_was_blessed_has_not_moved() {
+fn a_blessed_run_agrees_with_its_baseline() {
     let baseline = blessed(vec![fake("a", Does::Converge)]);
     assert_eq!(baseline.guards("a"), 1);
     assert!(changes(&baseline, vec![fake("a", Does::Converge)], Some(&["a"])).is_empty());
@@ -46,7 +46,7 @@ fn a_number_that_moved_is_named_with_how_far() {
 }
 
 #[test]
-fn what_is_new_and_what_has_vanished_is_named() {
+fn new_and_vanished_numbers_are_named() {
     let baseline = blessed(vec![fake("a", Does::Converge), fake("gone", Does::Converge)]);
     let renamed =
         || vec![Fake { quantity: "coarsest error", ..fake("a", Does::Converge) }, fake("new", Does::Converge)];
@@ -64,7 +64,7 @@ fn what_is_new_and_what_has_vanished_is_named() {
 }
 
 #[test]
-fn a_tolerance_is_not_changed_in_passing() {
+fn a_changed_tolerance_is_reported_and_not_applied() {
     let baseline = blessed(vec![fake("a", Does::Converge)]);
     let loose = || Fake { tolerance: 10.0, ..fake("a", Does::Converge) };
     assert_eq!(changes(&baseline, vec![loose()], None), ["a: finest error has another tolerance: was 1e-3, is 1e1"]);
@@ -108,7 +108,7 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
 }
 
 #[test]
-fn blessing_some_studies_keeps_the_others_and_forgets_only_what_is_gone() {
+fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
     let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
     baseline.bless(&run(vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }]), None).unwrap();
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 1));

@@ -38,7 +38,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_new_set_replaces_the_old_one_and_spares_what_is_not_its_own() {
+fn a_new_set_replaces_the_old_one_and_leaves_other_files() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     reports.publish(&set(&[("README.md", "one"), ("figures/a.svg", "a"), ("figures/b.svg", "b")])).unwrap();
@@ -53,7 +53,7 @@ fn a_new_set_replaces_the_old_one_and_spares_what_is_not_its_own() {
 }
 
 #[test]
-fn what_has_not_changed_is_left_alone() {
+fn unchanged_files_are_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     reports.publish(&set(&[("README.md", "one"), ("figures/a.svg", "a"), ("figures/b.svg", "b")])).unwrap();
@@ -96,7 +96,7 @@ fn a_replacement_that_was_interrupted_is_completed_by_the_next() {
 }
 
 #[test]
-fn a_crash_before_the_set_counts_leaves_the_old_one() {
+fn a_crash_before_the_set_is_pending_leaves_the_old_one() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     reports.publish(&set(&[("README.md", "old")])).unwrap();
@@ -121,7 +121,7 @@ fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
 }
 
 #[test]
-fn a_manifest_that_leads_elsewhere_removes_nothing_there() {
+fn a_manifest_with_paths_outside_the_folder_removes_nothing_there() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     let outside = folder.path().join("outside.txt");
@@ -133,7 +133,7 @@ fn a_manifest_that_leads_elsewhere_removes_nothing_there() {
 }
 
 #[test]
-fn a_pending_manifest_that_leads_elsewhere_moves_nothing() {
+fn a_pending_manifest_with_paths_outside_the_folder_moves_nothing() {
     for path in ["../outside.txt", "../../outside.txt", "/etc/outside.txt", "a/../../outside.txt", "manifest.txt"] {
         let folder = tempfile::tempdir().unwrap();
         let reports = reports(folder.path());

@@ -39,7 +39,7 @@ fn a_committed_record_keeps_six_digits() {
 }
 
 #[test]
-fn what_is_not_finite_is_null_and_named() {
+fn numbers_that_are_not_finite_are_null_and_named() {
     for does in [Does::NotANumber, Does::Fail, Does::Panic] {
         let record = record(does, Precision::Full);
         let study = &record["studies"][0];

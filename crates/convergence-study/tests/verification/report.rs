@@ -103,7 +103,7 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
 }
 
 #[test]
-fn words_that_xml_and_markdown_reserve_do_no_harm() {
+fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;

@@ -23,7 +23,7 @@ fn all() -> Vec<Box<dyn Study>> {
 }
 
 #[test]
-fn every_way_of_not_passing_is_seen_and_stops_nothing_else() {
+fn every_way_of_not_passing_is_reported_and_stops_no_other_study() {
     let expected = [
         (Verdict::Pass, 0, "the rate agrees"),
         (Verdict::Fail, 0, "does not fall"),
@@ -53,7 +53,7 @@ fn a_failed_case_keeps_its_label_and_reason() {
 }
 
 #[test]
-fn a_case_that_was_stopped_has_failed_whatever_it_says() {
+fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
     let effort = Effort { case_limit: Some(Duration::from_millis(50)), ..jobs(2).into() };
     let studies = vec![study("dawdles", Does::Dawdle), study("converges", Does::Converge)];
     let finished = run::run(&studies, effort, &|_| {}).unwrap();

@@ -25,7 +25,7 @@ pub(super) fn announce(findings: &Findings<'_>) {
         }
     }
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
-        // Where standard output is closed nobody reads annotations.
+        // Where standard output is closed, annotations cannot be shown.
         let _ = output::print_as_is(&annotations(findings));
     }
 }

@@ -17,7 +17,7 @@ pub enum Format {
     Json,
 }
 
-/// Prints to standard output. Whoever closes it early, as `head` does, causes no error.
+/// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
 ///
 /// No line is a command to GitHub Actions, whatever names and claims it holds.
 ///
@@ -48,6 +48,6 @@ pub fn complain(message: &str) {
 
 /// Prints a message to standard error, without control characters but line ends.
 pub fn tell(message: &str) {
-    // Where standard error is closed there is nobody left to tell.
+    // Where standard error is closed, the message cannot be shown.
     let _ = writeln!(io::stderr(), "{}", visible::without_commands(&visible::lines(message)));
 }

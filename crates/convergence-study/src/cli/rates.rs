@@ -132,7 +132,7 @@ fn text(table: &RateTable, rates: &[(String, RateVerdict)]) -> String {
     }
     text.push('\n');
     for (name, rate) in rates {
-        // The judge's own words, that the order is no positive number, would puzzle whoever has named none.
+        // The judge reports an unusable order; here none was given.
         let reason = if rate.order.is_nan() { "no order is claimed" } else { rate.reason.as_str() };
         let _ = writeln!(text, "{name}: {}: {reason}", rate.verdict);
     }

@@ -50,7 +50,7 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &s
     if outside > 0 {
         return format!("`{word}` matches no study in the tier {}, and {outside} with --tier full", tier.name());
     }
-    // A list that fills the screen helps nobody.
+    // A longer list would fill the screen.
     const FEW: usize = 12;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
     let allowed = if ids.len() <= FEW { ids.join(", ") } else { format!("what `{list}` shows") };

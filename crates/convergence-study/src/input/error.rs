@@ -18,7 +18,8 @@ pub struct Place {
 
 /// An input file that cannot be used: where, which field, what was found and what is allowed.
 ///
-/// Shown as one line `file:line:column: field: complaint`; a function adds two lines, with a caret below the place.
+/// Shown as one line `file:line:column: field: complaint`, the complaint being what is wrong; that about an expression may add two lines, with a
+/// caret below the place.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct InputError {
     /// The file, as it was given.

@@ -87,7 +87,7 @@ pub fn parse_beside<T>(
 
 /// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.
 ///
-/// Places in complaints are those in `text`, a newline and `overlay`, one after the other.
+/// Places in errors are those in `text`, a newline and `overlay`, one after the other.
 pub fn parse_overlaid<T>(
     text: &str,
     overlay: &str,

@@ -87,7 +87,7 @@ fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k 
     Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
 }
 
-/// The complaint about a key of `[study]` of a file that was read before, with its line.
+/// The error about a key of `[study]` of a file that was read before, with its line.
 fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
     let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
         let study = root.require("study", "a table")?.section()?;

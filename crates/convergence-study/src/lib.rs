@@ -18,6 +18,11 @@
 //! assert_eq!(judge_pairs(errors, 4.0, 0.05).verdict, Verdict::Fail);
 //! ```
 //!
+//! # From levels to a report
+//!
+//! [`ErrorsOverLevels`](study::ErrorsOverLevels) makes a study of a function that computes errors, and
+//! [`run_and_report`](verify::run_and_report) writes the report on it: see the example `heat_equation` and the README.
+//!
 //! # From a file to a report
 //!
 //! ```text
@@ -26,8 +31,11 @@
 //! ```
 //!
 //! A study is data. Its [`Kind`](study::Kind), which a project writes, says what its cases compute and how their results are
-//! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, and
-//! [`verify`] runs, judges, compares with the baseline and writes the report.
+//! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
+//! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
+//!
+//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `report`,
+//! `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time left.)
 
 pub mod cli;
 pub mod explain;
@@ -41,3 +49,8 @@ pub mod store;
 pub mod study;
 pub mod text;
 pub mod verify;
+
+/// The programs of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -21,6 +21,14 @@ pub struct Project {
     pub front_pictures: &'static [(&'static str, &'static str)],
 }
 
+impl Project {
+    /// A project without kinds, terms and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
+    pub const fn new(name: &'static str, command: &'static str) -> Self {
+        let about = "Run convergence studies, judge them and report on them";
+        Self { name, command, about, kinds: &[], terms: &[], front_pictures: &[] }
+    }
+}
+
 /// A word of a project, for `explain`.
 #[derive(Debug, Clone, Copy)]
 pub struct Term {

@@ -1,8 +1,10 @@
-//! The main job, without command line and terminal: run, judge, compare with the baseline, bless, write.
+//! Verification, without command line and terminal: run, judge, compare with the baseline, bless, write the report.
 
 use std::collections::BTreeSet;
 use std::io;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use thiserror::Error;
 
@@ -12,13 +14,14 @@ use crate::report::Findings;
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
-use crate::store::file_set::{Shelf, lock};
+use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record;
 use crate::store::writing;
 use crate::study::{Study, Tier};
+use crate::text::visible;
 
-/// Which studies were asked for, and so where the reports go: a part never replaces the report on the whole.
+/// Which studies were asked for. It decides where the report goes: one on a selection never replaces that on a tier.
 ///
 /// | scope | reports |
 /// | --- | --- |
@@ -62,19 +65,19 @@ impl Scope {
         }
     }
 
-    fn shelf(&self, reports: &Path) -> Shelf {
+    fn report_folder(&self, reports: &Path) -> ReportFolder {
         let local = reports.join("local");
         let workshop = local.join("workshop").join(self.name());
-        let place = match self {
+        let folder = match self {
             Self::Tier(Tier::Quick, _) => reports.to_owned(),
             Self::Tier(Tier::Full, _) => reports.join("full"),
             Self::Selection(_) => local.join("partial"),
         };
-        Shelf { place, workshop }
+        ReportFolder { folder, workshop }
     }
 }
 
-/// A word as a shell takes it for itself: patterns are not for the shell to resolve.
+/// A word quoted for a shell, which would otherwise resolve patterns.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
     if !word.is_empty() && word.chars().all(plain) {
@@ -84,7 +87,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// What to do.
+/// A verification to be done.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// Which studies these are.
@@ -97,12 +100,12 @@ pub struct Request {
     pub root: PathBuf,
 }
 
-/// What came of it.
+/// The result of a verification.
 #[derive(Debug)]
 pub struct Verification {
     /// The studies, in the order in which they were given.
     pub finished: Vec<Finished>,
-    /// What differs from the baseline, after a blessing: nothing.
+    /// What differs from the baseline; nothing after a blessing.
     pub changes: Vec<Change>,
     /// The worst of all studies, and fail where something differs.
     pub verdict: Verdict,
@@ -122,7 +125,7 @@ pub enum VerificationError {
     #[error(transparent)]
     Baseline(#[from] BaselineError),
     /// The reports cannot be written.
-    #[error("{}: the reports cannot be written: {error}", .folder.display())]
+    #[error("{}: the reports cannot be written: {error}", visible::path(.folder))]
     Reports {
         /// Their folder.
         folder: PathBuf,
@@ -160,13 +163,40 @@ pub fn verify(
     }
     let changes = baseline.compare(&finished, known);
     let verdict = verdict(&finished, &changes);
-    let shelf = request.scope.shelf(&folder);
-    let verification = Verification { finished, changes, verdict, blessing, reports: shelf.place.clone() };
-    write_reports(project, &verification, request, &shelf, &folder).map_err(fail)?;
+    let target = request.scope.report_folder(&folder);
+    let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
+    write_reports(project, &verification, request, &target, &folder).map_err(fail)?;
     Ok(verification)
 }
 
-/// Completes or clears away what a run that was killed has left, whatever that run was of.
+/// Runs studies on all threads of the machine and writes a report on them, without a baseline.
+///
+/// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
+/// * Returns the verdict with the studies; there are no changes and no blessing.
+///
+/// # Errors
+/// [`VerificationError`].
+pub fn run_and_report(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    folder: &Path,
+) -> Result<Verification, VerificationError> {
+    let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let finished = run::run(studies, jobs, &|_| {})?;
+    let verdict = verdict(&finished, &[]);
+    let found = Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() };
+    let scope = Scope::Selection(vec![]);
+    let publish = || {
+        let local = folder.join("local");
+        let _lock = lock(&local.join("lock"))?;
+        let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
+        target.publish(&found.findings(project, &scope, project.command).files()?)
+    };
+    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })?;
+    Ok(found)
+}
+
+/// Completes or removes what killed runs have left, of any scope.
 fn tidy(request: &Request) -> io::Result<()> {
     let reports = request.root.join("reports");
     let local = reports.join("local");
@@ -180,10 +210,10 @@ fn tidy(request: &Request) -> io::Result<()> {
     let whole = |tier| Scope::Tier(tier, BTreeSet::new());
     [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
         .iter()
-        .try_for_each(|scope| scope.shelf(&reports).tidy())
+        .try_for_each(|scope| scope.report_folder(&reports).tidy())
 }
 
-/// Each study is judged on its own; the baseline can only make the whole worse.
+/// The worst verdict of all studies; fail where the baseline differs.
 fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
@@ -201,14 +231,14 @@ fn write_reports(
     project: &Project,
     found: &Verification,
     request: &Request,
-    shelf: &Shelf,
+    target: &ReportFolder,
     folder: &Path,
 ) -> io::Result<()> {
     let scope = &request.scope;
     let command = scope.command(project);
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
-    shelf.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
+    target.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
     let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
 }

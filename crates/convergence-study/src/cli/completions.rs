@@ -21,7 +21,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Standard output that cannot be written to.
-pub fn run(program: Command, name: &str, arguments: &Arguments) -> Outcome {
+pub(super) fn run(program: Command, name: &str, arguments: &Arguments) -> Outcome {
     let mut script = vec![];
     generate(arguments.shell, &mut program.clone().bin_name(name), name, &mut script);
     output::print(&String::from_utf8_lossy(&script))?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cli::output;
+use crate::text::visible;
 
 /// For the end of `--help`.
 pub const HELP: &str =
@@ -15,7 +16,7 @@ pub const HELP: &str =
 pub enum Ended {
     /// Exit status 0.
     Well,
-    /// Exit status 1; what failed has been said.
+    /// Exit status 1; the failure has been reported.
     Badly,
 }
 
@@ -26,7 +27,7 @@ pub struct Unusable(String);
 impl Unusable {
     /// An error that does not name the file it is about.
     pub fn file(path: &Path, error: &dyn Error) -> Self {
-        Self(format!("{}: {error}", path.display()))
+        Self(format!("{}: {error}", visible::path(path)))
     }
 
     /// Something that is wrong with the arguments.
@@ -57,7 +58,7 @@ impl<E: Error> From<E> for Unusable {
 /// What a command returns.
 pub type Outcome = Result<Ended, Unusable>;
 
-/// Says what is unusable, and turns the outcome into the exit status.
+/// Reports what is unusable, and turns the outcome into the exit status.
 pub fn code(outcome: Outcome) -> ExitCode {
     match outcome {
         Ok(Ended::Well) => ExitCode::SUCCESS,

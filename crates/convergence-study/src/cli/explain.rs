@@ -9,12 +9,13 @@ use super::{output, workspace};
 use crate::explain;
 use crate::project::Project;
 use crate::study::StudyFile;
+use crate::text::visible::{self, visible};
 
 /// Tell in words what a study claims, why it should hold, how it is judged, and what a failure would mean
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// A study's id or file; or a norm (superclose), a reason for a verdict (too-low), a kind of study (energy). Without it:
-    /// all that can be explained
+    /// A study's id or file; or a reason for a verdict (too-low), a kind of study, a word of the project. Without it: all that
+    /// can be explained
     #[arg(value_name = "ID")]
     name: Option<String>,
     /// The folder with the studies [default: studies/ of the workspace]
@@ -26,7 +27,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// A name that nothing has, and a study file that cannot be used.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Some(name) = arguments.name.as_deref() else {
         output::print(&contents(project))?;
         return Ok(Ended::Well);
@@ -65,5 +66,5 @@ fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) 
         || format!("`{} explain` lists all that can be explained", project.command),
         |meant| format!("did you mean {meant}?"),
     );
-    format!("found no study, term, reason or kind `{name}` in {}; {hint}", folder.display())
+    format!("found no study, term, reason or kind `{}` in {}; {hint}", visible(name), visible::path(folder))
 }

@@ -1,4 +1,4 @@
-//! What GitHub Actions shows of a run: a page and annotations. Elsewhere nothing happens.
+//! For GitHub Actions: the job summary, and annotations for what did not pass. Elsewhere nothing is written.
 
 use std::env;
 use std::fs::File;
@@ -6,22 +6,27 @@ use std::io::Write;
 
 use crate::judge::verdict::Verdict;
 use crate::report::Findings;
+use crate::store::regular;
+use crate::text::visible::{self, visible};
 
 use crate::cli::output;
 
-/// Appends the table to the page of the job and marks what did not pass.
+/// Appends the table to the job summary and annotates what did not pass.
 ///
-/// A page that cannot be written is reported on standard error; it does not change the verdict.
-pub fn announce(findings: &Findings<'_>) {
+/// A summary that cannot be written is reported on standard error; it does not change the exit status.
+pub(super) fn announce(findings: &Findings<'_>) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
-        let file = File::options().append(true).create(true).open(&page);
+        let file = regular::open(page.as_ref(), File::options().append(true).create(true));
         if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {
-            output::complain(&format!("GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}", page.display()));
+            output::complain(&format!(
+                "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
+                visible::path(page.as_ref())
+            ));
         }
     }
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
-        // A reader that has left needs no annotations.
-        let _ = output::print(&annotations(findings));
+        // Where standard output is closed, annotations cannot be shown.
+        let _ = output::print_as_is(&annotations(findings));
     }
 }
 
@@ -39,9 +44,9 @@ fn annotation(title: &str, message: &str) -> String {
     format!("::error title={title}::{}\n", escaped(message))
 }
 
-/// One line, in the runner's own encoding.
+/// One line, in the encoding of GitHub Actions.
 fn escaped(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    visible(&text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A"))
 }
 
 #[cfg(test)]
@@ -50,7 +55,7 @@ mod tests {
 
     #[test]
     fn an_annotation_stays_on_its_line() {
-        let line = annotation("a: fail, so", "50 %\n::warning::x");
-        assert_eq!(line, "::error title=a%3A fail%2C so::50 %25%0A::warning::x\n");
+        let line = annotation("a: fail, so", "50 %\n::warning::x\x1b[31m");
+        assert_eq!(line, "::error title=a%3A fail%2C so::50 %25%0A::warning::x\u{fffd}[31m\n");
     }
 }

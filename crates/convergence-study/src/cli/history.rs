@@ -1,4 +1,4 @@
-//! What earlier runs have left: the last verdict of each study, and its time on this machine.
+//! Records of earlier runs: the last verdict of each study, and its time on this machine.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::exit::Unusable;
+use crate::store::regular;
 
 /// Where `verify` leaves its records, below the workspace; of two of the same age the later one counts.
 const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
@@ -19,7 +20,7 @@ const TIMES: &str = "reports/local/provenance.json";
 
 /// By study.
 #[derive(Debug, Default)]
-pub struct History {
+pub(super) struct History {
     verdicts: HashMap<String, String>,
     seconds: HashMap<String, f64>,
 }
@@ -51,7 +52,7 @@ impl History {
     ///
     /// # Errors
     /// A file that is there and cannot be read, or is no record.
-    pub fn read(root: &Path) -> Result<Self, Unusable> {
+    pub(super) fn read(root: &Path) -> Result<Self, Unusable> {
         let mut records: Vec<(SystemTime, Record)> = vec![];
         for path in RECORDS {
             records.extend(read(&root.join(path))?);
@@ -67,12 +68,12 @@ impl History {
     }
 
     /// The verdict of the newest record that has the study.
-    pub fn verdict(&self, id: &str) -> Option<&str> {
+    pub(super) fn verdict(&self, id: &str) -> Option<&str> {
         self.verdicts.get(id).map(String::as_str)
     }
 
     /// Its time over all threads, if it was in the last run on this machine.
-    pub fn seconds(&self, id: &str) -> Option<f64> {
+    pub(super) fn seconds(&self, id: &str) -> Option<f64> {
         self.seconds.get(id).copied()
     }
 }
@@ -80,7 +81,7 @@ impl History {
 /// A file and when it was written; `None` where it is missing.
 fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<(SystemTime, T)>, Unusable> {
     let name = |error: &dyn Error| Unusable::file(path, error);
-    let text = match fs::read_to_string(path) {
+    let text = match regular::read_to_string(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         other => other.map_err(|error| name(&error))?,
     };

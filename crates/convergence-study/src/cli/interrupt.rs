@@ -1,7 +1,7 @@
-//! Ctrl-C: what is being written is finished, what has been done is said, and the process ends with status 130.
+//! Ctrl-C: pending writes are finished, the work done so far is reported, and the process exits with status 130.
 //!
-//! The request is served by a thread of its own, so that it ends within a second whatever the others are at. Nothing is
-//! half-written then: see [`writing`].
+//! A thread of its own answers, so that the process exits within a second whatever the others do. No file is then
+//! half-written: see [`writing`].
 
 use std::process;
 use std::sync::{Mutex, PoisonError};
@@ -14,14 +14,14 @@ use crate::cli::output;
 /// The status of a process that ended on request: 128 and the number of SIGINT, as shells have it.
 const STATUS: i32 = 130;
 
-/// How long a disk may take for what is being written.
+/// Longest wait for pending writes.
 const PATIENCE: Duration = Duration::from_millis(800);
 
 type Said = Box<dyn Fn() -> String + Send>;
 
 static SAID: Mutex<Option<Said>> = Mutex::new(None);
 
-/// From now on Ctrl-C is answered. Where the system has no such request, it is not.
+/// Installs the handler for Ctrl-C, where the operating system has one.
 pub fn listen() {
     let _ = ctrlc::try_set_handler(|| {
         let said = SAID.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(|said| said());
@@ -32,7 +32,7 @@ pub fn listen() {
     });
 }
 
-/// What to say of the work done so far, should it be interrupted.
+/// Sets the report on the work done so far that an interruption prints.
 pub fn say(said: impl Fn() -> String + Send + 'static) {
     *SAID.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(said));
 }

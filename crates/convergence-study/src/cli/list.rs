@@ -1,4 +1,4 @@
-//! `list`: the studies that there are, what became of them last, and what they cost.
+//! `list`: the studies with their last verdicts and their costs.
 
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
@@ -12,7 +12,7 @@ use crate::cli::{output, screen, selection};
 /// List the studies: tier, last verdict, cost, claim
 ///
 /// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or that of a selection in
-/// reports/local/. The work is the study's own estimate, in millions of elements times steps. Seconds are those of all threads
+/// reports/local/. The work is the study's own estimate, in millions of the units of cost that its kind counts in. Seconds are those of all threads
 /// in the last `verify` on this machine. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -33,7 +33,7 @@ const NARROWEST: usize = 24;
 ///
 /// # Errors
 /// Study files or records that cannot be read, and a selection without a study.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();

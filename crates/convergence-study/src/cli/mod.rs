@@ -3,23 +3,23 @@
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`. Results go to standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
-pub mod completions;
+mod completions;
 pub mod exit;
-pub mod explain;
-pub mod github;
+mod explain;
+mod github;
 mod help;
-pub mod history;
+mod history;
 pub mod interrupt;
-pub mod list;
-pub mod moved;
+mod list;
+mod moved;
 pub mod output;
 pub mod progress;
-pub mod rates;
+mod rates;
 pub mod running;
 pub mod screen;
 pub mod selection;
-pub mod study;
-pub mod verify;
+mod study;
+mod verify;
 pub mod workspace;
 
 use std::process::ExitCode;

@@ -1,28 +1,29 @@
-//! What moved away from the baseline, so that it can be read: hundreds of numbers may move at once.
+//! Changes against the baseline, shortened: hundreds of numbers may change at once.
 
 use crate::store::baseline::Change;
+use crate::text::visible::visible;
 
-/// Changes of a study that are told one by one.
-const TOLD: usize = 3;
+/// Changes of a study that are listed one by one.
+const LISTED: usize = 3;
 
 /// One line for each change; of a study with many, their number and those of most weight, unless all are wanted.
-pub fn lines(changes: &[Change], all: bool) -> String {
+pub(super) fn lines(changes: &[Change], all: bool) -> String {
     let studies = changes.chunk_by(|one, next| one.study == next.study);
-    studies.map(|of_study| if all || of_study.len() <= TOLD { each(of_study) } else { condensed(of_study) }).collect()
+    studies.map(|of_study| if all || of_study.len() <= LISTED { each(of_study) } else { condensed(of_study) }).collect()
 }
 
 fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {
-    changes.into_iter().map(|change| format!("baseline: {change}\n")).collect()
+    changes.into_iter().map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect()
 }
 
 fn condensed(changes: &[Change]) -> String {
     let mut heaviest: Vec<&Change> = changes.iter().collect();
     // A stable order: of equals the first ones.
     heaviest.sort_by(|a, b| b.movement.weight().total_cmp(&a.movement.weight()));
-    heaviest.truncate(TOLD);
+    heaviest.truncate(LISTED);
     let study = &changes[0].study;
-    let rest = changes.len() - TOLD;
-    each(heaviest) + &format!("baseline: {study}: and {rest} more; --verbose tells all, and so does the report\n")
+    let rest = changes.len() - LISTED;
+    each(heaviest) + &format!("baseline: {study}: and {rest} more; --verbose and the report list all\n")
 }
 
 #[cfg(test)]
@@ -36,13 +37,13 @@ mod tests {
     }
 
     #[test]
-    fn of_many_changes_the_largest_are_told() {
+    fn of_many_changes_the_largest_are_listed() {
         let mut changes: Vec<Change> = (0..10).map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i))).collect();
         changes[0].movement = Movement::Vanished { value: 1.0 };
         changes.push(moved("few", "m", 2.0));
         let text = lines(&changes, false);
-        let told: Vec<&str> = text.lines().map(|line| line.split(' ').nth(2).unwrap()).collect();
-        assert_eq!(told, ["n0", "n9", "n8", "and", "m"], "{text}");
+        let listed: Vec<&str> = text.lines().map(|line| line.split(' ').nth(2).unwrap()).collect();
+        assert_eq!(listed, ["n0", "n9", "n8", "and", "m"], "{text}");
         assert!(text.contains("many: and 7 more"), "{text}");
         assert_eq!(lines(&changes, true).lines().count(), 11);
     }

@@ -5,6 +5,8 @@ use std::io::{self, ErrorKind, Write};
 use clap::ValueEnum;
 use serde::Serialize;
 
+use crate::text::visible;
+
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Format {
@@ -15,8 +17,18 @@ pub enum Format {
     Json,
 }
 
-/// Prints to standard output. A reader who has seen enough, such as `head`, is no error.
+/// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
+///
+/// No line is a command to GitHub Actions, whatever names and claims it holds.
+///
+/// # Errors
+/// That of the operating system.
 pub fn print(text: &str) -> io::Result<()> {
+    print_as_is(&visible::without_commands(text))
+}
+
+/// Prints to standard output, commands to GitHub Actions included.
+pub(super) fn print_as_is(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
@@ -34,8 +46,8 @@ pub fn complain(message: &str) {
     tell(&format!("error: {message}"));
 }
 
-/// Prints something that is no result to standard error.
+/// Prints a message to standard error, without control characters but line ends.
 pub fn tell(message: &str) {
-    // Where standard error is closed there is nobody left to tell.
-    let _ = writeln!(io::stderr(), "{message}");
+    // Where standard error is closed, the message cannot be shown.
+    let _ = writeln!(io::stderr(), "{}", visible::without_commands(&visible::lines(message)));
 }

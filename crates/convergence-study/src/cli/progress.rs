@@ -40,13 +40,13 @@ impl Bar {
         Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
     }
 
-    /// Moves it to where the run is.
+    /// Moves it to the progress of the run.
     pub fn show(&self, progress: Progress) {
         self.0.set_message(format!("{} of {} cases", progress.done_cases, progress.cases));
         self.0.set_position((Self::STEPS * progress.done_cost / progress.cost) as u64);
     }
 
-    /// Takes it away.
+    /// Removes it.
     pub fn clear(&self) {
         self.0.finish_and_clear();
     }

@@ -46,7 +46,7 @@ fn claim(text: &str) -> Result<(Option<String>, f64), String> {
 ///
 /// # Errors
 /// A table or claims that cannot be used.
-pub fn run(arguments: &Arguments) -> Outcome {
+pub(super) fn run(arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let table = RateTable::read(&arguments.file)?;
     let orders = orders(arguments, &table)?;
@@ -132,7 +132,7 @@ fn text(table: &RateTable, rates: &[(String, RateVerdict)]) -> String {
     }
     text.push('\n');
     for (name, rate) in rates {
-        // The judge's own words, that the order is no positive number, would puzzle whoever has named none.
+        // The judge reports an unusable order; here none was given.
         let reason = if rate.order.is_nan() { "no order is claimed" } else { rate.reason.as_str() };
         let _ = writeln!(text, "{name}: {}: {reason}", rate.verdict);
     }

@@ -1,4 +1,4 @@
-//! Studies on their way: the bar, what an interruption says, the limits on threads and time.
+//! What commands that run studies share: progress bar, report on an interruption, limits on threads and time.
 
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -29,13 +29,13 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 impl Limits {
-    /// With what the machine has where nothing is said.
+    /// The limits; as many threads as the machine has where no number is given.
     pub fn effort(self) -> Effort {
         Effort { jobs: screen::jobs(self.jobs), case_limit: self.case_limit }
     }
 }
 
-/// Shows how far a run is, and has it said when the run is interrupted.
+/// Shows the progress of a run, and reports it when the run is interrupted.
 pub struct Watched {
     bar: Bar,
     ids: Vec<String>,
@@ -52,7 +52,7 @@ impl Watched {
         Self { bar: Bar::new(bar), ids, done }
     }
 
-    /// Takes in that a case has ended.
+    /// Shows that a case has ended.
     pub fn show(&self, progress: Progress) {
         if let Some(id) = progress.ended.and_then(|study| self.ids.get(study)) {
             self.done.lock().unwrap_or_else(PoisonError::into_inner).push(id.clone());
@@ -60,7 +60,7 @@ impl Watched {
         self.bar.show(progress);
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn clear(&self) {
         self.bar.clear();
     }

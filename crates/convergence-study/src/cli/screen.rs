@@ -7,17 +7,19 @@ use std::thread;
 
 use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
+use crate::text::visible::visible;
 
-/// Rows under a head, in columns.
+/// Rows under a head, in columns; cells without control characters.
 pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
-    let head: Vec<String> = head.iter().map(|&title| title.to_owned()).collect();
-    let columns = Columns::of(&head, rows);
+    let head: Vec<String> = head.iter().map(|title| visible(title)).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| visible(cell)).collect()).collect();
+    let columns = Columns::of(&head, &rows);
     let colours = colours();
     let line = |row: &Vec<String>| {
         let cells: Vec<String> = columns.pad(row).map(|cell| if colours { coloured(cell) } else { cell }).collect();
         cells.join("  ").trim_end().to_owned() + "\n"
     };
-    std::iter::once(&head).chain(rows).map(line).collect()
+    std::iter::once(&head).chain(&rows).map(line).collect()
 }
 
 /// A verdict as a word, in its colour.

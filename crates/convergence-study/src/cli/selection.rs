@@ -1,4 +1,4 @@
-//! Which studies are meant: a tier, or ids and patterns.
+//! Selection of studies by tier, id or pattern.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glob::Pattern;
@@ -50,7 +50,7 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &s
     if outside > 0 {
         return format!("`{word}` matches no study in the tier {}, and {outside} with --tier full", tier.name());
     }
-    // A list that fills the screen helps nobody.
+    // A longer list would fill the screen.
     const FEW: usize = 12;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
     let allowed = if ids.len() <= FEW { ids.join(", ") } else { format!("what `{list}` shows") };
@@ -90,11 +90,11 @@ mod tests {
     }
 
     #[test]
-    fn what_matches_nothing_is_an_error_even_beside_what_does() {
+    fn a_word_without_a_match_is_an_error_even_beside_others() {
         for (asked, words) in [
             (&["a-space", "a-spice"][..], "`a-spice` matches no study; allowed is a-space, a-time, b-space"),
             (&["b*"], "`b*` matches no study in the tier quick, and 1 with --tier full"),
-            (&["["], "`[` is no pattern"),
+            (&["["], "`[` is not a pattern"),
             (&[""], "`` matches no study"),
         ] {
             let error = meant(Tier::Quick, asked).unwrap_err();

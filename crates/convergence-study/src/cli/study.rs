@@ -8,6 +8,7 @@ use crate::report::tables;
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile};
+use crate::text::visible::visible;
 
 use super::exit::Outcome;
 use super::output::{self, Format};
@@ -31,7 +32,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Study files that cannot be used.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let watched = Watched::new(&studies, true);
@@ -50,10 +51,15 @@ fn text(finished: &Finished) -> String {
     let Finished { header, outcome, spent, .. } = finished;
     let verdict = screen::verdict(outcome.verdict);
     let seconds = spent.busy.as_secs_f64();
-    let mut text = format!("{}: {verdict}, {seconds:.2} s\n{}\n{}\n", header.id, header.claim, outcome.summary);
+    let mut text = format!(
+        "{}: {verdict}, {seconds:.2} s\n{}\n{}\n",
+        header.id,
+        visible(&header.claim),
+        visible(&outcome.summary)
+    );
     for table in tables(finished) {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
-        text += &format!("\n{}\n{}", table.title, screen::table(&head, &table.rows));
+        text += &format!("\n{}\n{}", visible(&table.title), screen::table(&head, &table.rows));
     }
     text
 }

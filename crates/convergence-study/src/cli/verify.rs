@@ -6,6 +6,7 @@ use crate::project::Project;
 use crate::report::{can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
 use crate::study::{Study, StudyFile, Tier};
+use crate::text::visible;
 use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
@@ -40,7 +41,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
-pub fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
@@ -75,7 +76,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
-        Some(Err(refusal)) => text += &format!("baseline: {refusal}\n"),
+        Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::visible(&refusal.to_string())),
         None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
             text += &format!("if that is meant: {} --bless\n", request.scope.command(project));
         }
@@ -102,5 +103,5 @@ fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
 
 /// A path as seen from the workspace.
 fn below(path: &Path, root: &Path) -> String {
-    path.strip_prefix(root).unwrap_or(path).display().to_string()
+    visible::path(path.strip_prefix(root).unwrap_or(path))
 }

@@ -1,4 +1,4 @@
-//! Where the studies are.
+//! Finds the workspace and its studies.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -45,7 +45,7 @@ fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     paths.sort();
-    // Complaints name files as they are seen from where the command is given.
+    // Messages name files relative to the current folder.
     let here = env::current_dir().unwrap_or_default();
     Ok(paths.iter().map(|path| path.strip_prefix(&here).unwrap_or(path).to_owned()).collect())
 }

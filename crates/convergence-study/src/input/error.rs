@@ -1,10 +1,11 @@
-//! The one error of everything that reads files.
+//! The error of everything that reads input files.
 
 use std::fmt;
 
 use thiserror::Error;
 
 use crate::text::names::did_you_mean;
+use crate::text::visible::{self, visible};
 
 /// A place in a text file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,14 +18,15 @@ pub struct Place {
 
 /// An input file that cannot be used: where, which field, what was found and what is allowed.
 ///
-/// Shown as one line `file:line:column: field: complaint`; a function adds two lines, with a caret below the place.
+/// Shown as one line `file:line:column: field: complaint`, the complaint being what is wrong; that about an expression may add two lines, with a
+/// caret below the place.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct InputError {
     /// The file, as it was given.
     pub file: String,
     /// The place; `None` where the file could not be read at all.
     pub place: Option<Place>,
-    /// The field by its dotted name, such as `beam.zeta`; `None` where the whole file is meant.
+    /// The field by its dotted name, such as `solver.tolerance`; `None` where the whole file is meant.
     pub field: Option<String>,
     /// What is wrong.
     pub complaint: Box<Complaint>,
@@ -39,7 +41,7 @@ pub enum Complaint {
         /// The operating system's reason.
         reason: String,
     },
-    /// The file is too large to be a scene or a study.
+    /// The file is larger than any file that people write by hand.
     #[error("found more than {allowed} bytes; allowed is a file of at most {allowed} bytes")]
     TooLarge {
         /// Bytes allowed.
@@ -51,7 +53,7 @@ pub enum Complaint {
         /// The parser's reason.
         reason: String,
     },
-    /// A key that nobody reads.
+    /// A key that has no meaning here.
     #[error("unknown key `{found}`{}; allowed is {allowed}", did_you_mean(.suggestion))]
     UnknownKey {
         /// The key.
@@ -61,7 +63,7 @@ pub enum Complaint {
         /// The keys known here.
         allowed: String,
     },
-    /// A key that has no default is not there.
+    /// A key without default is missing.
     #[error("missing; allowed is {allowed}")]
     Missing {
         /// What would have to be there, in words.
@@ -75,17 +77,12 @@ pub enum Complaint {
         /// The values allowed, in words.
         allowed: String,
     },
-    /// A text that its reader refuses.
+    /// A text that cannot be read.
     #[error("{reason}")]
     Invalid {
-        /// The reader's words.
+        /// Why.
         reason: String,
     },
-}
-
-/// A name as it can be shown: a file may name anything, and a terminal obeys control characters.
-pub fn visible(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 impl fmt::Display for InputError {
@@ -97,6 +94,6 @@ impl fmt::Display for InputError {
         if let Some(field) = &self.field {
             write!(f, ": {}", visible(field))?;
         }
-        write!(f, ": {}", self.complaint)
+        write!(f, ": {}", visible::lines(&self.complaint.to_string()))
     }
 }

@@ -9,8 +9,9 @@
 //! ```
 //!
 //! The first column is the step, h or dt, coarse to fine or fine to coarse; every other column an error. Cells are separated by commas,
-//! semicolons or tabs. `NaN` and `inf` are numbers that a computation may end in: they are for the judge, and do not pass.
+//! semicolons or tabs. `NaN` and `inf` are accepted as errors; a column with one of them fails.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use crate::input::{self, Complaint, InputError, Place};
@@ -35,7 +36,10 @@ impl RateTable {
         Self::parse(&input::read_text(path)?, &path.display().to_string())
     }
 
-    /// Reads a table from `text`; complaints refer to `file_name`.
+    /// Reads a table from `text`; messages name `file_name`.
+    ///
+    /// # Errors
+    /// As [`RateTable::read`], but for the file.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
         // Spreadsheets put a byte order mark in front.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -109,12 +113,15 @@ fn shown(cell: &str) -> String {
 
 fn names(cells: &[(usize, &str)], file: &str, line: usize) -> Result<Vec<String>, InputError> {
     let source = Source { file, line };
-    let mut names: Vec<String> = vec![];
+    let (mut names, mut seen): (Vec<String>, HashSet<&str>) = (vec![], HashSet::new());
     for &(column, cell) in cells {
         if cell.is_empty() || cell.parse::<f64>().is_ok() {
             return Err(source.complain(column, None, &shown(cell), "a name in the first row"));
         }
-        if names.iter().any(|name| name == cell) {
+        if cell.contains(char::is_control) {
+            return Err(source.complain(column, None, &shown(cell), "a name without control characters"));
+        }
+        if !seen.insert(cell) {
             return Err(source.complain(column, None, &format!("{} a second time", shown(cell)), "each name once"));
         }
         names.push(cell.to_owned());

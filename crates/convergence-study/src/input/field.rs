@@ -1,4 +1,4 @@
-//! A value that knows where it stands.
+//! A value with its place in the file.
 
 use std::fs;
 use std::ops::{Range, RangeInclusive};
@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeInteger, DeValue};
 
-use super::error::{Complaint, InputError, visible};
+use super::error::{Complaint, InputError};
 use super::{Section, Source};
 use crate::text::names::nearest;
+use crate::text::visible;
 
-/// A text that cannot be read: where, and why.
+/// An error of a reader of texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Misread {
     /// Byte of the text.
@@ -33,12 +34,12 @@ impl<'a> Field<'a> {
         Self { source, value, path, span }
     }
 
-    /// A complaint about this value.
+    /// An error about this value.
     pub fn refuse(&self, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
         self.complain(self.span.start, Complaint::NotAllowed { found: found.into(), allowed: allowed.into() })
     }
 
-    /// A complaint about this value, quoted as the file has it.
+    /// An error about this value, which is quoted as the file has it.
     pub fn refuse_as_written(&self, allowed: impl Into<String>) -> InputError {
         self.refuse(self.as_written(), allowed)
     }
@@ -90,7 +91,7 @@ impl<'a> Field<'a> {
         match fs::metadata(&path) {
             Ok(_) => Ok(path),
             Err(error) => {
-                let found = format!("{}, but {}: {error}", self.as_written(), visible(&path.display().to_string()));
+                let found = format!("{}, but {}: {error}", self.as_written(), visible::path(&path));
                 Err(self.refuse(found, "the name of a file, relative to this file's folder"))
             }
         }
@@ -107,7 +108,7 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// What `parse` makes of a text; its complaint points into the text.
+    /// What `parse` makes of a text; an error points into the text.
     ///
     /// * `expected`: what the text would have to be, for a value that is no text.
     pub fn parsed<T>(&self, expected: &str, parse: impl FnOnce(&str) -> Result<T, Misread>) -> Result<T, InputError> {
@@ -119,7 +120,7 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// A complaint about this value in words of its own.
+    /// An error about this value with a message of its own.
     pub fn invalid(&self, reason: impl Into<String>) -> InputError {
         self.complain(self.span.start, Complaint::Invalid { reason: reason.into() })
     }

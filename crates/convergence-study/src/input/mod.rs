@@ -1,7 +1,7 @@
-//! TOML files whose every complaint names file, line, field, what was found and what is allowed.
+//! Reads TOML files; every error names file, line, field, the value found and the values allowed.
 //!
-//! A thin layer over the spanned values of the `toml` crate: a `Section` is a table that knows where it stands, a
-//! `Field` a value that does. Readers ask them for what they need and never build a message's position by hand.
+//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its place in the file, a [`Field`] a
+//! value with its place. Readers ask them for values and never compute the position of a message.
 
 mod error;
 mod field;
@@ -16,23 +16,24 @@ use toml::de::{DeTable, DeValue};
 
 pub mod error_table;
 
-pub use error::{Complaint, InputError, Place, visible};
+pub use crate::text::visible::visible;
+pub use error::{Complaint, InputError, Place};
 pub use field::{Field, Misread, shorten};
 pub use section::Section;
 
-/// Bytes of a file that will be read. Scenes are small; this stops a wrong path from filling the memory.
+/// Largest file that is read, in bytes. Study files are small; this keeps a wrong path from filling the memory.
 const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
 #[derive(Debug, Clone, Copy)]
-pub struct Source<'a> {
-    pub file: &'a str,
-    pub text: &'a str,
+pub(crate) struct Source<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) text: &'a str,
 }
 
 impl Source<'_> {
     /// Line and column, from 1, of a byte of the text.
-    pub fn place(&self, offset: usize) -> Place {
+    pub(crate) fn place(&self, offset: usize) -> Place {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
@@ -86,7 +87,7 @@ pub fn parse_beside<T>(
 
 /// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.
 ///
-/// Places in complaints are those in `text`, a newline and `overlay`, one after the other.
+/// Places in errors are those in `text`, a newline and `overlay`, one after the other.
 pub fn parse_overlaid<T>(
     text: &str,
     overlay: &str,

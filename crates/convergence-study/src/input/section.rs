@@ -1,4 +1,4 @@
-//! A table that knows where it stands.
+//! A table with its place in the file.
 
 use std::ops::Range;
 
@@ -66,12 +66,12 @@ impl<'a> Section<'a> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
     }
 
-    /// The complaint about a key that is not there.
+    /// The error about a key that is missing.
     pub fn missing(&self, key: &str, allowed: &str) -> InputError {
         self.complain(key, Complaint::Missing { allowed: allowed.to_owned() })
     }
 
-    /// A complaint about a key: at its value, or at the head of the table where the key is not there.
+    /// An error about a key: at its value, or at the head of the table where the key is missing.
     pub fn refuse(&self, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
         match self.get(key) {
             Some(field) => field.refuse(found, allowed),

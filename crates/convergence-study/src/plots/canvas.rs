@@ -24,7 +24,7 @@ pub fn grid(v: f64) -> i32 {
     (v * RESOLUTION).round().clamp(-1e6, 1e6) as i32
 }
 
-/// What all of a layer has in common.
+/// What everything in one layer has in common: clip rectangle, dash pattern, halo.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layer {
     clip: Option<Rect>,
@@ -33,14 +33,17 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// Nothing clipped, lines solid.
     pub fn plain() -> Self {
         Self::default()
     }
 
+    /// Nothing outside of this rectangle is shown.
     pub fn clipped(clip: Rect) -> Self {
         Self { clip: Some(clip), ..Self::default() }
     }
 
+    /// The same layer with its lines dashed.
     pub fn dashed(self, dash: Dash) -> Self {
         Self { dash: Some(dash), ..self }
     }
@@ -85,6 +88,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
+    /// An empty page; width and height in px.
     pub fn new(width: f64, height: f64) -> Self {
         Self { width, height, body: String::new() }
     }
@@ -105,14 +109,16 @@ impl Canvas {
         self.body.push_str(layer.close());
     }
 
-    /// What is drawn inside shares a group with these attributes.
+    /// Puts everything that `draw` adds into an SVG group with these attributes.
+    ///
+    /// * `attributes`: as in the opening tag, each with a blank in front; values escaped by [`escape_attribute`].
     pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
         let _ = writeln!(self.body, "<g{attributes}>");
         draw(self);
         self.body.push_str("</g>\n");
     }
 
-    /// Adds SVG elements for what plotters cannot say; positions are on the page's [`grid`].
+    /// Adds SVG elements for what plotters cannot draw; positions are on the page's [`grid`].
     pub fn raw(&mut self, elements: &str) {
         self.body.push_str(elements);
     }
@@ -132,8 +138,8 @@ impl Canvas {
     }
 }
 
-/// What plotters writes, without what says nothing: a document of its own around every layer, and attributes that hold
-/// the values which they have anyway. A third of the bytes.
+/// What plotters writes, without its own document around every layer and without attributes at their default values: a
+/// third of the bytes.
 fn without_ballast(fragment: &str) -> String {
     let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
     fragment.lines().filter(is_frame).fold(String::with_capacity(fragment.len()), |mut kept, line| {
@@ -147,7 +153,7 @@ fn without_ballast(fragment: &str) -> String {
 }
 
 /// Text that XML accepts: markup escaped, control characters blanked.
-pub fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
@@ -163,8 +169,11 @@ fn printable(text: &str) -> String {
 /// Where a text's position lies, horizontally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
+    /// At its left end.
     Start,
+    /// In its middle.
     Middle,
+    /// At its right end.
     End,
 }
 
@@ -184,7 +193,7 @@ impl Pen<'_> {
         debug_assert!(drawn.is_ok(), "drawing into memory cannot fail");
     }
 
-    /// An open line through points.
+    /// An open line through points, of this width in px.
     pub fn line(&self, points: &[Point], colour: RGBColor, width: f64) {
         // Plotters moves what lies off the page to its edge, which would bend the line.
         for piece in keep_inside(points, &self.page) {
@@ -201,28 +210,31 @@ impl Pen<'_> {
         self.put(&PathElement::new(path, stroke(colour, width)));
     }
 
+    /// A filled polygon; the last corner is joined to the first.
     pub fn polygon(&self, points: &[Point], colour: RGBColor) {
         let path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
         self.put(&Polygon::new(path, colour.filled()));
     }
 
+    /// A filled rectangle.
     pub fn rect(&self, r: Rect, colour: RGBColor) {
         let corners = [(grid(r.left), grid(r.top)), (grid(r.right), grid(r.bottom))];
         self.put(&Rectangle::new(corners, colour.filled()));
     }
 
-    /// The rim of a rectangle.
+    /// The edges of a rectangle, of this width in px.
     pub fn frame(&self, r: Rect, colour: RGBColor, width: f64) {
         // Plotters' rectangles have no line width.
         let (a, c) = ((r.left, r.top), (r.right, r.bottom));
         self.line(&[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)], colour, width);
     }
 
+    /// A filled circle with this radius in px.
     pub fn disc(&self, centre: Point, radius: f64, colour: RGBColor) {
         self.put(&Circle::new((grid(centre.0), grid(centre.1)), grid(radius), colour.filled()));
     }
 
-    /// Horizontal text, vertically centred on `at`.
+    /// Horizontal text of this size in px, vertically centred on `at`.
     pub fn text(&self, text: &str, at: Point, size: f64, anchor: Anchor, colour: RGBColor) {
         self.write(text, at, size, anchor, FontTransform::None, colour);
     }

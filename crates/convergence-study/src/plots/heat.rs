@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Edges of cells around positions in ascending order: half way between neighbours.
-pub fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
+pub(super) fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
     let (Some(&first), Some(&last)) = (positions.first(), positions.last()) else { return Vec::new() };
     let between: Vec<f64> = positions.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
     let first_half = between.first().map_or(alone, |e| e - first);
@@ -20,7 +20,7 @@ pub fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
 }
 
 /// The values of an axis that it can show: position on the scale and index, ascending, each position once.
-pub fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
+pub(super) fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     let mut order: Vec<(f64, usize)> =
         values.iter().enumerate().filter_map(|(k, &v)| Some((on_scale(scale, v)?, k))).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -29,7 +29,7 @@ pub fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
 }
 
 /// Cells between the edges (in px), row by row; cells without a colour are grey.
-pub fn paint(canvas: &mut Canvas, x_edges: &[f64], y_edges: &[f64], rows: &[Vec<Option<RGBColor>>]) {
+pub(super) fn paint(canvas: &mut Canvas, x_edges: &[f64], y_edges: &[f64], rows: &[Vec<Option<RGBColor>>]) {
     let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
     let mut add = |x: Option<(f64, f64)>, y: Option<(f64, f64)>, colour: RGBColor| {
         let (Some((left, right)), Some((top, bottom))) = (x, y) else { return };
@@ -71,7 +71,7 @@ fn count_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
 }
 
 /// Pieces that [`paint`] writes: it merges along rows or along columns, whichever gives fewer.
-pub fn fewest_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
+pub(super) fn fewest_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
     count_runs(rows).min(count_runs(&transposed(rows)))
 }
 

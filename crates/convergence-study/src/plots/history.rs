@@ -16,7 +16,7 @@ pub struct History {
     pub y: Axis,
     /// `(t, value)`, times ascending.
     pub series: Vec<Series>,
-    /// Obstacles, limits.
+    /// Limits and other values worth a line.
     pub guides: Vec<Guide>,
     /// Intervals to shade.
     pub phases: Phases,

@@ -14,11 +14,18 @@ const SWATCH_WIDTH: f64 = 46.0;
 const SWATCH_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 26.0;
 
-/// The little picture before a legend's text.
+/// The sample before the text of an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Swatch {
-    /// A line of this width (none for 0) with markers.
-    Line { look: Look, width: f64, marks: Marks },
+    /// A line with markers.
+    Line {
+        /// Colour, dashes and marker.
+        look: Look,
+        /// Width of the line in px; 0 for markers alone.
+        width: f64,
+        /// How the marker is drawn.
+        marks: Marks,
+    },
     /// A patch of colour.
     Fill(RGBColor),
     /// A patch with diagonal strokes.
@@ -28,13 +35,15 @@ pub enum Swatch {
 /// A line of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
+    /// The sample before the text.
     pub swatch: Swatch,
+    /// The text; one that is too long is cut.
     pub label: String,
 }
 
 /// Entries arranged for a page of given width.
 #[derive(Clone, Debug)]
-pub struct Legend {
+pub(super) struct Legend {
     entries: Vec<Entry>,
     columns: usize,
     column_width: f64,
@@ -42,7 +51,7 @@ pub struct Legend {
 
 impl Legend {
     /// As many equal columns as fit, rows filled evenly.
-    pub fn arrange(entries: Vec<Entry>, width: f64) -> Self {
+    pub(super) fn arrange(entries: Vec<Entry>, width: f64) -> Self {
         let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
         let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
         let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
@@ -50,12 +59,13 @@ impl Legend {
         Self { columns: entries.len().div_ceil(rows).max(1), column_width, entries }
     }
 
-    pub fn height(&self) -> f64 {
+    /// Height of all rows in px.
+    pub(super) fn height(&self) -> f64 {
         self.entries.len().div_ceil(self.columns) as f64 * ROW_HEIGHT
     }
 
     /// Draws the legend centred on `centre`, its first row below `top`.
-    pub fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
         let width = self.columns as f64 * self.column_width - COLUMN_GAP;
         // Centred on the plot, but on the page in any case.
         let left = (centre - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
@@ -97,7 +107,7 @@ impl Legend {
     }
 }
 
-/// A text cut to fit a width, with an ellipsis where it was cut.
+/// A text of this size cut to fit a width, both in px, with an ellipsis where it was cut.
 pub fn elide(text: &str, size: f64, width: f64) -> String {
     if text_width(text, size) <= width {
         return text.to_owned();

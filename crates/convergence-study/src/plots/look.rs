@@ -32,8 +32,11 @@ const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::Mixed, D
 /// What sets one series apart: each of the three is enough by itself for a handful of series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
+    /// Of lines and markers.
     pub colour: RGBColor,
+    /// Of its points.
     pub marker: Marker,
+    /// Of its line.
     pub dash: Dash,
 }
 

@@ -8,21 +8,31 @@ use plotters::style::RGBColor;
 /// Shapes that stay distinct when small and without colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
+    /// A disc.
     Circle,
+    /// A square on its side.
     Square,
+    /// A triangle pointing up.
     Triangle,
+    /// A square on its corner.
     Diamond,
+    /// A triangle pointing down.
     Inverted,
+    /// Two diagonal strokes.
     Cross,
+    /// A horizontal and a vertical stroke.
     Plus,
+    /// Three strokes.
     Star,
 }
 
 /// How a series' points are marked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Marks {
+    /// No markers.
     #[default]
     None,
+    /// In the colour of the series.
     Filled,
     /// Outline on white.
     Open,
@@ -79,7 +89,7 @@ impl Marker {
     }
 }
 
-/// A small tick across a rim, for axes.
+/// A tick of an axis: a thin stroke.
 pub fn tick(pen: &Pen<'_>, from: Point, to: Point) {
     pen.line(&[from, to], INK, super::style::THIN);
 }

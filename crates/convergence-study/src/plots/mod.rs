@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | [`convergence`] | errors against `h` or `dt`, fitted lines, slope triangles, a baseline |
 //! | [`surface`] | an error over a grid of two parameters, with iso lines |
-//! | [`history`] | quantities over time, with limits and contact phases |
+//! | [`history`] | quantities over time, with limits and shaded phases |
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
 //! | [`parameter_map`] | a value and a category over two parameters, with boundary curves |
@@ -100,7 +100,7 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// A value worth a line across the plot: an obstacle, a limit.
+/// A value worth a line across the plot: a limit, a value known exactly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guide {
     /// Short text, set in the right margin at the line's height.
@@ -109,7 +109,7 @@ pub struct Guide {
     pub value: f64,
 }
 
-/// Intervals of the horizontal axis to shade, such as the phases of contact.
+/// Intervals of the horizontal axis to shade, such as the phases in which something is switched on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Phases {
     /// Name in the legend.

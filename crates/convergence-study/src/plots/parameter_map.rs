@@ -66,7 +66,7 @@ fn entries(figure: &ParameterMap) -> Vec<Entry> {
     entries
 }
 
-/// Whether a boundary is known at a few points only: a line between them would claim what nobody has looked at.
+/// Whether a boundary is known at a few points only: a line between them would suggest points that were not computed.
 fn is_sparse(series: &Series) -> bool {
     series.points.len() < FEWEST_FOR_A_LINE
 }

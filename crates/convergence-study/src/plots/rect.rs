@@ -6,21 +6,28 @@ pub type Point = (f64, f64);
 /// A rectangle in px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
+    /// Left edge.
     pub left: f64,
+    /// Upper edge; less than `bottom`.
     pub top: f64,
+    /// Right edge.
     pub right: f64,
+    /// Lower edge.
     pub bottom: f64,
 }
 
 impl Rect {
+    /// Horizontal extent.
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
+    /// Vertical extent.
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
+    /// The point in the middle.
     pub fn centre(&self) -> Point {
         (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
     }
@@ -49,7 +56,7 @@ fn along(a: Point, b: Point, s: f64) -> Point {
 }
 
 /// What remains of a line within a rectangle.
-pub fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
+pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
     if line.iter().all(holds) {
         return vec![line.to_vec()];
@@ -67,7 +74,7 @@ pub fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
 }
 
 /// What remains of a segment outside a rectangle: up to two pieces.
-pub fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
+pub(super) fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
     match inside(a, b, r) {
         None => vec![[a, b]],
         Some((enter, leave)) => {

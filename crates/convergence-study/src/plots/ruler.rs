@@ -19,9 +19,11 @@ pub fn on_scale(scale: Scale, value: f64) -> Option<f64> {
 /// An axis with a range and a place on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ruler {
+    /// Linear or logarithmic.
     pub scale: Scale,
-    /// Ends of the range, on the scale.
+    /// Low end of the range, on the scale: a value, or its decimal logarithm.
     pub lo: f64,
+    /// High end, on the scale.
     pub hi: f64,
     /// The px that belong to `lo` and `hi`.
     start: f64,
@@ -31,16 +33,18 @@ pub struct Ruler {
 /// A labelled tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// On the scale.
+    /// Its position on the scale.
     pub at: f64,
+    /// Its text.
     pub label: String,
 }
 
 /// The ticks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
+    /// Those with labels.
     pub major: Vec<Tick>,
-    /// On the scale.
+    /// Positions of those without, on the scale.
     pub minor: Vec<f64>,
     /// The labels are to be multiplied by ten to this power.
     pub exponent: i32,
@@ -79,7 +83,7 @@ impl Ruler {
         Self { scale, lo, hi, start: 0.0, end: 1.0 }
     }
 
-    /// Lays the ruler down on the page.
+    /// The ruler on the page: `start` and `end` are the px of its low and its high end.
     pub fn laid_out(self, start: f64, end: f64) -> Self {
         Self { start, end, ..self }
     }

@@ -8,7 +8,7 @@ use super::sheet::Plan;
 use super::xy::left_out;
 use plotters::style::RGBColor;
 
-/// Cells of the picture along time and along the beam, finest first. Even noise, which merges nowhere, stays below
+/// Cells of the picture along time and along space, finest first. Even noise, which merges nowhere, stays below
 /// 400 kB on the coarsest.
 const RESOLUTIONS: [(usize, usize); 3] = [(220, 140), (190, 120), (170, 105)];
 /// Runs of equal cells at most, of about 17 bytes each.
@@ -74,8 +74,8 @@ fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
     (0..=cells).map(|k| from + (to - from) * k as f64 / cells.max(1) as f64).collect()
 }
 
-/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, interpolated in space,
-/// where the elements are linear too.
+/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in
+/// space.
 fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec<Vec<f64>> {
     if figure.times.is_empty() || figure.nodes.is_empty() {
         return Vec::new();

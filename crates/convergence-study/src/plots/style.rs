@@ -9,31 +9,47 @@ pub const PLOT_HEIGHT: f64 = 430.0;
 
 /// Helvetica and its metric twins first: the estimates of [`text_width`] are taken from the widest, DejaVu Sans.
 pub const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
+/// Text size of titles, in px.
 pub const TITLE_SIZE: f64 = 22.0;
+/// Text size of axis labels, in px.
 pub const LABEL_SIZE: f64 = 20.0;
+/// Text size of tick labels, legends and texts in the plot, in px.
 pub const TICK_SIZE: f64 = 18.0;
+/// Text size of notes under the plot, in px.
 pub const NOTE_SIZE: f64 = 16.0;
 
+/// Texts, axes and outlines.
 pub const INK: RGBColor = RGBColor(34, 34, 34);
+/// The page.
 pub const WHITE: RGBColor = RGBColor(255, 255, 255);
+/// Guides, notes and hatches.
 pub const MUTED: RGBColor = RGBColor(96, 96, 96);
+/// Grid lines at labelled ticks.
 pub const GRID: RGBColor = RGBColor(214, 214, 214);
+/// Grid lines at ticks without label.
 pub const MINOR_GRID: RGBColor = RGBColor(238, 238, 238);
 /// Shaded intervals and regions: light enough for the grid's darker lines to stay visible on it.
 pub const SHADE: RGBColor = RGBColor(228, 233, 240);
 /// Cells without a value.
 pub const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
 
+/// Width of axes and ticks, in px.
 pub const THIN: f64 = 1.2;
+/// Width of curves, in px.
 pub const LINE: f64 = 2.2;
 
 /// Dash patterns, distinct in black and white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
+    /// No gaps.
     Solid,
+    /// Long dashes.
     Long,
+    /// Short dashes.
     Short,
+    /// Dots.
     Dotted,
+    /// Dashes and dots in turn.
     Mixed,
 }
 

@@ -24,10 +24,13 @@ pub struct Curve {
     pub name: String,
     /// Whether that entry is to be made from the curve; several curves may share one.
     pub is_listed: bool,
+    /// `(x, y)` in data coordinates, in drawing order.
     pub points: Vec<(f64, f64)>,
+    /// Colour, dashes and marker.
     pub look: Look,
     /// Line width in px; 0 for markers alone.
     pub width: f64,
+    /// How the points are marked.
     pub marks: Marks,
     /// Whether the points are data: only those set the range and are counted when left out.
     pub is_data: bool,
@@ -51,6 +54,7 @@ impl Curve {
 /// A closed outline with texts, such as a slope triangle; positions in data coordinates.
 #[derive(Clone, Debug)]
 pub struct Outline {
+    /// The last is joined to the first.
     pub corners: Vec<(f64, f64)>,
     /// Text, where, how many px right and down of that, and its anchor.
     pub texts: Vec<(String, (f64, f64), Point, Anchor)>,
@@ -59,12 +63,19 @@ pub struct Outline {
 /// A figure with curves.
 #[derive(Clone, Debug, Default)]
 pub struct Xy {
+    /// Set above the plot.
     pub title: Option<String>,
+    /// The horizontal axis.
     pub x: Axis,
+    /// The vertical axis.
     pub y: Axis,
+    /// In drawing order.
     pub curves: Vec<Curve>,
+    /// Horizontal lines.
     pub guides: Vec<Guide>,
+    /// Shaded intervals of the horizontal axis.
     pub phases: Phases,
+    /// Drawn on top of the curves.
     pub outlines: Vec<Outline>,
     /// Everything right of this x is shaded, with the text above it.
     pub beyond: Option<(f64, String)>,
@@ -164,7 +175,7 @@ impl Xy {
         }
         sheet.canvas.draw(Layer::clipped(plot), |pen| {
             for &(left, right) in &spans {
-                // A contact shorter than a pixel still leaves a trace.
+                // An interval shorter than a pixel still leaves a trace.
                 pen.rect(Rect { left, right: right.max(left + 0.7), ..plot }, style::SHADE);
             }
         });
@@ -212,7 +223,7 @@ impl Xy {
 }
 
 /// The note on data that a figure cannot show.
-pub fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
+pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
     let points = |n: usize, what: &str, why: &str| {
         let s = if n == 1 { "" } else { "s" };
         (n > 0).then(|| format!("{n} {what} point{s} not drawn{why}"))

@@ -1,4 +1,4 @@
-//! Markdown that says what the text says.
+//! Text set in Markdown without a change of its meaning.
 
 use crate::text::columns::Columns;
 
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_stays_what_it_says() {
+    fn markup_in_a_text_is_escaped() {
         for (raw, written) in [
             ("a | b", "a \\| b"),
             ("`a|b` < c", "`a\\|b` < c"),
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn anchors_are_those_of_the_web_page() {
-        assert_eq!(anchor("theorem-3.4-space"), "theorem-34-space");
+        assert_eq!(anchor("heat-2.1-space"), "heat-21-space");
         assert_eq!(anchor("Moved from the baseline"), "moved-from-the-baseline");
     }
 

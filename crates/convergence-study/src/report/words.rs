@@ -35,14 +35,14 @@ pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
     match (changes.len(), guarded) {
-        (0, 0) => "no number is guarded".to_owned(),
-        (0, n) => format!("of {n} guarded numbers none has moved"),
-        (1, _) => "one guarded number is not what it was".to_owned(),
-        (n, _) => format!("{n} guarded numbers are not what they were"),
+        (0, 0) => "no baseline values".to_owned(),
+        (0, n) => format!("all {n} baseline values unchanged"),
+        (1, _) => "1 baseline value changed".to_owned(),
+        (n, _) => format!("{n} baseline values changed"),
     }
 }
 
-/// Whether a blessing is worth a hint: it is refused where a study does not pass.
+/// Whether `--bless` would be accepted: it is refused where a study does not pass.
 pub fn can_be_blessed(finished: &[Finished]) -> bool {
     finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
@@ -94,13 +94,13 @@ mod tests {
     }
 
     #[test]
-    fn rates_that_hold_are_told_with_the_farthest_from_its_order() {
+    fn passing_rates_are_summed_up_by_the_farthest_from_its_order() {
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
         assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders");
     }
 
     #[test]
-    fn what_does_not_pass_is_told_with_what_decides() {
+    fn rates_and_checks_that_do_not_pass_are_counted() {
         let checks = vec![Check::that(false, "c", "e"), Check::that(true, "d", "e")];
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(1.5, 2.0)], checks);
         let told = "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";

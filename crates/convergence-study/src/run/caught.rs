@@ -1,4 +1,4 @@
-//! Panics turned into words.
+//! Panics caught and turned into messages.
 
 use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
@@ -21,14 +21,14 @@ pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     result.map_err(|_| LAST.take().unwrap_or_else(|| "panicked".to_owned()))
 }
 
-/// Puts a hook before the current one that keeps the words of watched panics.
+/// Installs a hook before the current one that keeps the messages of watched panics.
 fn install_hook() {
     static INSTALL: Once = Once::new();
     INSTALL.call_once(|| {
         let previous = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
             if WATCHED.get() {
-                LAST.set(Some(words(info)));
+                LAST.set(Some(message(info)));
             } else {
                 previous(info);
             }
@@ -36,13 +36,13 @@ fn install_hook() {
     });
 }
 
-fn words(info: &PanicHookInfo<'_>) -> String {
+fn message(info: &PanicHookInfo<'_>) -> String {
     let payload = info.payload();
-    let message = payload.downcast_ref::<&str>().copied();
-    let message = message.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
     match info.location() {
-        Some(place) => format!("panicked at {}:{}: {message}", file_name(place.file()), place.line()),
-        None => format!("panicked: {message}"),
+        Some(place) => format!("panicked at {}:{}: {text}", file_name(place.file()), place.line()),
+        None => format!("panicked: {text}"),
     }
 }
 

@@ -30,11 +30,11 @@ pub struct Finished {
     pub outcome: Outcome,
     /// Cases without a result, in the order of the cases.
     pub failed_cases: Vec<FailedCase>,
-    /// What it cost, which is different each time.
+    /// The time that it took, which differs from run to run.
     pub spent: Spent,
 }
 
-/// A case that did not come to its end.
+/// A case without a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedCase {
     /// Its label.
@@ -46,7 +46,7 @@ pub struct FailedCase {
 /// Time spent on a study.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spent {
-    /// Added up over its cases, whichever thread ran them, and its conclusion.
+    /// Sum over its cases, on whatever thread, and over judging their results.
     pub busy: Duration,
     /// From the start of its first case to the end of its last one.
     pub wall: Duration,
@@ -55,20 +55,20 @@ pub struct Spent {
 /// Why nothing was run.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// Two studies of one name: what is said about one would be taken for the other.
-    #[error("two studies have the id `{0}`; allowed is an id for each study of its own")]
+    /// Two studies have the same id, by which baseline and report tell studies apart.
+    #[error("found two studies with the id `{0}`; expected an id of its own for each study")]
     DuplicateId(String),
     /// The operating system refuses the threads.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
 }
 
-/// What a run may take.
+/// Limits of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Number of threads; no more than there are cases are started.
+    /// Number of threads; at most one for each case is started.
     pub jobs: NonZeroUsize,
-    /// The longest that a case may take; `None` for as long as it takes.
+    /// The longest time that a case may take; `None` for no limit.
     pub case_limit: Option<Duration>,
 }
 
@@ -105,7 +105,7 @@ pub fn run(
     Ok(pool.install(|| planned.into_par_iter().zip(done).map(|(planned, done)| conclude(planned, &done)).collect()))
 }
 
-/// A study and its plan, or why it panicked over listing its cases.
+/// A study and its plan, or the message of the panic that listing its cases ended in.
 struct Planned<'s> {
     header: &'s Header,
     plan: Result<Box<dyn Plan + 's>, String>,
@@ -152,7 +152,7 @@ fn run_cases(
             if let Err(reason) = ended {
                 plan.fail(job.case, CaseFailure { reason });
             }
-            // A run that was cut short has no result, whatever its study made of it.
+            // A case that was stopped has no result, even if it returned one.
             if let Some(up) = up {
                 plan.fail(job.case, up.into());
             }

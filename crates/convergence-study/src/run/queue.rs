@@ -7,14 +7,14 @@ use std::time::Instant;
 use super::Spent;
 use crate::study::Case;
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// Cases that have come to their end.
+    /// Cases that have ended.
     pub done_cases: usize,
     /// All cases.
     pub cases: usize,
-    /// Cost of the cases that have come to their end.
+    /// Cost of the cases that have ended.
     pub done_cost: f64,
     /// Cost of all cases.
     pub cost: f64,
@@ -30,7 +30,7 @@ pub(super) struct Job {
     cost: f64,
 }
 
-/// A case that has come to its end.
+/// A case that has ended.
 #[derive(Debug)]
 pub(super) struct Done {
     study: usize,
@@ -87,24 +87,24 @@ pub(super) fn spent(done: &[Done]) -> Spent {
     Spent { busy, wall }
 }
 
-/// Counts what is done and tells it.
+/// Counts the cases that have ended and reports the progress.
 pub(super) struct Counter<'p> {
-    /// How far it is, and the cases left of each study.
+    /// The progress, and the number of cases left of each study.
     now: Mutex<(Progress, Vec<usize>)>,
-    tell: &'p (dyn Fn(Progress) + Sync),
+    report: &'p (dyn Fn(Progress) + Sync),
 }
 
 impl<'p> Counter<'p> {
-    pub(super) fn new(jobs: &[Job], tell: &'p (dyn Fn(Progress) + Sync)) -> Self {
+    pub(super) fn new(jobs: &[Job], report: &'p (dyn Fn(Progress) + Sync)) -> Self {
         let cost = jobs.iter().map(|job| job.cost).sum();
         let now = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None };
         let studies = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
         let mut left = vec![0; studies];
         jobs.iter().for_each(|job| left[job.study] += 1);
-        Self { now: Mutex::new((now, left)), tell }
+        Self { now: Mutex::new((now, left)), report }
     }
 
-    /// Tells while it holds the lock, so that what is told only grows.
+    /// Reports while it holds the lock, so that the reported numbers only grow.
     pub(super) fn count(&self, job: &Job) {
         let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
         let (now, left) = &mut *state;
@@ -112,6 +112,6 @@ impl<'p> Counter<'p> {
         now.ended = (left[job.study] == 0).then_some(job.study);
         now.done_cases += 1;
         now.done_cost += job.cost;
-        (self.tell)(*now);
+        (self.report)(*now);
     }
 }

@@ -1,8 +1,8 @@
 //! A limit on the time that one case may take.
 //!
 //! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
-//! case, and every time loop asks its own `Patience` before a step. Nothing is done per node, the clock is read once in
-//! a millisecond or so, and not at all where there is no limit. What is computed is the same with a limit and without.
+//! case, and every time loop asks its own [`Patience`] before a step. The clock is read about once a millisecond, and not at all where
+//! there is no limit. What is computed is the same with a limit and without.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ use thiserror::Error;
 pub struct TimeUp {
     /// Steps, or whatever the case counts, that were done.
     pub step: usize,
-    /// Time reached in the scene.
+    /// Simulated time reached.
     pub t: f64,
     /// The limit.
     pub limit: Duration,
@@ -32,8 +32,9 @@ thread_local! {
     static REACHED: Cell<Option<TimeUp>> = const { Cell::new(None) };
 }
 
-/// Runs a case, which is anything that one thread computes, with a limit or without, and says whether it was stopped at
-/// it, whatever it has made of that.
+/// Runs a case on this thread, with a limit or without.
+///
+/// * Returns the result of `case`, and [`TimeUp`] where the limit was reached, even if the case ignored it.
 pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
     let now = Instant::now();
     // A limit beyond what the clock can count to is none.
@@ -45,7 +46,7 @@ pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Optio
     (result, REACHED.take())
 }
 
-/// What a loop asks before each of its rounds.
+/// Asked by a loop before each of its rounds whether there is time for it.
 #[derive(Debug, Clone)]
 pub struct Patience {
     deadline: Option<Deadline>,
@@ -72,7 +73,9 @@ impl Patience {
         Self::new(Self::WORK)
     }
 
-    /// May the round after number `step` begin, the scene being at time `t`?
+    /// Whether the round after number `step` may begin.
+    ///
+    /// * `t`: the simulated time reached, for the message.
     ///
     /// # Errors
     /// [`TimeUp`] where the limit is reached.
@@ -116,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_that_is_reached_is_told_with_step_and_time_and_ends_with_the_case() {
+    fn a_limit_is_reported_with_step_and_time_and_ends_with_its_case() {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
         assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit }));

@@ -1,4 +1,4 @@
-//! Files that are there as a whole or not at all.
+//! Writes files atomically: a reader sees the old content or the new one, never a part.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -7,13 +7,14 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::store::writing;
+use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
 /// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
 ///
 /// # Errors
-/// What the file system says, the file named in front; the old file is then untouched and nothing is left beside it.
+/// That of the operating system, `path` named in front of it; the old file is then untouched and nothing stays behind.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     write_with(path, |file| file.write_all(bytes.as_ref()))
 }
@@ -31,7 +32,7 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
     let beside = name_beside(path)?;
     let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
-        // The first error is the one to tell; that the rest cannot be cleared away follows from it.
+        // The first error is reported; a failure to remove the file would only follow from it.
         let _ = fs::remove_file(&beside);
     }
     written.map_err(naming)
@@ -48,7 +49,7 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
 }
 
-/// Removes what writers of `path` that were killed have left beside it. Call it where no other process writes this file.
+/// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.
 ///
 /// # Errors
 /// That of the operating system.
@@ -77,8 +78,8 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a file and waits until it is on the disk.
-pub fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file that does not exist yet and waits until it is on the disk.
+pub(super) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fill_through(path, |file| file.write_all(bytes))
 }
 
@@ -88,8 +89,9 @@ fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
+/// The same error with the file named in front.
 pub fn naming(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+    io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
 }
 
 /// A name in the same folder that no other thread or process uses.
@@ -127,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_writer_left_is_removed_and_nothing_else() {
+    fn unfinished_files_of_killed_writers_are_removed_and_no_others() {
         let folder = tempfile::tempdir().unwrap();
         for name in [".a.json.17-0", ".a.json.17-x", ".b.json.17-0", "a.json", ".a.json.-0", "a.json.17-0"] {
             fs::write(folder.path().join(name), "").unwrap();

@@ -1,10 +1,10 @@
-//! The guard against regressions: numbers of a former run that a new one must meet, each within its tolerance.
+//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance.
 //!
-//! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among what a run
-//! writes. Nothing but a blessing changes it. Numbers stand there with all their digits.
+//! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among the files that a run
+//! writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
-//! { "schema": 1, "studies": { "theorem-3.4-space": { "error of velocity": { "value": 4.4e-8, "tolerance": 0.001 } } } }
+//! { "schema": 1, "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } } }
 //! ```
 //!
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
@@ -12,16 +12,16 @@
 mod change;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::input::visible;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::atomic;
+use crate::store::{atomic, regular};
+use crate::text::visible;
 
 pub use change::{Change, Movement};
 
@@ -56,8 +56,8 @@ fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64,
 /// A baseline that cannot be read or written.
 #[derive(Debug, Error)]
 pub enum BaselineError {
-    /// The file system's word.
-    #[error("{}: {error}", .path.display())]
+    /// The file cannot be read or written.
+    #[error("{}: {error}", visible::path(.path))]
     File {
         /// The file.
         path: PathBuf,
@@ -65,15 +65,15 @@ pub enum BaselineError {
         error: io::Error,
     },
     /// Not the form of a baseline.
-    #[error("{}: {}; restore it, or remove it and run `verify --bless`", .path.display(), visible(&.error.to_string()))]
+    #[error("{}: {}; restore it, or remove it and run `verify --bless`", visible::path(.path), visible::visible(&.error.to_string()))]
     Malformed {
         /// The file.
         path: PathBuf,
         /// What was wrong, with line and column.
         error: serde_json::Error,
     },
-    /// A form of another version.
-    #[error("{}: schema: found {found}; allowed is {SCHEMA}", .path.display())]
+    /// Written for another version of the harness.
+    #[error("{}: schema: found {found}; allowed is {SCHEMA}", visible::path(.path))]
     Schema {
         /// The file.
         path: PathBuf,
@@ -82,10 +82,10 @@ pub enum BaselineError {
     },
 }
 
-/// Why a run does not become the baseline.
+/// Why a run was not taken for the baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Refusal {
-    /// Its own verdict is no pass.
+    /// A study does not pass.
     #[error("not blessed: the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass")]
     NotPassing {
         /// The first such study.
@@ -119,7 +119,7 @@ impl Baseline {
     /// # Errors
     /// [`BaselineError`] where there is a file that is not a baseline.
     pub fn read(path: &Path) -> Result<Self, BaselineError> {
-        let text = match fs::read_to_string(path) {
+        let text = match regular::read_to_string(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(error) => return Err(BaselineError::File { path: path.to_owned(), error }),
             Ok(text) => text,

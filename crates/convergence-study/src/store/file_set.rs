@@ -1,23 +1,25 @@
-//! Reports are put on their shelf as a set: after a crash the next run finds the old set or completes the new one.
+//! A report replaces the former one as a set of files: after a crash the next run finds the old set or completes the new one.
 //!
-//! All files that differ from those on the shelf are first written into a staging folder. Its renaming to `pending` is the
-//! one moment at which the new set counts: from then on files are only moved to their places, which can be done again
-//! after any interruption. What the former set had and the new one does not is removed; a manifest, moved last, lists the
-//! set. Files that no manifest lists are never touched: that is why the folder is not exchanged as a whole, which would lose
-//! what others write to it meanwhile. A lock, which the operating system frees even after a crash, keeps two runs apart.
+//! 1. All files that differ from those of the former set are written into the folder `staging` of the workshop.
+//! 2. `staging` is renamed to `pending`. From this moment on the new set counts.
+//! 3. Its files are moved to their places, files of the former set alone are removed, and the manifest, which lists the
+//!    set, is moved last. An interruption is made up for by doing all of this step again.
+//!
+//! Files that no manifest lists are never touched. (Exchanging the folder as a whole would lose what others write to it
+//! meanwhile.) A lock, which the operating system frees even after a crash, keeps two runs apart.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::store::atomic;
-use crate::store::writing;
+use crate::store::{atomic, regular, writing};
+use crate::text::visible;
 
 /// The file that lists all files of the set, one a line.
 pub const MANIFEST: &str = "manifest.txt";
 
-/// Files by their path relative to the shelf, with `/` between folders.
+/// The files of a report by their path relative to its folder, with `/` between folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReportSet {
     files: BTreeMap<String, Vec<u8>>,
@@ -27,7 +29,7 @@ impl ReportSet {
     /// Adds a file.
     ///
     /// # Errors
-    /// A path that is there already or that does not stay on the shelf.
+    /// A path that is there already or that leads out of the folder.
     pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> io::Result<()> {
         let path = path.into();
         let refuse =
@@ -56,34 +58,36 @@ impl ReportSet {
 /// Whether a relative path leads to a file below, and to nowhere else.
 fn stays_inside(path: &str) -> bool {
     let plain = |component| matches!(component, Component::Normal(_));
-    !path.is_empty() && !path.contains(['\\', '\n', '\r', ':']) && Path::new(path).components().all(plain)
+    !path.is_empty()
+        && !path.contains(|c: char| c.is_control() || matches!(c, '\\' | ':'))
+        && Path::new(path).components().all(plain)
 }
 
-/// A place for one set of reports.
+/// The folder of one report, and the workshop in which its next set of files is prepared.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Shelf {
-    /// Where the reports are to be found.
-    pub place: PathBuf,
-    /// A folder on the same file system for what is under way.
+pub struct ReportFolder {
+    /// Where readers find the report.
+    pub folder: PathBuf,
+    /// A folder on the same file system, for sets that are not yet in their place.
     pub workshop: PathBuf,
 }
 
-/// Waits until no other process is writing reports, and keeps others waiting until it is dropped.
+/// Waits until no other process is writing reports, and keeps others waiting until the file is dropped.
 ///
 /// # Errors
-/// What the file system says.
+/// That of the operating system.
 pub fn lock(path: &Path) -> io::Result<File> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    let file = File::options().create(true).append(true).open(path)?;
+    let file = regular::open(path, File::options().create(true).append(true))?;
     file.lock()?;
     Ok(file)
 }
 
-impl Shelf {
+impl ReportFolder {
     /// Replaces the former set by this one. Call it with the [`lock`] held.
     ///
     /// # Errors
-    /// What the file system says; an interrupted replacement is completed by the next one.
+    /// That of the operating system; an interrupted replacement is completed by the next one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = writing::begin();
         self.tidy()?;
@@ -102,44 +106,47 @@ impl Shelf {
 
     /// Whether a file is there as it should be: it is then left alone.
     fn holds(&self, path: &str, bytes: &[u8]) -> bool {
-        fs::read(self.place.join(path)).is_ok_and(|found| found == bytes)
+        regular::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
     /// Completes a replacement that was interrupted, and removes what was not yet one. Call it with the [`lock`] held.
     ///
     /// # Errors
-    /// What the file system says.
+    /// That of the operating system, and a manifest that names files outside of the folder: then nothing is moved.
     pub fn tidy(&self) -> io::Result<()> {
         self.complete_interrupted()?;
         remove_if_there(&self.staging())
     }
 
-    /// Moves what is pending to its place. Nothing happens where nothing is pending.
+    /// Moves pending files to their places, if there are any.
     fn complete_interrupted(&self) -> io::Result<()> {
         let pending = self.pending();
-        // Without its manifest all that was pending has been moved: only the empty folder was left.
+        // The manifest is moved last: without it only the empty folder is left.
         if let Some(manifest) = read_if_there(&pending.join(MANIFEST))? {
-            let former = read_if_there(&self.place.join(MANIFEST))?.unwrap_or_default();
+            if let Some(path) = manifest.lines().find(|path| !stays_inside(path) || *path == MANIFEST) {
+                return Err(leads_out(&pending, path));
+            }
+            let former = read_if_there(&self.folder.join(MANIFEST))?.unwrap_or_default();
             self.keep(manifest.lines().filter(|path| pending.join(path).exists()));
             for path in manifest.lines() {
-                move_if_there(&pending.join(path), &self.place.join(path))?;
+                move_if_there(&pending.join(path), &self.folder.join(path))?;
             }
             let stale = former.lines().filter(|path| stays_inside(path) && !manifest.lines().any(|new| new == *path));
-            stale.map(|path| self.place.join(path)).try_for_each(|path| self.remove_stale(&path))?;
-            move_if_there(&pending.join(MANIFEST), &self.place.join(MANIFEST))?;
+            stale.map(|path| self.folder.join(path)).try_for_each(|path| self.remove_stale(&path))?;
+            move_if_there(&pending.join(MANIFEST), &self.folder.join(MANIFEST))?;
         }
         remove_if_there(&pending)?;
         remove_if_there(&self.kept())
     }
 
-    /// Holds on to what is replaced until all is moved: to free a file takes longer than to move one, and the time in which
-    /// old files and new ones lie side by side is to be short.
+    /// Links the files that are replaced into the workshop, so that they are freed after all moves: freeing a file takes longer
+    /// than moving one, and the time in which old and new files lie side by side should be short.
     fn keep<'p>(&self, paths: impl Iterator<Item = &'p str>) {
         let kept = self.kept();
-        // Without it the moves take longer, and that is all.
+        // Without the links the moves take longer, nothing else.
         if fs::create_dir_all(&kept).is_ok() {
             for (k, path) in paths.enumerate() {
-                let _ = fs::hard_link(self.place.join(path), kept.join(k.to_string()));
+                let _ = fs::hard_link(self.folder.join(path), kept.join(k.to_string()));
             }
         }
     }
@@ -154,8 +161,8 @@ impl Shelf {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
         }
-        if let Some(folder) = path.parent().filter(|folder| *folder != self.place) {
-            // It fails where the folder is not empty, which is as it should be.
+        if let Some(folder) = path.parent().filter(|folder| *folder != self.folder) {
+            // It fails where the folder is not empty; then the folder stays.
             let _ = fs::remove_dir(folder);
         }
         Ok(())
@@ -170,13 +177,19 @@ impl Shelf {
     }
 }
 
+fn leads_out(pending: &Path, path: &str) -> io::Error {
+    let (manifest, path) = (visible::path(&pending.join(MANIFEST)), visible::visible(path));
+    let (expected, remedy) = ("paths of files below the report's folder", "remove this folder and run again");
+    io::Error::new(io::ErrorKind::InvalidData, format!("{manifest}: found `{path}`; expected {expected}; {remedy}"))
+}
+
 fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     atomic::write_through(path, bytes)
 }
 
 fn read_if_there(path: &Path) -> io::Result<Option<String>> {
-    if_there(fs::read_to_string(path))
+    if_there(regular::read_to_string(path))
 }
 
 fn move_if_there(from: &Path, to: &Path) -> io::Result<()> {

@@ -30,7 +30,7 @@ fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite
     for check in &outcome.checks {
         suite.add_test_case(case(&header.id, &check.claim, check.verdict, &check.evidence));
     }
-    // Where each part passes and the whole does not, or where there are no parts, the whole has to speak.
+    // A study may not pass although each rate and check does, or may have none: then its verdict is a test case.
     if outcome.verdict != Verdict::Pass && suite.failures == 0 {
         suite.add_test_case(case(&header.id, "verdict", outcome.verdict, &outcome.summary));
     }
@@ -57,7 +57,7 @@ fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
 fn baseline(changes: &[Change]) -> TestSuite {
     let mut suite = TestSuite::new("baseline");
     if changes.is_empty() {
-        suite.add_test_case(case("baseline", "no guarded number has moved", Verdict::Pass, ""));
+        suite.add_test_case(case("baseline", "all baseline values unchanged", Verdict::Pass, ""));
     }
     for change in changes {
         let name = format!("{}: {}", change.study, change.name);

@@ -6,4 +6,5 @@ pub mod file_set;
 pub mod junit;
 pub mod provenance;
 pub mod record;
+pub mod regular;
 pub mod writing;

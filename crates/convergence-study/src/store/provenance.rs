@@ -52,7 +52,7 @@ pub struct StudyTime {
 }
 
 impl Provenance {
-    /// Looks around.
+    /// Collects machine, tools, revision and times.
     ///
     /// * `root`: a folder of the working tree.
     /// * `command`: what was run.
@@ -62,10 +62,10 @@ impl Provenance {
             schema: SCHEMA,
             crate_version: env!("CARGO_PKG_VERSION"),
             command,
-            git_revision: said(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
-            git_modified: said(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
+            git_revision: output_of(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
+            git_modified: output_of(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
                 .map(|changes| !changes.is_empty()),
-            toolchain: said(Command::new(rustc).arg("--version").current_dir(root)),
+            toolchain: output_of(Command::new(rustc).arg("--version").current_dir(root)),
             cpu: cpu_model(),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads_available: thread::available_parallelism().ok().map(usize::from),
@@ -80,13 +80,13 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
     StudyTime { id: header.id.clone(), busy_seconds: spent.busy.as_secs_f64(), wall_seconds: spent.wall.as_secs_f64() }
 }
 
-/// What a command says when it succeeds.
-fn said(command: &mut Command) -> Option<String> {
+/// Standard output of a command that succeeds, without blanks around it.
+fn output_of(command: &mut Command) -> Option<String> {
     let output = command.output().ok().filter(|output| output.status.success())?;
     String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
 }
 
-/// Linux tells it in a file; elsewhere it stays unknown.
+/// Known on Linux only.
 fn cpu_model() -> Option<String> {
     let text = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -34,7 +34,7 @@ pub struct Record {
     pub crate_version: &'static str,
     /// What was run, such as `quick`.
     pub scope: String,
-    /// The verdict on the run, the baseline's word included.
+    /// The verdict on the run, changes against the baseline included.
     pub verdict: &'static str,
     /// What moved away from the baseline, in words.
     pub baseline_changes: Vec<String>,

@@ -1,14 +1,14 @@
-//! What is being written is finished before the process ends, when it is asked to end.
+//! Finishes pending writes before the process exits on request.
 //!
-//! Whoever writes files holds a [`Writing`] for as long as they are not whole. Whoever ends the process on request calls
-//! [`close`] first. A crash needs neither: files have their names only when they are whole.
+//! Code that writes files holds a [`Writing`] until they are complete; code that ends the process calls [`close`] first. A crash
+//! needs neither: files get their names only when they are complete.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Where writers report.
+/// The number of pending writes, and whether new ones may begin.
 #[derive(Debug)]
-struct Desk {
+struct Register {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -19,24 +19,24 @@ struct State {
     is_closed: bool,
 }
 
-/// That of the process.
-static DESK: Desk = Desk::new();
+/// The register of the process.
+static REGISTER: Register = Register::new();
 
-/// Something is being written until this is dropped.
+/// A pending write, until this is dropped.
 #[derive(Debug)]
 #[must_use]
-pub struct Writing<'d>(&'d Desk);
+pub struct Writing<'d>(&'d Register);
 
-/// Begins to write; once the process is about to end this never returns.
+/// Registers a write. After [`close`] it blocks until the process ends.
 pub fn begin() -> Writing<'static> {
-    DESK.begin()
+    REGISTER.begin()
 }
 
-/// Waits until nothing is being written, and lets nobody begin any more. Call it to end the process.
+/// Waits for pending writes and blocks new ones. Call it right before the process exits.
 ///
-/// * `patience`: after this time it returns although something is being written, such as to a disk that hangs.
+/// * `patience`: it returns after this time even if a write is pending, such as to a disk that hangs.
 pub fn close(patience: Duration) {
-    DESK.close(patience);
+    REGISTER.close(patience);
 }
 
 impl Drop for Writing<'_> {
@@ -46,7 +46,7 @@ impl Drop for Writing<'_> {
     }
 }
 
-impl Desk {
+impl Register {
     const fn new() -> Self {
         Self { state: Mutex::new(State { writers: 0, is_closed: false }), changed: Condvar::new() }
     }
@@ -90,33 +90,33 @@ mod tests {
     const SHORT: Duration = Duration::from_millis(50);
 
     #[test]
-    fn what_is_being_written_is_waited_for() {
-        let (desk, is_whole) = (Desk::new(), AtomicBool::new(false));
+    fn closing_waits_for_pending_writes() {
+        let (register, is_whole) = (Register::new(), AtomicBool::new(false));
         thread::scope(|scope| {
-            let (first, second) = (desk.begin(), desk.begin());
+            let (first, second) = (register.begin(), register.begin());
             drop(second);
             scope.spawn(|| {
                 thread::sleep(SHORT);
                 is_whole.store(true, Ordering::SeqCst);
                 drop(first);
             });
-            desk.close(LONG);
+            register.close(LONG);
             assert!(is_whole.load(Ordering::SeqCst));
         });
     }
 
     #[test]
-    fn a_writer_that_hangs_is_waited_for_as_long_as_patience_lasts() {
-        let desk = Desk::new();
-        let _hanging = desk.begin();
+    fn closing_gives_up_on_a_write_that_hangs() {
+        let register = Register::new();
+        let _hanging = register.begin();
         let start = Instant::now();
-        desk.close(SHORT);
+        register.close(SHORT);
         assert!((SHORT..LONG).contains(&start.elapsed()));
     }
 
     #[test]
-    fn nobody_begins_at_a_closed_desk() {
-        static CLOSED: Desk = Desk::new();
+    fn no_write_begins_after_closing() {
+        static CLOSED: Register = Register::new();
         CLOSED.close(Duration::ZERO);
         let (tell, told) = mpsc::channel();
         // It waits for the end of the process.

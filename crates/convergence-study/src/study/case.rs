@@ -1,4 +1,4 @@
-//! One computation of a study, what it found, or why it found nothing.
+//! One computation of a study, and its result or the reason why there is none.
 
 /// One computation of a study.
 #[derive(Debug, Clone, PartialEq)]

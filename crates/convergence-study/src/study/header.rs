@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::input::{self, InputError, Section};
 
 /// The kind of a study whose file has no `kind`.
-pub const DEFAULT_KIND: &str = "convergence";
+const DEFAULT_KIND: &str = "convergence";
 
 /// Longest id: it is part of file names, of which some systems take 255 bytes.
 const LONGEST_NAME: usize = 100;
@@ -48,6 +48,14 @@ pub struct Header {
 }
 
 impl Header {
+    /// The header of a study that no file describes: of the quick tier, of the kind `convergence`.
+    ///
+    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`: it is part of file names.
+    /// * `claim`: one line of text.
+    pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
+        Self { id: id.into(), claim: claim.into(), tier: Tier::Quick, kind: DEFAULT_KIND.to_owned() }
+    }
+
     /// Reads `[study]` of a file and nothing else.
     ///
     /// # Errors

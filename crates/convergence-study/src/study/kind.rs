@@ -29,7 +29,7 @@ pub trait Kind: Send + Sync {
     /// [`CaseFailure`] where the computation did not complete.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must not pass unseen.
+    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
     /// What this study does, for `explain`: paragraphs, each with its title.
@@ -131,11 +131,14 @@ impl<K: Kind> Study for Erased<K> {
     }
 }
 
-/// Cases of one kind and their results; `None` until a case was run.
+/// The result of a case; `None` until it was run.
+type Slot<F> = Mutex<Option<Result<F, CaseFailure>>>;
+
+/// Cases of one kind and their results.
 struct Typed<'k, K: Kind> {
     kind: &'k K,
     cases: Vec<Case<K::Data>>,
-    found: Vec<Mutex<Option<Result<K::Found, CaseFailure>>>>,
+    found: Vec<Slot<K::Found>>,
 }
 
 impl<K: Kind> Typed<'_, K> {
@@ -171,7 +174,7 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
     fn judge(self: Box<Self>) -> Outcome {
         let Self { kind, cases, found } = *self;
-        let result = |slot: Mutex<Option<Result<K::Found, CaseFailure>>>| {
+        let result = |slot: Slot<K::Found>| {
             slot.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(|| Err(never_run()))
         };
         let ran: Vec<_> = cases.into_iter().zip(found).map(|(case, slot)| Ran { case, found: result(slot) }).collect();

@@ -45,6 +45,26 @@ pub struct Refinement {
     pub step: f64,
 }
 
+impl Refinement {
+    /// Levels that are identified by one count each, such as cells or steps.
+    ///
+    /// * `name`: what is counted; the labels are `name = count`.
+    /// * `counts`: coarse to fine.
+    /// * `step`: the step that belongs to a count.
+    /// * Returns each level with its count.
+    pub fn counted(
+        name: &str,
+        counts: impl IntoIterator<Item = usize>,
+        step: impl Fn(usize) -> f64,
+    ) -> Vec<(Self, usize)> {
+        let level = |count: usize| {
+            let parameters = vec![(name.to_owned(), count as f64)];
+            (Self { label: format!("{name} = {count}"), parameters, step: step(count) }, count)
+        };
+        counts.into_iter().map(level).collect()
+    }
+}
+
 /// Errors over levels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {

@@ -6,6 +6,7 @@
 
 mod axis;
 pub mod case;
+mod errors_over_levels;
 mod header;
 pub mod kind;
 pub mod levels;
@@ -15,7 +16,9 @@ pub mod soundness;
 
 pub use axis::Axis;
 pub use case::{Case, CaseFailure, Ran};
+pub use errors_over_levels::{ErrorsOverLevels, NamedErrors};
 pub use header::{Header, Tier};
 pub use kind::{FromFile, Kind, Plan, Study, erased, run_cases_here, run_here};
+pub use levels::{Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
-pub use registry::{KindRow, Kinds, StudyFile, reader};
+pub use registry::{KindRow, Kinds, Reader, StudyFile, reader};

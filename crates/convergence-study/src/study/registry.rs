@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::header::Header;
 use super::kind::{FromFile, Study, erased};
 use crate::input::{self, InputError, Section};
+use crate::text::visible;
 
 /// Reads a study of one kind from the document of its file.
 pub type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
@@ -68,7 +69,7 @@ impl StudyFile {
             let file = Self::read(kinds, path)?;
             let id = &file.study.header().id;
             if let Some(earlier) = files.iter().find(|earlier| earlier.study.header().id == *id) {
-                let found = format!("\"{id}\", which {} has too", earlier.path.display());
+                let found = format!("\"{id}\", which {} has too", visible::path(&earlier.path));
                 return Err(refuse(path, "id", &found, "an id that no other study has"));
             }
             files.push(file);
@@ -86,7 +87,7 @@ fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k 
     Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
 }
 
-/// The complaint about a key of `[study]` of a file that was read before, with its line.
+/// The error about a key of `[study]` of a file that was read before, with its line.
 fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
     let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
         let study = root.require("study", "a table")?.section()?;

@@ -1,18 +1,18 @@
-//! What an outcome must meet before it is believed, whatever the kind of study that has put it together.
+//! Requirements on every outcome, whatever the kind of study.
 //!
-//! Kinds judge; this judges the kinds. A verdict cannot be better than its parts, nothing passes on numbers that are not
-//! finite, and names that record, baseline and report tell things apart by must tell them apart.
+//! A verdict cannot be better than those of its rates and checks, nothing passes on numbers that are not finite, and names
+//! that record, baseline and report use as keys are unique.
 
 use std::collections::HashSet;
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::outcome::{Check, Figure, Outcome};
 
-/// The outcome with its verdict derived anew, and with a failing check for every breach of the contract.
+/// The outcome with its verdict derived anew, and with a failing check where it does not meet the requirements.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
-    let breaches = breaches(id, &outcome);
-    if !breaches.is_empty() {
-        outcome.checks.push(Check::that(false, "the study keeps its contract", breaches.join("; ")));
+    let defects = defects(id, &outcome);
+    if !defects.is_empty() {
+        outcome.checks.push(Check::that(false, "the outcome of the study is sound", defects.join("; ")));
     }
     let claimed = outcome.verdict;
     let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
@@ -21,7 +21,7 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     if outcome.rates.is_empty() && outcome.checks.is_empty() {
         outcome.summary = joined(&outcome.summary, "nothing was judged");
     } else if outcome.verdict != claimed {
-        outcome.summary = joined(&outcome.summary, "yet a part of it did not pass");
+        outcome.summary = joined(&outcome.summary, "but a rate or a check does not pass");
     }
     outcome
 }
@@ -30,28 +30,28 @@ fn joined(summary: &str, more: &str) -> String {
     if summary.is_empty() { more.to_owned() } else { format!("{summary}; {more}") }
 }
 
-fn breaches(id: &str, outcome: &Outcome) -> Vec<String> {
-    let mut breaches = Vec::new();
-    breaches.extend(twice("the rate", outcome.rates.iter().map(|(norm, _)| norm)));
-    breaches.extend(twice("the quantity", outcome.quantities.iter().map(|quantity| &quantity.name)));
-    breaches.extend(twice("the figure", outcome.figures.iter().map(|figure| &figure.file)));
+fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
+    let mut defects = Vec::new();
+    defects.extend(twice("the rate", outcome.rates.iter().map(|(norm, _)| norm)));
+    defects.extend(twice("the quantity", outcome.quantities.iter().map(|quantity| &quantity.name)));
+    defects.extend(twice("the figure", outcome.figures.iter().map(|figure| &figure.file)));
     for level in &outcome.levels {
-        breaches.extend(twice("at one level the norm", level.errors.iter().map(|(norm, _)| norm)));
+        defects.extend(twice("at one level the norm", level.errors.iter().map(|(norm, _)| norm)));
     }
     for (norm, rate) in &outcome.rates {
         if rate.verdict == Verdict::Pass && !rests_on_numbers(rate) {
-            breaches.push(format!("`{norm}` passes without a finite rate in a finite interval"));
+            defects.push(format!("`{norm}` passes without a finite rate in a finite interval"));
         }
     }
     for figure in outcome.figures.iter().filter(|figure| !well_named(id, figure)) {
-        breaches.push(format!("the figure `{}` is not called {id}-<what>.svg", figure.file));
+        defects.push(format!("the figure `{}` is not called {id}-<what>.svg", figure.file));
     }
     for table in &outcome.tables {
         if table.rows.iter().any(|row| row.len() != table.head.len()) {
-            breaches.push(format!("the table `{}` has rows that do not match its head", table.title));
+            defects.push(format!("the table `{}` has rows that do not match its head", table.title));
         }
     }
-    breaches
+    defects
 }
 
 /// Whether a rate that passes has the numbers to pass on.
@@ -69,7 +69,7 @@ fn well_named(id: &str, figure: &Figure) -> bool {
 
 fn twice<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<String> {
     let mut seen = HashSet::new();
-    names.filter(|name| !seen.insert(*name)).map(|name| format!("{what} `{name}` is there twice")).collect()
+    names.filter(|name| !seen.insert(*name)).map(|name| format!("{what} `{name}` occurs twice")).collect()
 }
 
 #[cfg(test)]
@@ -116,11 +116,11 @@ mod tests {
     }
 
     #[test]
-    fn every_breach_of_the_contract_fails_and_is_named() {
+    fn every_defect_of_an_outcome_fails_and_is_named() {
         let quantity = |value| Quantity { name: "q".into(), value, tolerance: 0.1 };
         refused(
             Outcome { quantities: vec![quantity(1.0), quantity(2.0)], ..passing() },
-            "the quantity `q` is there twice",
+            "the quantity `q` occurs twice",
         );
         for file in ["../id-x.svg", "x.svg", "id-.svg", "id-a/b.svg", "id-x.png"] {
             let figure = Figure { file: file.into(), caption: String::new(), svg: String::new() };

@@ -1,5 +1,6 @@
 //! Numbers, columns and names as text.
 
-pub mod columns;
+pub(crate) mod columns;
 pub mod names;
 pub mod number;
+pub mod visible;

@@ -35,7 +35,8 @@ mod tests {
     #[test]
     fn a_typing_error_finds_the_name_and_a_different_word_does_not() {
         let names = ["tier", "tolerance", "order", "kind"];
-        let cases = [("tear", Some("tier")), ("TIER", Some("tier")), ("odrer", Some("order")), ("size", None)];
+        let cases =
+            [("teir", Some("tier")), ("tear", None), ("TIER", Some("tier")), ("odrer", Some("order")), ("size", None)];
         for (written, meant) in cases {
             assert_eq!(nearest(written, names), meant, "{written}");
         }

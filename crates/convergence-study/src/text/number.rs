@@ -78,14 +78,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_rounded_to_nothing_has_no_sign() {
+    fn a_number_rounded_to_zero_has_no_sign() {
         assert_eq!(decimals(-4e-10, 8), "0.00000000");
         assert_eq!(decimals(-4e-8, 8), "-0.00000004");
         assert_eq!(decimals(f64::NAN, 2), "NaN");
     }
 
     #[test]
-    fn committed_numbers_keep_what_machines_agree_on() {
+    fn committed_numbers_keep_the_digits_that_machines_agree_on() {
         for (value, kept) in [
             (1.0 / 3.0, 0.333333),
             (-4.454123456e-8, -4.45412e-8),
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_committed_stays_as_it_is_when_it_is_committed_again() {
+    fn rounding_a_committed_number_again_changes_nothing() {
         for exponent in -20..20 {
             let value = 1.234567891234 * 10f64.powi(exponent);
             assert_eq!(committed(committed(value)), committed(value));
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_short_and_say_what_is_not_a_number() {
+    fn texts_of_numbers_are_short_and_name_nan() {
         assert_eq!(error_text(4.454_12e-8), "4.454e-8");
         assert_eq!(error_text(f64::NAN), "NaN");
         assert_eq!(error_text(0.0), "0");

@@ -2,7 +2,7 @@ use std::fs;
 
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::{Baseline, BaselineError, Refusal};
-use convergence_study::study::outcome::Quantity;
+use convergence_study::study::{Quantity, erased};
 
 use crate::fake::{Does, Fake, fake, finished, ids, study};
 
@@ -13,7 +13,7 @@ fn blessed(studies: Vec<Fake>) -> Baseline {
 }
 
 fn run(studies: Vec<Fake>) -> Vec<Finished> {
-    finished(studies.into_iter().map(|study| Box::new(study) as _).collect())
+    finished(studies.into_iter().map(erased).collect())
 }
 
 /// The changes in words.
@@ -23,7 +23,7 @@ fn changes(baseline: &Baseline, studies: Vec<Fake>, known: Option<&[&str]>) -> V
 }
 
 #[test]
-fn what_was_blessed_has_not_moved() {
+fn a_blessed_run_agrees_with_its_baseline() {
     let baseline = blessed(vec![fake("a", Does::Converge)]);
     assert_eq!(baseline.guards("a"), 1);
     assert!(changes(&baseline, vec![fake("a", Does::Converge)], Some(&["a"])).is_empty());
@@ -37,8 +37,8 @@ fn a_number_that_moved_is_named_with_how_far() {
         (0.9991, None),
         (1.0011, Some("a: finest error moved from 0.00234375 to 0.00234633, by +0.11 %, tolerated 0.1 %")),
         (0.4, Some("a: finest error moved from 0.00234375 to 9.375e-4, by -60 %, tolerated 0.1 %")),
-        (f64::NAN, Some("a: finest error moved from 0.00234375 to NaN, and what is not finite meets nothing")),
-        (f64::INFINITY, Some("a: finest error moved from 0.00234375 to inf, and what is not finite meets nothing")),
+        (f64::NAN, Some("a: finest error moved from 0.00234375 to NaN, which is not finite and matches nothing")),
+        (f64::INFINITY, Some("a: finest error moved from 0.00234375 to inf, which is not finite and matches nothing")),
     ] {
         let found = changes(&baseline, vec![Fake { scale, ..fake("a", Does::Converge) }], None);
         assert_eq!(found, words.map(str::to_owned).into_iter().collect::<Vec<_>>(), "{scale}");
@@ -46,7 +46,7 @@ fn a_number_that_moved_is_named_with_how_far() {
 }
 
 #[test]
-fn what_is_new_and_what_has_vanished_is_named() {
+fn new_and_vanished_numbers_are_named() {
     let baseline = blessed(vec![fake("a", Does::Converge), fake("gone", Does::Converge)]);
     let renamed =
         || vec![Fake { quantity: "coarsest error", ..fake("a", Does::Converge) }, fake("new", Does::Converge)];
@@ -64,7 +64,7 @@ fn what_is_new_and_what_has_vanished_is_named() {
 }
 
 #[test]
-fn a_tolerance_is_not_changed_in_passing() {
+fn a_changed_tolerance_is_reported_and_not_applied() {
     let baseline = blessed(vec![fake("a", Does::Converge)]);
     let loose = || Fake { tolerance: 10.0, ..fake("a", Does::Converge) };
     assert_eq!(changes(&baseline, vec![loose()], None), ["a: finest error has another tolerance: was 1e-3, is 1e1"]);
@@ -108,7 +108,7 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
 }
 
 #[test]
-fn blessing_some_studies_keeps_the_others_and_forgets_only_what_is_gone() {
+fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
     let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
     baseline.bless(&run(vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }]), None).unwrap();
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 1));
@@ -142,4 +142,14 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
     }
     fs::write(&file, r#"{ "schema": 2, "studies": {} }"#).unwrap();
     assert!(Baseline::read(&file).unwrap_err().to_string().ends_with("schema: found 2; allowed is 1"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_the_baseline_is_refused_and_does_not_hang() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    assert!(std::process::Command::new("mkfifo").arg(&file).status().unwrap().success());
+    let refused = Baseline::read(&file).unwrap_err().to_string();
+    assert!(refused.contains("baseline.json: expected a regular file"), "{refused}");
 }

@@ -44,7 +44,7 @@ addEventListener("securitypolicyviolation", event => found.push(event.violatedDi
 "##;
 
 #[test]
-fn the_page_does_what_it_offers() {
+fn links_sorting_filters_and_readings_work_in_a_browser() {
     if !Path::new(CHROMIUM).exists() {
         println!("skipped: there is no {CHROMIUM}");
         return;

@@ -1,18 +1,21 @@
-//! Studies that do as they are told.
+//! Small studies with a prescribed behaviour.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use convergence_study::judge::verdict;
+use convergence_study::judge::verdict::{self, Verdict};
+use convergence_study::project::Project;
+use convergence_study::run::time_limit::Patience;
 use convergence_study::run::{self, Finished};
-use convergence_study::study::case::{Case, CaseFailure, Measured};
-use convergence_study::study::outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
+use convergence_study::study::{
+    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, Outcome, Quantity, Ran, Study, Table, Tier, erased,
+};
 use convergence_study::verify::{Request, Scope};
-use thermobeam_study::scene::Scene;
-use thermobeam_study::simulate::{Recording, Simulator};
-use thermobeam_study::study::Study;
-use thermobeam_study::study_file::{StudyHeader, Tier};
+
+/// The project of these studies; none is read from a file.
+pub(crate) const PROJECT: Project =
+    Project { front_pictures: &[("a-front.svg", "front.svg")], ..Project::new("fakes", "cargo xtask") };
 
 /// What the cases of a study do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +30,9 @@ pub(crate) enum Does {
     Fail,
     /// First order, but the second case panics.
     Panic,
-    /// First order, but the second case would take hours, and does not mind being stopped.
+    /// First order, but the second case runs until its time limit stops it, and returns its error as if nothing had happened.
     Dawdle,
-    /// The conclusion panics.
+    /// Judging the results panics.
     PanicAtTheEnd,
     /// First order on too few levels.
     TooShort,
@@ -38,7 +41,7 @@ pub(crate) enum Does {
 }
 
 pub(crate) struct Fake {
-    pub(crate) header: StudyHeader,
+    pub(crate) header: Header,
     pub(crate) does: Does,
     pub(crate) scale: f64,
     pub(crate) tolerance: f64,
@@ -46,56 +49,56 @@ pub(crate) struct Fake {
 }
 
 pub(crate) fn fake(id: &str, does: Does) -> Fake {
-    let (claim, kind) = ("errors | fall < with *h*".to_owned(), "fake".to_owned());
-    let header = StudyHeader { id: id.to_owned(), claim, tier: Tier::Quick, kind };
+    let header = Header { kind: "fake".to_owned(), ..Header::new(id, "errors | fall < with *h*") };
     Fake { header, does, scale: 1.0, tolerance: 1e-3, quantity: "finest error" }
 }
 
 pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
-    Box::new(fake(id, does))
+    erased(fake(id, does))
 }
 
-impl Study for Fake {
-    fn header(&self) -> &StudyHeader {
+impl Kind for Fake {
+    /// The level.
+    type Data = usize;
+    /// The error.
+    type Found = f64;
+
+    fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case> {
+    fn cases(&self) -> Vec<Case<usize>> {
         let levels = if self.does == Does::TooShort { 2 } else { 5 };
-        (0..levels).map(|i| Case { label: format!("n = {}", 8 << i), cost: f64::from(8 << i) }).collect()
+        (0..levels).map(|i| Case { label: format!("n = {}", 8 << i), cost: f64::from(8 << i), data: i }).collect()
     }
 
-    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
-        let mut error = self.scale * 0.3 / f64::from(8 << index);
-        match (self.does, index) {
-            (Does::Stay, _) => error = self.scale,
-            (Does::NotANumber, 1) => error = f64::NAN,
-            (Does::Fail, 1) => return Err(CaseFailure { reason: "step 3 | t = 0.1: diverged".to_owned() }),
-            (Does::Dawdle, 1) => drop(endless().run(Recording::Summary, &mut |_| ())),
+    fn run(&self, &level: &usize) -> Result<f64, CaseFailure> {
+        let error = self.scale * 0.3 / f64::from(8 << level);
+        match (self.does, level) {
+            (Does::Stay, _) => Ok(self.scale),
+            (Does::NotANumber, 1) => Ok(f64::NAN),
+            (Does::Fail, 1) => Err(CaseFailure { reason: "step 3 | t = 0.1: diverged".to_owned() }),
             (Does::Panic, 1) => panic!("a pivot of {error} was lost"),
-            _ => {}
+            (Does::Dawdle, 1) => {
+                step_until_stopped();
+                Ok(error)
+            }
+            _ => Ok(error),
         }
-        let mut measured = Measured::default();
-        measured.push("velocity", error);
-        Ok(measured)
     }
 
-    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<usize, f64>]) -> Outcome {
         if self.does == Does::PanicAtTheEnd {
             panic!("no conclusion");
         }
         if self.does == Does::Nothing {
-            return Outcome { verdict: verdict::Verdict::Pass, ..Outcome::new("all well", vec![], vec![]) };
+            return Outcome { verdict: Verdict::Pass, ..Outcome::new("all well", vec![], vec![]) };
         }
-        let errors: Vec<f64> = results
-            .iter()
-            .map(|result| result.as_ref().map_or(f64::NAN, |measured| measured.value("velocity")))
-            .collect();
+        let errors: Vec<f64> = ran.iter().map(|ran| ran.ok().copied().unwrap_or(f64::NAN)).collect();
         let pairs = errors.iter().enumerate().map(|(i, error)| (1.0 / f64::from(8 << i), *error));
         let rate = verdict::judge_pairs(pairs, 1.0, 0.1);
         let level = |(i, error): (usize, &f64)| LevelErrors {
-            elements: 8 << i,
-            steps: 20,
+            parameters: vec![("elements".to_owned(), f64::from(8 << i)), ("steps".to_owned(), 20.0)],
             errors: vec![("velocity".to_owned(), *error)],
         };
         let finest = *errors.last().unwrap();
@@ -120,10 +123,14 @@ impl Study for Fake {
     }
 }
 
-/// A beam in small steps.
-fn endless() -> Simulator {
-    let scene = Scene::parse("[time]\ndt = 1e-8\nt_end = 10.0\n", "endless.toml").unwrap();
-    Simulator::new(&scene).unwrap()
+/// A computation of hours in short steps; returns when the time limit is reached.
+fn step_until_stopped() {
+    let mut patience = Patience::new(100);
+    for step in 0.. {
+        if patience.check(step, || 1e-8 * step as f64).is_err() {
+            return;
+        }
+    }
 }
 
 pub(crate) fn jobs(count: usize) -> NonZeroUsize {
@@ -132,7 +139,7 @@ pub(crate) fn jobs(count: usize) -> NonZeroUsize {
 
 /// Runs on two threads.
 pub(crate) fn finished(studies: Vec<Box<dyn Study>>) -> Vec<Finished> {
-    runner::run(&studies, jobs(2), &|_| {}).unwrap()
+    run::run(&studies, jobs(2), &|_| {}).unwrap()
 }
 
 pub(crate) fn ids(ids: &[&str]) -> BTreeSet<String> {

@@ -1,11 +1,11 @@
-//! From studies to reports: the runner, the baseline, the record, the shelf, with small studies that do as they are told.
+//! From studies to reports: runner, baseline, record, report and its files, with studies of a prescribed behaviour.
 
 mod baseline;
 mod browser;
 mod fake;
+mod file_set;
 mod page;
 mod record;
 mod report;
 mod runner;
-mod shelf;
 mod whole;

@@ -7,12 +7,13 @@ use convergence_study::run::Finished;
 use convergence_study::study::outcome::Figure;
 use roxmltree::{Document, Node};
 
-use crate::fake::{Does, finished, study};
+use crate::fake::{Does, PROJECT, finished, study};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let see_also = Some(("the report on the full tier", "full"));
     let command = "cargo xtask verify";
-    Findings { scope: "quick", command, finished, changes: &[], verdict: Verdict::Fail, see_also }.page()
+    Findings { project: &PROJECT, scope: "quick", command, finished, changes: &[], verdict: Verdict::Fail, see_also }
+        .page()
 }
 
 /// One study that passes and one that fails, with a picture of two curves each.
@@ -70,7 +71,7 @@ fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
 }
 
 #[test]
-fn verdicts_come_first_and_what_does_not_pass_is_unfolded() {
+fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
     let page = page_of(&two());
     assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
     parsed(&page, |document| {
@@ -82,7 +83,7 @@ fn verdicts_come_first_and_what_does_not_pass_is_unfolded() {
 }
 
 #[test]
-fn nothing_is_loaded_and_hostile_words_do_no_harm() {
+fn the_page_loads_nothing_and_escapes_hostile_texts() {
     let hostile =
         "``` <script>alert(1)</script> ` ``\"><img src=http://x/y onerror=z> [a](javascript:b) ![c](//d) ]]> &amp;";
     let mut studies = two();

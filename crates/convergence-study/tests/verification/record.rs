@@ -1,18 +1,19 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::store::record::{Precision, Record, json};
+use convergence_study::study::erased;
 use serde_json::Value;
 
 use crate::fake::{Does, Fake, fake, finished, study};
 
 fn record(does: Does, precision: Precision) -> Value {
     let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };
-    let finished = finished(vec![Box::new(exact)]);
+    let finished = finished(vec![erased(exact)]);
     let record = Record::new("quick", Verdict::Pass, vec![], &finished, precision);
     serde_json::from_str(&json(&record).unwrap()).unwrap()
 }
 
 #[test]
-fn a_record_has_the_contracted_fields() {
+fn a_record_has_the_documented_fields() {
     let record = record(Does::Converge, Precision::Full);
     assert_eq!(record["schema"], 1);
     let study = &record["studies"][0];
@@ -38,7 +39,7 @@ fn a_committed_record_keeps_six_digits() {
 }
 
 #[test]
-fn what_is_not_finite_is_null_and_named() {
+fn numbers_that_are_not_finite_are_null_and_named() {
     for does in [Does::NotANumber, Does::Fail, Does::Panic] {
         let record = record(does, Precision::Full);
         let study = &record["studies"][0];

@@ -6,7 +6,7 @@ use convergence_study::store::junit::junit;
 use convergence_study::study::outcome::Quantity;
 use roxmltree::Document;
 
-use crate::fake::{Does, finished, study};
+use crate::fake::{Does, PROJECT, finished, study};
 
 fn several() -> Vec<Finished> {
     let does = [Does::Converge, Does::Panic, Does::TooShort, Does::Nothing, Does::PanicAtTheEnd];
@@ -16,7 +16,15 @@ fn several() -> Vec<Finished> {
 fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
     let changes = Baseline::default().compare(finished, None);
     let command = "cargo xtask verify";
-    read(&Findings { scope: "quick", command, finished, changes: &changes, verdict: Verdict::Fail, see_also: None })
+    read(&Findings {
+        project: &PROJECT,
+        scope: "quick",
+        command,
+        finished,
+        changes: &changes,
+        verdict: Verdict::Fail,
+        see_also: None,
+    })
 }
 
 /// Columns of a line of a table: pipes that are not escaped.
@@ -45,7 +53,7 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
     assert_eq!(
         lines[2],
         "**fail**: 2 of 5 fail (study-1.0, study-4.0), 2 of 5 inconclusive (study-2.0, study-3.0); \
-         3 guarded numbers are not what they were"
+         3 baseline values changed"
     );
     for part in [
         "| [study-0.0](#study-00) | errors \\| fall < with \\*h\\* | pass ",
@@ -77,7 +85,7 @@ fn csv_has_one_error_a_line() {
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = junit(&studies, &Baseline::default().compare(&studies, None)).unwrap();
+    let text = junit(PROJECT.name, &studies, &Baseline::default().compare(&studies, None)).unwrap();
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
     let failures: Vec<&str> = suites.iter().map(|suite| suite.attribute("failures").unwrap()).collect();
@@ -95,11 +103,11 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
 }
 
 #[test]
-fn words_that_xml_and_markdown_reserve_do_no_harm() {
+fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
-    let text = junit(&studies, &[]).unwrap();
+    let text = junit(PROJECT.name, &studies, &[]).unwrap();
     let document = Document::parse(&text).unwrap();
     let message =
         document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
@@ -129,13 +137,13 @@ fn a_reason_is_given_where_a_rate_does_not_hold() {
 #[test]
 fn the_picture_for_the_front_page_has_a_name_of_its_own() {
     let mut studies = finished(vec![study("a", Does::Converge)]);
-    let has_beam = |studies: &[Finished]| {
+    let has_front = |studies: &[Finished]| {
         let files = with(studies, |findings| findings.files().unwrap());
-        files.files().any(|(path, bytes)| path == "beam.svg" && bytes == b"<svg/>")
+        files.files().any(|(path, bytes)| path == "front.svg" && bytes == b"<svg/>")
     };
-    assert!(!has_beam(&studies));
-    studies[0].outcome.figures[0].file = "section-5-beam.svg".to_owned();
-    assert!(has_beam(&studies));
+    assert!(!has_front(&studies));
+    studies[0].outcome.figures[0].file = "a-front.svg".to_owned();
+    assert!(has_front(&studies));
 }
 
 #[test]

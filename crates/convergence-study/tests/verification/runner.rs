@@ -3,6 +3,7 @@ use std::time::Duration;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::{self, Effort, RunError};
+use convergence_study::study::Study;
 
 use crate::fake::{Does, finished, jobs, study};
 
@@ -17,12 +18,12 @@ const ALL: [Does; 8] = [
     Does::Nothing,
 ];
 
-fn all() -> Vec<Box<dyn thermobeam_study::study::Study>> {
+fn all() -> Vec<Box<dyn Study>> {
     ALL.iter().enumerate().map(|(i, does)| study(&format!("study-{i}"), *does)).collect()
 }
 
 #[test]
-fn every_way_of_not_passing_is_seen_and_stops_nothing_else() {
+fn every_way_of_not_passing_is_reported_and_stops_no_other_study() {
     let expected = [
         (Verdict::Pass, 0, "the rate agrees"),
         (Verdict::Fail, 0, "does not fall"),
@@ -52,10 +53,10 @@ fn a_failed_case_keeps_its_label_and_reason() {
 }
 
 #[test]
-fn a_case_that_was_stopped_has_failed_whatever_it_says() {
+fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
     let effort = Effort { case_limit: Some(Duration::from_millis(50)), ..jobs(2).into() };
     let studies = vec![study("dawdles", Does::Dawdle), study("converges", Does::Converge)];
-    let finished = runner::run(&studies, effort, &|_| {}).unwrap();
+    let finished = run::run(&studies, effort, &|_| {}).unwrap();
     let [stopped] = &finished[0].failed_cases[..] else { panic!("{:?}", finished[0].failed_cases) };
     assert!(stopped.reason.starts_with("stopped at the limit of 0.05 s, after step "), "{}", stopped.reason);
     assert_eq!((finished[0].outcome.verdict, finished[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
@@ -64,7 +65,7 @@ fn a_case_that_was_stopped_has_failed_whatever_it_says() {
 #[test]
 fn any_number_of_threads_gives_the_same_outcomes() {
     let outcomes = |count| {
-        let finished = runner::run(&all(), jobs(count), &|_| {}).unwrap();
+        let finished = run::run(&all(), jobs(count), &|_| {}).unwrap();
         finished.into_iter().map(|finished| format!("{:?}", finished.outcome)).collect::<Vec<_>>()
     };
     let one = outcomes(1);
@@ -77,7 +78,7 @@ fn any_number_of_threads_gives_the_same_outcomes() {
 fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
     let told = Mutex::new(Vec::new());
     let studies = vec![study("a", Does::Converge), study("b", Does::Panic)];
-    runner::run(&studies, jobs(1), &|progress| told.lock().unwrap().push(progress)).unwrap();
+    run::run(&studies, jobs(1), &|progress| told.lock().unwrap().push(progress)).unwrap();
     let told = told.into_inner().unwrap();
     let costs: Vec<f64> =
         told.iter().scan(0.0, |before, now| Some(now.done_cost - std::mem::replace(before, now.done_cost))).collect();
@@ -90,6 +91,6 @@ fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
 #[test]
 fn two_studies_of_one_name_are_refused() {
     let studies = vec![study("same", Does::Converge), study("other", Does::Converge), study("same", Does::Stay)];
-    let refused = runner::run(&studies, jobs(1), &|_| panic!("nothing may run")).unwrap_err();
+    let refused = run::run(&studies, jobs(1), &|_| panic!("nothing may run")).unwrap_err();
     assert!(matches!(&refused, RunError::DuplicateId(id) if id == "same"), "{refused}");
 }

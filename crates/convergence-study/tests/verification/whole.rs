@@ -5,14 +5,13 @@ use std::fs;
 use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{Study, Tier, erased};
 use convergence_study::verify::{Request, Scope, Verification, VerificationError, verify};
-use thermobeam_study::study::Study;
-use thermobeam_study::study_file::Tier;
 
-use crate::fake::{Does, Fake, fake, ids, jobs, request, study};
+use crate::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
 
 fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
-    verify(&studies, request, &|_| {}).unwrap()
+    verify(&PROJECT, &studies, request, &|_| {}).unwrap()
 }
 
 /// The files directly in a folder and in its figures.
@@ -37,7 +36,7 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     assert_eq!((blessed.verdict, blessed.blessing), (Verdict::Pass, Some(Ok(()))));
     assert_eq!(run(vec![study("a", Does::Converge)], &plain).verdict, Verdict::Pass);
     let moved = Fake { scale: 1.5, ..fake("a", Does::Converge) };
-    let moved = run(vec![Box::new(moved)], &plain);
+    let moved = run(vec![erased(moved)], &plain);
     assert_eq!((moved.finished[0].outcome.verdict, moved.verdict), (Verdict::Pass, Verdict::Fail));
     assert!(fs::read_to_string(root.path().join("reports/README.md")).unwrap().contains("by +50 %"));
 }
@@ -111,7 +110,7 @@ fn a_selection_blesses_itself_alone() {
     let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
     run(both(), &Request { bless: true, ..quick.clone() });
     let scope = Scope::Selection(vec!["a".to_owned()]);
-    let moved: Vec<Box<dyn Study>> = vec![Box::new(Fake { scale: 2.0, ..fake("a", Does::Converge) })];
+    let moved: Vec<Box<dyn Study>> = vec![erased(Fake { scale: 2.0, ..fake("a", Does::Converge) })];
     assert_eq!(run(moved, &Request { bless: true, scope, ..quick.clone() }).verdict, Verdict::Pass);
     let after = run(both(), &quick);
     assert_eq!(after.changes.iter().map(|change| change.study.as_str()).collect::<Vec<_>>(), ["a"]);
@@ -123,7 +122,8 @@ fn an_unusable_baseline_stops_everything_before_it_starts() {
     fs::create_dir_all(root.path().join("studies")).unwrap();
     fs::write(root.path().join("studies/baseline.json"), "{").unwrap();
     let studies = [study("a", Does::Converge)];
-    let stopped = verify(&studies, &request(root.path(), &["a"]), &|_| panic!("nothing may run")).unwrap_err();
+    let stopped =
+        verify(&PROJECT, &studies, &request(root.path(), &["a"]), &|_| panic!("nothing may run")).unwrap_err();
     assert!(matches!(stopped, VerificationError::Baseline(_)), "{stopped}");
     assert!(!root.path().join("reports").exists());
 }

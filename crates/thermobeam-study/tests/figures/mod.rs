@@ -1,24 +1,14 @@
 //! Made-up data that look like the real thing, one set per figure.
 
-use convergence_study::plots::*;
+use convergence_study::plots::{Guide, Series};
+use thermobeam_study::figures::*;
 
-/// Every figure, drawn.
+/// Every figure of a beam, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     vec![
-        ("convergence-space", convergence(&space_errors())),
-        ("convergence-time", convergence(&time_errors())),
-        ("surface", surface(&error_surface())),
-        ("history-tip", history(&tip_history(100_000))),
-        ("history-energy", history(&energy_history())),
-        ("history-log", history(&balance_history())),
-        ("space-time", space_time(&wave(400, 200))),
         ("contraction", contraction(&contraction_factors())),
-        ("iterations", iterations(&iteration_counts())),
-        ("parameter-map", parameter_map(&stability_map())),
         ("bifurcation", bifurcation(&equilibria())),
-        ("work-precision", work_precision(&costs())),
         ("animation", animation(&motion())),
-        ("hostile", history(&hostile())),
     ]
 }
 
@@ -26,156 +16,9 @@ fn series(label: &str, points: Vec<(f64, f64)>) -> Series {
     Series { label: label.into(), points }
 }
 
-fn errors(label: &str, constant: f64, order: f64, steps: &[f64]) -> ErrorSeries {
-    let points: Vec<_> = steps.iter().map(|&h| (h, constant * h.powf(order) * (1.0 + 0.3 * h))).collect();
-    ErrorSeries {
-        label: label.into(),
-        points,
-        order: Some(order),
-        fit: Some(PowerLaw { rate: order * 1.002, constant }),
-        baseline: Vec::new(),
-    }
-}
-
-pub(crate) fn space_errors() -> Convergence {
-    let h: Vec<f64> = (3..=12).map(|k| 0.5_f64.powi(k)).collect();
-    let mut norms = vec![
-        errors("velocity", 0.75, 2.0, &h),
-        errors("shear", 0.96, 1.0, &h),
-        errors("rotation-rate", 0.24, 2.0, &h),
-        errors("curvature", 0.19, 1.0, &h),
-        errors("temperature", 1.06, 2.0, &h),
-        errors("theorem-3.4", 1.3, 1.0, &h),
-        errors("superclose", 0.48, 2.0, &h),
-    ];
-    norms[5].baseline = norms[5].points.iter().map(|&(h, e)| (h, 1.01 * e)).collect();
-    Convergence { series: norms, slopes: vec![1.0, 2.0], ..Convergence::in_space() }
-}
-
-pub(crate) fn time_errors() -> Convergence {
-    let dt: Vec<f64> = (4..=10).map(|k| 0.5_f64.powi(k)).collect();
-    let mut euler = errors("euler-crank-nicolson", 1.2, 1.0, &dt);
-    euler.fit = None;
-    let midpoint = errors("midpoint", 0.8, 2.0, &dt);
-    Convergence {
-        title: Some("Time isolated: error over dt".into()),
-        series: vec![euler, midpoint],
-        slopes: vec![1.0, 2.0],
-        floor: Some(Guide { label: "round-off".into(), value: 1e-8 }),
-        ..Convergence::in_time()
-    }
-}
-
-pub(crate) fn error_surface() -> Surface {
-    let h: Vec<f64> = (2..=9).map(|k| 0.5_f64.powi(k)).collect();
-    let values = h.iter().map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect()).collect();
-    Surface {
-        title: None,
-        x: Axis::log("time step dt (dimensionless)"),
-        y: Axis::log("mesh width h (dimensionless)"),
-        z: Axis::log("error in the norm of Theorem 3.4"),
-        x_values: 1.0.iter_dt().collect(),
-        y_values: h,
-        values,
-    }
-}
-
-trait Steps {
-    fn iter_dt(&self) -> Box<dyn Iterator<Item = f64>>;
-}
-
-impl Steps for f64 {
-    fn iter_dt(&self) -> Box<dyn Iterator<Item = f64>> {
-        Box::new((2..=10).map(|k| 0.5_f64.powi(k)))
-    }
-}
-
 fn tip(t: f64) -> f64 {
     let free = 0.16 * (-0.25 * t).exp() * (9.0 * t).sin() + 0.004 * (60.0 * t).sin();
     free.clamp(-0.0105, 0.1004)
-}
-
-fn contact_phases(t_end: f64) -> Phases {
-    let mut intervals: Vec<(f64, f64)> = Vec::new();
-    let mut start = None;
-    for k in 0..20_000 {
-        let t = t_end * f64::from(k) / 20_000.0;
-        let touches = tip(t) <= -0.01 || tip(t) >= 0.1;
-        match (touches, start) {
-            (true, None) => start = Some(t),
-            (false, Some(from)) => {
-                intervals.push((from, t));
-                start = None;
-            }
-            _ => {}
-        }
-    }
-    Phases { label: "contact".into(), intervals }
-}
-
-pub(crate) fn tip_history(samples: u32) -> History {
-    let t = |k: u32| 10.0 * f64::from(k) / f64::from(samples);
-    History {
-        y: Axis::linear("tip displacement u(1, t) (dimensionless)"),
-        series: vec![
-            series("euler-crank-nicolson", (0..samples).map(|k| (t(k), tip(t(k)))).collect()),
-            series("midpoint", (0..samples).map(|k| (t(k), 0.7 * tip(t(k) + 0.05))).collect()),
-        ],
-        guides: vec![
-            Guide { label: "g₁ = −0.01".into(), value: -0.01 },
-            Guide { label: "g₂ = 0.1".into(), value: 0.1 },
-        ],
-        phases: contact_phases(10.0),
-        ..Default::default()
-    }
-}
-
-pub(crate) fn energy_history() -> History {
-    let t = |k: u32| 10.0 * f64::from(k) / 2000.0;
-    let energy = |beta: f64, rate: f64| {
-        (0..2000)
-            .map(|k| (t(k), 0.25 * beta * beta + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos())))
-            .collect()
-    };
-    History {
-        title: Some("Energy falls to the level of the straight beam".into()),
-        y: Axis::linear("energy E (dimensionless)"),
-        series: vec![
-            series("β = 0", energy(0.0, 0.5)),
-            series("β = −2", energy(2.0, 0.9)),
-            series("β = 2.1", energy(2.1, 1.4)),
-        ],
-        guides: vec![Guide { label: "β²/(4ρ)".into(), value: 1.0 }, Guide { label: "2.1²/(4ρ)".into(), value: 1.1025 }],
-        ..Default::default()
-    }
-}
-
-pub(crate) fn balance_history() -> History {
-    let noise = |k: u32| f64::from(k.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
-    let residual = |scale: f64, seed: u32| {
-        (0..30_000).map(|k| (f64::from(k) / 3000.0, if k == 7 { 0.0 } else { scale * noise(k + seed) })).collect()
-    };
-    History {
-        y: Axis::log("residual of the energy balance"),
-        series: vec![series("newton", residual(5e-15, 1)), series("fixed-point", residual(3e-11, 2))],
-        phases: contact_phases(10.0),
-        ..Default::default()
-    }
-}
-
-pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
-    let times: Vec<f64> = (0..frames).map(|n| 10.0 * f64::from(n) / f64::from(frames - 1)).collect();
-    let x: Vec<f64> = (0..nodes).map(|i| f64::from(i) / f64::from(nodes - 1)).collect();
-    let field = |t: f64, x: f64| {
-        tip(t) * x * x * (3.0 - x) / 2.0 + 0.02 * (-0.1 * t).exp() * (7.85 * x).sin() * (19.0 * t).cos()
-    };
-    SpaceTime {
-        title: None,
-        label: "displacement u (dimensionless)".into(),
-        frames: times.iter().map(|&t| x.iter().map(|&x| field(t, x)).collect()).collect(),
-        times,
-        nodes: x,
-    }
 }
 
 pub(crate) fn contraction_factors() -> Contraction {
@@ -189,48 +32,6 @@ pub(crate) fn contraction_factors() -> Contraction {
             series("ε = 10⁻³", family(1e-3, 0..7)),
             series("ε = 10⁻⁴", family(1e-4, 0..5)),
         ],
-    }
-}
-
-pub(crate) fn iteration_counts() -> Iterations {
-    let phases = contact_phases(3.0);
-    let in_contact = |t: f64| phases.intervals.iter().any(|&(a, b)| a <= t && t <= b);
-    let count = |base: f64, more: f64| {
-        (1..=3000)
-            .map(|k| (f64::from(k) * 1e-3, base + if in_contact(f64::from(k) * 1e-3) { more } else { 0.0 }))
-            .collect()
-    };
-    Iterations {
-        series: vec![series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))],
-        phases: phases.clone(),
-        ..Default::default()
-    }
-}
-
-pub(crate) fn stability_map() -> ParameterMap {
-    let dt: Vec<f64> = (0..33).map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k))).collect();
-    let eps: Vec<f64> = (0..25).map(|k| 10f64.powf(-4.0 + 0.1 * f64::from(k))).collect();
-    let alpha = |dt: f64, eps: f64| dt.powf(1.5) / (eps * 0.1_f64.sqrt());
-    let count = |a: f64| if a < 1.0 { (23.0 / -a.ln()).ceil().clamp(2.0, 100.0) } else { f64::NAN };
-    let grid = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
-        eps.iter().map(|&e| dt.iter().map(|&d| f(alpha(d, e))).collect()).collect()
-    };
-    let marked = grid(&|a| if a < 1.0 { 0.0 } else { 1.0 });
-    let boundary =
-        |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
-    ParameterMap {
-        cells: Surface {
-            x: Axis::log("time step dt (dimensionless)"),
-            y: Axis::log("compliance ε (dimensionless)"),
-            z: Axis::log("iterations per step"),
-            values: grid(&count),
-            x_values: dt.clone(),
-            y_values: eps.clone(),
-            title: None,
-        },
-        marked: marked.iter().map(|row| row.iter().map(|&v| v > 0.0).collect()).collect(),
-        marked_label: "diverged".into(),
-        boundaries: vec![series("predicted, α = 1", boundary(1.0)), series("measured", boundary(1.12))],
     }
 }
 
@@ -259,22 +60,6 @@ pub(crate) fn equilibria() -> Bifurcation {
     }
 }
 
-pub(crate) fn costs() -> WorkPrecision {
-    let run = |label: &str, c: f64, p: f64| {
-        series(label, (0..7).map(|k| (2e-3 * 2f64.powi(k), c * 0.5_f64.powf(p * f64::from(k)))).collect())
-    };
-    WorkPrecision {
-        title: None,
-        x_label: None,
-        y_label: "error in u(1, T) (dimensionless)".into(),
-        series: vec![
-            run("euler-crank-nicolson, newton", 3e-2, 1.0),
-            run("euler-crank-nicolson, fixed point", 8e-2, 1.0),
-            run("midpoint, newton", 1e-2, 2.0),
-        ],
-    }
-}
-
 pub(crate) fn motion() -> Animation {
     let times: Vec<f64> = (0..60).map(|n| 3.0 * f64::from(n) / 59.0).collect();
     let nodes: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
@@ -287,23 +72,5 @@ pub(crate) fn motion() -> Animation {
         nodes,
         obstacles: Some((-0.01, 0.1)),
         seconds: 10.0,
-    }
-}
-
-/// Labels too long, markup, values that cannot be drawn, hardly any range.
-pub(crate) fn hostile() -> History {
-    History {
-        title: Some(
-            "A title so long that no page could ever hold it, not even one that was twice as wide as this one".into(),
-        ),
-        y: Axis::log("a vertical label that goes on & on <for ever> and then for a little longer than that"),
-        series: vec![
-            series(
-                "a series whose name does not fit into a legend of any reasonable width, whatever one may try to do",
-                vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.000_000_1), (f64::INFINITY, 1.0), (3.0, -1.0)],
-            ),
-            series("<b>&\u{0}", vec![(0.5, 1.000_000_05)]),
-        ],
-        ..Default::default()
     }
 }

@@ -1,13 +1,13 @@
 //! What differs between a baseline and a run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
 use super::Guarded;
 use crate::study::outcome::Quantity;
 use crate::text::number::plain_text;
 
-/// A guarded number that is not what it was.
+/// A guarded number that changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// The study.
@@ -50,8 +50,8 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// What to look at first: by how many times the tolerance a number has moved. What cannot be compared comes ahead of
-    /// all, but for what is only new.
+    /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite where old and new
+    /// value cannot be compared, 0 for a new number.
     pub fn weight(&self) -> f64 {
         match *self {
             Self::Moved { from, to, tolerance } => {
@@ -64,7 +64,7 @@ impl Movement {
     }
 }
 
-/// Whether a number is what it was. Nothing meets NaN or infinity, and a tolerance that is neither is no tolerance.
+/// Whether two values agree within a finite tolerance; NaN and infinity agree with nothing.
 pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
     tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()
 }
@@ -79,7 +79,8 @@ pub(super) fn between(study: &str, expected: &BTreeMap<String, Guarded>, found: 
             None => changes.push(change(&quantity.name, Movement::New { value: quantity.value })),
         }
     }
-    let vanished = expected.iter().filter(|(name, _)| !found.iter().any(|quantity| quantity.name == **name));
+    let names: HashSet<&str> = found.iter().map(|quantity| quantity.name.as_str()).collect();
+    let vanished = expected.iter().filter(|(name, _)| !names.contains(name.as_str()));
     changes.extend(vanished.map(|(name, guarded)| change(name, Movement::Vanished { value: guarded.value })));
     changes
 }
@@ -124,7 +125,7 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
     } else if from == 0.0 && to.is_finite() {
         write!(f, ", and nothing but 0 is tolerated")
     } else {
-        write!(f, ", and what is not finite meets nothing")
+        write!(f, ", which is not finite and matches nothing")
     }
 }
 

@@ -1,0 +1,69 @@
+//! Files that the harness itself has written, read back: a pipe or a device in their place would keep it waiting for ever.
+
+use std::fs::{self, File, OpenOptions};
+use std::io;
+use std::path::Path;
+
+/// The text of a regular file.
+///
+/// # Errors
+/// That of the operating system, and what is not a regular file or not UTF-8.
+pub fn read_to_string(path: &Path) -> io::Result<String> {
+    check(path)?;
+    fs::read_to_string(path)
+}
+
+/// The bytes of a regular file.
+///
+/// # Errors
+/// As [`read_to_string`].
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    check(path)?;
+    fs::read(path)
+}
+
+/// Opens a regular file; one that is missing is made where `options` say so.
+///
+/// # Errors
+/// As [`read_to_string`].
+pub(crate) fn open(path: &Path, options: &OpenOptions) -> io::Result<File> {
+    match check(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => options.open(path),
+    }
+}
+
+/// Links are followed. The check comes first because opening a pipe already waits for its other end.
+fn check(path: &Path) -> io::Result<()> {
+    if fs::metadata(path)?.is_file() {
+        Ok(())
+    } else {
+        Err(io::Error::new(io::ErrorKind::InvalidInput, "expected a regular file, found a folder, a pipe or a device"))
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pipes_devices_and_folders_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        for path in [pipe.as_path(), Path::new("/dev/zero"), folder.path()] {
+            let refused = [
+                read_to_string(path).unwrap_err(),
+                read(path).unwrap_err(),
+                open(path, File::options().append(true)).unwrap_err(),
+            ];
+            for error in refused {
+                assert!(error.to_string().contains("expected a regular file"), "{error}");
+            }
+        }
+        let file = folder.path().join("file");
+        assert_eq!(read(&file).unwrap_err().kind(), io::ErrorKind::NotFound);
+        open(&file, File::options().append(true).create(true)).unwrap();
+        assert_eq!(read_to_string(&file).unwrap(), "");
+    }
+}

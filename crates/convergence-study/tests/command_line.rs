@@ -1,0 +1,233 @@
+//! A project's command line as a shell sees it: this program is the project where `AS_PROJECT` is set, else its tests.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode, Output, Stdio};
+
+use convergence_study::cli;
+use convergence_study::input::{InputError, Section};
+use convergence_study::project::Project;
+use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refinement, Study, erased};
+use tempfile::TempDir;
+
+const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
+
+const PROJECT: Project = Project {
+    kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }],
+    ..Project::new("powers", "powers")
+};
+
+/// Errors h^exponent, claimed to be of first order.
+fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
+    root.allow(&["study", "exponent"])?;
+    let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
+    let levels = Refinement::counted("n", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
+    let error = move |&n: &usize| Ok(vec![("error", (n as f64).powf(-exponent))]);
+    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", 1.0, 0.05)))
+}
+
+type Test = (&'static str, fn());
+
+const TESTS: [Test; 8] = [
+    ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
+    ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
+    ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
+    ("claims_and_ids_with_control_characters_are_refused", claims_and_ids_with_control_characters_are_refused),
+    ("names_of_columns_and_files_are_no_commands", names_of_columns_and_files_are_no_commands),
+    ("pipes_in_place_of_records_do_not_hang", pipes_in_place_of_records_do_not_hang),
+    ("tables_and_studies_come_from_standard_input", tables_and_studies_come_from_standard_input),
+    ("every_command_is_in_the_help", every_command_is_in_the_help),
+];
+
+fn main() -> ExitCode {
+    if std::env::var_os(AS_PROJECT).is_some() {
+        return cli::main(&PROJECT);
+    }
+    let filter = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let mut failed = 0;
+    for (name, test) in TESTS.iter().filter(|(name, _)| filter.as_ref().is_none_or(|filter| name.contains(filter))) {
+        let passes = std::panic::catch_unwind(test).is_ok();
+        failed += usize::from(!passes);
+        println!("test {name} ... {}", if passes { "ok" } else { "FAILED" });
+    }
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// A workspace with the studies `one`, which passes, and `two`, which fails, if wanted.
+fn workspace(with_a_failure: bool) -> TempDir {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("Cargo.toml"), "").unwrap();
+    fs::create_dir(root.path().join("studies")).unwrap();
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0)).unwrap();
+    if with_a_failure {
+        fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
+    }
+    root
+}
+
+fn study(id: &str, claim: &str, exponent: f64) -> String {
+    let head = format!("exponent = {exponent:?}\n[study]\nid = \"{id}\"\nclaim = \"{claim}\"\n");
+    head + "tier = \"quick\"\nkind = \"power\"\n"
+}
+
+fn command(root: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(arguments).current_dir(root).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
+    command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY").stdin(Stdio::null());
+    command
+}
+
+fn run(root: &TempDir, arguments: &[&str]) -> (Option<i32>, String, String) {
+    texts(command(root.path(), arguments).output().unwrap())
+}
+
+fn texts(output: Output) -> (Option<i32>, String, String) {
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code(), out, err)
+}
+
+/// No control characters but line ends, and no line that GitHub Actions would obey.
+#[track_caller]
+fn is_harmless(text: &str) {
+    assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
+    assert!(!text.lines().any(|line| line.trim_start().starts_with("::")), "{text:?}");
+}
+
+fn verify_ends_with_0_1_or_2() {
+    let root = workspace(false);
+    assert_eq!(run(&root, &["verify"]).0, Some(1), "every number is new");
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    let (status, out, _) = run(&root, &["verify"]);
+    assert_eq!(status, Some(0));
+    assert!(out.contains("pass: all 1 studies pass") || out.contains("pass: the study passes"), "{out}");
+    fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
+    let (status, _, err) = run(&root, &["verify"]);
+    assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
+}
+
+fn an_unwritable_job_summary_keeps_the_exit_status() {
+    for (with_a_failure, status) in [(false, 0), (true, 1)] {
+        let root = workspace(with_a_failure);
+        run(&root, &["verify", "one", "--bless"]);
+        let scope = if with_a_failure { "two" } else { "one" };
+        for page in ["/nowhere/page", "."] {
+            let mut command = command(root.path(), &["verify", scope]);
+            let (found, out, err) = texts(command.env("GITHUB_STEP_SUMMARY", page).output().unwrap());
+            assert_eq!(found, Some(status), "{out}{err}");
+            assert!(err.contains(&format!("GITHUB_STEP_SUMMARY={page}: cannot write the job summary")), "{err}");
+        }
+        let page = root.path().join("page.md");
+        command(root.path(), &["verify", scope]).env("GITHUB_STEP_SUMMARY", &page).output().unwrap();
+        assert!(fs::read_to_string(page).unwrap().starts_with("## Verification, selection\n"));
+    }
+}
+
+fn annotations_are_commands_and_nothing_else_is() {
+    let root = workspace(false);
+    fs::write(root.path().join("studies/two.toml"), study("two", "::error title=forged::x", 0.5)).unwrap();
+    let mut command = command(root.path(), &["verify"]);
+    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true").output().unwrap());
+    assert_eq!(status, Some(1));
+    let commands: Vec<&str> = out.lines().filter(|line| line.trim_start().starts_with("::")).collect();
+    assert!(commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"), "{commands:?}");
+    assert!(commands[1..].iter().all(|line| line.starts_with("::error title=baseline::")), "{commands:?}");
+    let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
+    assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
+    is_harmless(&out);
+    is_harmless(&run(&root, &["list"]).1);
+    is_harmless(&run(&root, &["explain", "two"]).1);
+}
+
+fn claims_and_ids_with_control_characters_are_refused() {
+    let root = workspace(false);
+    for (id, claim, words) in [
+        ("a", r"c\n::error::forged", "study.claim: found the text"),
+        ("a", r"c\u001b[31m", "study.claim: found the text"),
+        ("a", r"\r", "study.claim: found the text"),
+        ("a", "", "study.claim: found the text"),
+        (r"a\n::error::forged", "c", "study.id: found the text"),
+        (r"a\u0007", "c", "study.id: found the text"),
+        ("../a", "c", "study.id: found the text"),
+        ("A", "c", "study.id: found the text"),
+    ] {
+        fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
+        let (status, out, err) = run(&root, &["study", "a.toml"]);
+        assert!(status == Some(2) && out.is_empty() && err.contains(words), "{err}");
+        is_harmless(&err);
+    }
+    // Written raw, they are refused by TOML itself.
+    fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
+    let (status, _, err) = run(&root, &["study", "a.toml"]);
+    assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
+    is_harmless(&err);
+}
+
+fn names_of_columns_and_files_are_no_commands() {
+    let root = workspace(false);
+    let table = |name: &str| format!("h,{name}\n0.4,0.4\n0.2,0.2\n0.1,0.1\n0.05,0.05\n");
+    let write = |name: &str, text: String| fs::write(root.path().join(name), text).unwrap();
+    for name in ["a\x1b[31m", "a\u{9b}b", "\x07"] {
+        write("table.csv", table(name));
+        let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
+        assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
+        assert!(err.contains("table.csv:1:3: found `") && err.contains("a name without control characters"), "{err}");
+        is_harmless(&err);
+    }
+    write("table.csv", table("::error title=x::forged"));
+    let (status, out, _) = run(&root, &["rates", "table.csv", "--order", "1"]);
+    assert_eq!(status, Some(0), "{out}");
+    is_harmless(&out);
+    let file = "a\n::error::x\x1b[31m.csv";
+    write(file, "h\n".to_owned());
+    for arguments in [&["rates", file][..], &["study", file], &["explain", file], &["verify", file], &["list", file]] {
+        let (status, out, err) = run(&root, arguments);
+        assert_eq!(status, Some(2), "{arguments:?}");
+        is_harmless(&out);
+        is_harmless(&err);
+    }
+}
+
+#[cfg(unix)]
+fn pipe(path: &Path) {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+fn pipes_in_place_of_records_do_not_hang() {
+    #[cfg(unix)]
+    for (file, arguments) in [
+        ("studies/baseline.json", &["verify"][..]),
+        ("reports/results.json", &["list"]),
+        ("reports/local/provenance.json", &["list"]),
+        ("reports/local/lock", &["verify"]),
+        ("reports/manifest.txt", &["verify"]),
+    ] {
+        let root = workspace(false);
+        pipe(&root.path().join(file));
+        let (status, _, err) = run(&root, arguments);
+        assert_eq!(status, Some(2), "{file}: {err}");
+        assert!(err.contains("expected a regular file"), "{file}: {err}");
+    }
+}
+
+fn tables_and_studies_come_from_standard_input() {
+    #[cfg(unix)]
+    for (text, arguments) in [
+        ("h,e\n0.4,0.4\n0.2,0.2\n0.1,0.1\n0.05,0.05\n".to_owned(), &["rates", "/dev/stdin", "--order", "1"][..]),
+        (study("one", "c", 1.0), &["study", "/dev/stdin"]),
+    ] {
+        let root = workspace(false);
+        let mut child = command(root.path(), arguments).stdin(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+        std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{arguments:?}");
+    }
+}
+
+fn every_command_is_in_the_help() {
+    let (status, out, _) = run(&workspace(false), &["--help"]);
+    assert_eq!(status, Some(0));
+    assert!(cli::COMMANDS.iter().all(|name| out.contains(&format!("\n  {name}"))), "{out}");
+    assert!(out.contains("Exit status: 0 "), "{out}");
+}

@@ -1,0 +1,249 @@
+//! What may know what: between the crates of the workspace, and between the folders of this crate.
+//!
+//! The workspace is looked at where it is there; the crate may also be tested alone.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Words of the application that this crate grew up with; it must serve any other as well.
+const FOREIGN: [&str; 21] = [
+    "beam",
+    "beams",
+    "clamped",
+    "contact",
+    "contacts",
+    "equilibria",
+    "equilibrium",
+    "kirchhoff",
+    "obstacle",
+    "obstacles",
+    "phi",
+    "scene",
+    "scenes",
+    "thermal",
+    "thermobeam",
+    "thermoviscoelastic",
+    "theta",
+    "timoshenko",
+    "tip",
+    "viscosity",
+    "zeta",
+];
+
+/// The modules of this crate from bottom to top: each may use itself and those before it.
+const ORDER: [&str; 12] =
+    ["text", "judge", "input", "plots", "study", "run", "project", "store", "report", "explain", "verify", "cli"];
+
+/// Uses against the order: module, path used, reason.
+const EXCEPTIONS: [(&str, &str, &str); 1] = [(
+    "judge",
+    "run::time_limit",
+    "a calibration is a long loop that asks for the time left; the time limit uses nothing",
+)];
+
+/// Libraries that are known to some modules only.
+const LIBRARIES: [(&str, &[&str]); 13] = [
+    ("clap", &["cli"]),
+    ("clap_complete", &["cli"]),
+    ("console", &["cli"]),
+    ("ctrlc", &["cli"]),
+    ("indicatif", &["cli"]),
+    ("levenberg_marquardt", &["judge"]),
+    ("nalgebra", &["judge"]),
+    ("statrs", &["judge"]),
+    ("toml", &["input"]),
+    ("plotters", &["plots"]),
+    ("pulldown_cmark", &["report"]),
+    ("quick_junit", &["store"]),
+    ("rayon", &["run"]),
+];
+
+/// The crates of the workspace and those of them that each may depend on.
+const CRATES: [(&str, &[&str]); 4] = [
+    ("convergence-study", &[]),
+    ("thermobeam", &[]),
+    ("thermobeam-exact", &["thermobeam"]),
+    ("thermobeam-study", &["convergence-study", "thermobeam", "thermobeam-exact"]),
+];
+
+/// What the solver does without.
+const NOT_IN_THE_SOLVER: [&str; 2] = ["rayon", "serde"];
+
+fn here() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below with one of these extensions.
+fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
+    let (mut files, mut folders) = (vec![], vec![folder.to_owned()]);
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(&next).into_iter().flatten() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extensions.iter().any(|known| extension == *known)) {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn words(text: &str) -> impl Iterator<Item = String> {
+    text.split(|c: char| !c.is_alphabetic()).map(str::to_lowercase)
+}
+
+fn foreign(text: &str) -> Vec<(usize, String)> {
+    let in_line = |(number, line): (usize, &str)| {
+        let found = words(line).filter(|word| FOREIGN.contains(&word.as_str()));
+        found.map(|word| (number + 1, word)).collect::<Vec<_>>()
+    };
+    text.lines().enumerate().flat_map(in_line).collect()
+}
+
+#[test]
+fn nothing_in_this_crate_names_the_application() {
+    let found: Vec<String> = ["src", "tests", "examples"]
+        .iter()
+        .flat_map(|folder| files(&here().join(folder), &["rs", "js", "css", "toml", "csv"]))
+        .chain(["README.md", "Cargo.toml"].map(|name| here().join(name)))
+        // This file is the list of the words.
+        .filter(|path| !path.ends_with("tests/layering.rs"))
+        .flat_map(|path| {
+            let text = fs::read_to_string(&path).unwrap();
+            foreign(&text).into_iter().map(move |(line, word)| format!("{}:{line}: {word}", path.display()))
+        })
+        .collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert_eq!(foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"), [(2, "obstacle".into()), (2, "beam".into())]);
+}
+
+/// Source text without line comments: a doc comment may refer to what a module is used by.
+fn code(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect()
+}
+
+/// The paths that follow `crate::` in a source, up to two segments, braces resolved one level deep.
+fn uses(text: &str) -> BTreeSet<String> {
+    let segment = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut found = BTreeSet::new();
+    for (at, _) in text.match_indices("crate::") {
+        if text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
+            continue;
+        }
+        let rest = &text[at + "crate::".len()..];
+        let list = rest.strip_prefix('{').and_then(|rest| rest.split_once('}')).map(|(list, _)| list);
+        for path in list.map_or(vec![rest], |list| list.split(',').map(str::trim).collect()) {
+            let first = segment(path);
+            let second = path[first.len()..].strip_prefix("::").map(segment).filter(|second| !second.is_empty());
+            found.insert(second.map_or(first.clone(), |second| format!("{first}::{second}")));
+        }
+    }
+    found.retain(|path| !path.is_empty());
+    found
+}
+
+/// The module of the first level that a source file belongs to.
+fn module(path: &Path) -> String {
+    let inside = path.strip_prefix(here().join("src")).unwrap();
+    inside.components().next().unwrap().as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
+}
+
+fn breaches(module: &str, text: &str) -> Vec<String> {
+    let place = |name: &str| ORDER.iter().position(|known| *known == name);
+    let is_allowed = |path: &String| {
+        let target = path.split("::").next().unwrap_or(path);
+        let excepted = EXCEPTIONS.iter().any(|(of, used, _)| *of == module && path == used);
+        excepted || place(target).is_some_and(|target| place(module).is_some_and(|own| target <= own))
+    };
+    let upwards = uses(text).into_iter().filter(|path| !is_allowed(path)).map(|path| format!("{module} uses {path}"));
+    let libraries = LIBRARIES.iter().filter(|(name, of)| !of.contains(&module) && text.contains(&format!("{name}::")));
+    upwards.chain(libraries.map(|(name, _)| format!("{module} uses the library {name}"))).collect()
+}
+
+#[test]
+fn modules_use_only_those_below_them() {
+    let mut seen = BTreeSet::new();
+    let mut found = vec![];
+    for path in files(&here().join("src"), &["rs"]) {
+        let module = module(&path);
+        if module != "lib" {
+            found.extend(breaches(&module, &code(&fs::read_to_string(&path).unwrap())));
+            seen.insert(module);
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert_eq!(seen, ORDER.map(str::to_owned).into(), "every module has its place in the order");
+}
+
+#[test]
+fn a_use_against_the_order_is_found() {
+    for (module, text, found) in [
+        ("judge", "use crate::run::queue;", "judge uses run::queue"),
+        ("study", "fn f() { crate::store::atomic::write(); }", "study uses store::atomic"),
+        ("text", "pub(crate) use crate::{input::visible, judge};", "text uses input::visible, text uses judge"),
+        ("report", "use rayon::prelude::*;", "report uses the library rayon"),
+        ("store", "use crate::nowhere;", "store uses nowhere"),
+        ("store", "use crate::run::Finished; pub(crate) struct A; // crate::cli", ""),
+        ("judge", "use crate::run::time_limit::{Patience, TimeUp};", ""),
+    ] {
+        assert_eq!(breaches(module, &code(text)).join(", "), found, "{text}");
+    }
+}
+
+/// The names of the crates in the tables of dependencies of a manifest; those for tests where asked for.
+fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut is_table = false;
+    for line in manifest.lines().map(str::trim) {
+        if let Some(table) = line.strip_prefix('[') {
+            let table = table.trim_end_matches(']');
+            let ends = |name: &str| table == name || table.ends_with(&format!(".{name}"));
+            is_table = ends("dependencies") || ends("build-dependencies") || (of_tests && ends("dev-dependencies"));
+        } else if is_table && !line.starts_with('#') {
+            let name = line.split(['.', '=', ' ']).next().unwrap_or("");
+            if !name.is_empty() {
+                names.insert(name.to_owned());
+            }
+        }
+    }
+    names
+}
+
+#[test]
+fn crates_depend_only_on_those_below_them() {
+    let names = CRATES.map(|(name, _)| name);
+    let mut read = 0;
+    for (name, allowed) in CRATES {
+        let path = here().join("..").join(name).join("Cargo.toml");
+        let Ok(manifest) = fs::read_to_string(&path) else {
+            assert_ne!(name, "convergence-study", "{}", path.display());
+            continue;
+        };
+        read += 1;
+        // Tests may use a crate above the tested one, but not here: the harness is tested without the application.
+        let found = dependencies(&manifest, name == "convergence-study");
+        let found: Vec<&str> = names.into_iter().filter(|name| found.contains(*name)).collect();
+        assert_eq!(found, allowed, "{name}");
+    }
+    assert!(read == 1 || read == CRATES.len(), "{read} of {} manifests found", CRATES.len());
+}
+
+#[test]
+fn the_solver_does_without_threads_and_files() {
+    let Ok(manifest) = fs::read_to_string(here().join("../thermobeam/Cargo.toml")) else { return };
+    let found = dependencies(&manifest, false);
+    assert!(found.contains("thiserror"), "{found:?}");
+    assert!(NOT_IN_THE_SOLVER.iter().all(|name| !found.contains(*name)), "{found:?}");
+}
+
+#[test]
+fn dependencies_are_read_from_every_table() {
+    let manifest = "[dependencies]\na.workspace = true\n# b = 1\n[target.'cfg(unix)'.dependencies]\nc = { path = \"x\" }\n\
+                    [dev-dependencies]\nd = \"1\"\n[lints]\ne = 1\n";
+    let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
+    assert_eq!(dependencies(manifest, false), set(&["a", "c"]));
+    assert_eq!(dependencies(manifest, true), set(&["a", "c", "d"]));
+}

@@ -1,0 +1,87 @@
+//! Laws that every figure obeys, whatever its data: for the generic figures here and for those of other crates of the workspace.
+
+use roxmltree::{Document, Node};
+
+/// Figures by name.
+pub(crate) type Figures = [(&'static str, String)];
+
+/// Units of a page per px.
+pub(crate) const UNITS: f64 = 10.0;
+
+pub(crate) fn parse(svg: &str) -> Document<'_> {
+    Document::parse(svg).unwrap_or_else(|e| panic!("not well-formed: {e}"))
+}
+
+pub(crate) fn elements<'a>(doc: &'a Document<'a>, tag: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+    doc.descendants().filter(move |n| n.has_tag_name(tag))
+}
+
+pub(crate) fn number(node: Node<'_, '_>, attribute: &str) -> f64 {
+    node.attribute(attribute).and_then(|v| v.parse().ok()).unwrap_or_else(|| panic!("{attribute} in {node:?}"))
+}
+
+/// Left, top, right, bottom of a text in page units; widths estimated on the narrow side.
+fn bounds(node: Node<'_, '_>) -> [f64; 4] {
+    let size = number(node, "font-size");
+    let width = 0.5 * size * node.text().unwrap_or("").trim().chars().count() as f64;
+    let (x, y) = (number(node, "x"), number(node, "y"));
+    let before = match node.attribute("text-anchor") {
+        Some("start") => 0.0,
+        Some("end") => width,
+        _ => 0.5 * width,
+    };
+    if node.attribute("transform").is_some() {
+        return [x - 0.5 * size, y - 0.5 * width, x + 0.5 * size, y + 0.5 * width];
+    }
+    [x - before, y - 0.4 * size, x - before + width, y + 0.4 * size]
+}
+
+pub(crate) fn every_figure_is_well_formed_and_free_of_nan(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        assert!(doc.root_element().has_tag_name("svg"), "{name}");
+        let numbers = doc.descendants().flat_map(|n| n.attributes()).filter(|a| a.name() != "font-family");
+        for a in numbers {
+            let value = a.value().to_lowercase();
+            assert!(!value.contains("nan") && !value.contains("inf"), "{name}: {a:?}");
+        }
+    }
+}
+
+pub(crate) fn every_text_is_large_enough_and_on_the_page(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let page = doc.root_element();
+        let (width, height) = (UNITS * number(page, "width"), UNITS * number(page, "height"));
+        for text in elements(&doc, "text") {
+            assert!(number(text, "font-size") >= 14.0 * UNITS, "{name}: {:?}", text.text());
+            let [left, top, right, bottom] = bounds(text);
+            let is_inside = left >= 0.0 && top >= 0.0 && right <= width && bottom <= height;
+            assert!(is_inside, "{name}: {:?} at {:?}", text.text(), bounds(text));
+        }
+    }
+}
+
+pub(crate) fn no_two_texts_overlap(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let all: Vec<_> = elements(&doc, "text").map(|n| (n.text().unwrap_or(""), bounds(n))).collect();
+        for (k, (a, p)) in all.iter().enumerate() {
+            for (b, q) in &all[..k] {
+                let apart = p[0] >= q[2] || q[0] >= p[2] || p[1] >= q[3] || q[1] >= p[3];
+                assert!(apart, "{name}: {a:?} on {b:?}");
+            }
+        }
+    }
+}
+
+pub(crate) fn every_curve_belongs_to_an_entry_of_the_legend(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let named = |attribute: &'static str| elements(&doc, "g").filter_map(move |n| n.attribute(attribute));
+        let entries: Vec<&str> = named("data-entry").collect();
+        assert!(named("data-series").all(|series| entries.contains(&series)), "{name}: {entries:?}");
+        let has_curves = !matches!(*name, "surface" | "space-time" | "animation");
+        assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
+    }
+}

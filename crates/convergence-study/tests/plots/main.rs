@@ -1,0 +1,241 @@
+//! Laws that every figure obeys, whatever its data.
+
+mod gallery;
+mod laws;
+
+use convergence_study::plots::*;
+use laws::{UNITS, elements, number, parse};
+use roxmltree::Node;
+
+#[test]
+fn every_figure_is_in_the_gallery() {
+    let (plots, gallery) = (include_str!("../../src/plots/mod.rs"), include_str!("gallery.rs"));
+    let exported = plots.lines().filter(|line| line.starts_with("pub use ")).flat_map(|line| {
+        let names = line.split(['{', '}']).nth(1).unwrap_or_default();
+        names.split(", ").filter(|name| name.starts_with(char::is_lowercase))
+    });
+    let figures: Vec<_> = exported.collect();
+    assert!(figures.len() >= 7);
+    for figure in figures {
+        assert!(gallery.contains(&format!(", {figure}(")), "{figure} is not in the gallery");
+        assert!(plots.contains(&format!("//! | [`{figure}`] | ")), "{figure} has no row at the head of plots/mod.rs");
+    }
+}
+
+#[test]
+fn every_figure_is_well_formed_and_free_of_nan() {
+    laws::every_figure_is_well_formed_and_free_of_nan(&gallery::gallery());
+}
+
+#[test]
+fn every_text_is_large_enough_and_on_the_page() {
+    laws::every_text_is_large_enough_and_on_the_page(&gallery::gallery());
+}
+
+#[test]
+fn no_two_texts_overlap() {
+    laws::no_two_texts_overlap(&gallery::gallery());
+}
+
+#[test]
+fn every_curve_belongs_to_an_entry_of_the_legend() {
+    laws::every_curve_belongs_to_an_entry_of_the_legend(&gallery::gallery());
+}
+
+fn texts(svg: &str) -> Vec<String> {
+    elements(&parse(svg), "text").map(|n| n.text().unwrap_or("").trim().to_owned()).collect()
+}
+
+/// Points of all lines of a colour that are longer than a legend's.
+fn points_of(svg: &str, colour: &str) -> usize {
+    let doc = parse(svg);
+    let lines = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some(colour));
+    lines.filter_map(|n| n.attribute("points")).map(|p| p.split_whitespace().count()).filter(|&n| n > 2).sum()
+}
+
+#[test]
+fn the_same_data_give_the_same_bytes() {
+    assert_eq!(gallery::gallery(), gallery::gallery());
+}
+
+#[test]
+fn every_finite_point_is_drawn() {
+    let figure = WorkPrecision {
+        y_label: "error".into(),
+        series: vec![Series {
+            label: "s".into(),
+            points: (1..40).map(|k| (f64::from(k), 1.0 / f64::from(k))).collect(),
+        }],
+        x_label: None,
+        title: None,
+    };
+    let svg = work_precision(&figure);
+    // One marker more in the legend.
+    assert_eq!(elements(&parse(&svg), "circle").count(), 39 + 1);
+    assert_eq!(points_of(&svg, "#0072B2"), 39);
+}
+
+#[test]
+fn points_that_cannot_be_drawn_are_counted() {
+    let points =
+        vec![(1.0, 1.0), (2.0, f64::NAN), (f64::NEG_INFINITY, 1.0), (3.0, -1.0), (4.0, f64::INFINITY), (5.0, 2.0)];
+    let series = vec![Series { label: "s".into(), points }];
+    let log = history(&History { y: Axis::log("v"), series: series.clone(), ..Default::default() });
+    assert!(texts(&log).contains(&"3 non-finite points not drawn".to_owned()));
+    assert!(texts(&log).contains(&"1 non-positive point not drawn (logarithmic axis)".to_owned()));
+    let linear = history(&History { y: Axis::linear("v"), series, ..Default::default() });
+    assert!(texts(&linear).iter().all(|t| !t.contains("non-positive")));
+}
+
+#[test]
+fn figures_without_data_do_not_panic() {
+    let empty = [
+        convergence(&Convergence::default()),
+        surface(&Surface::default()),
+        history(&History::default()),
+        space_time(&SpaceTime::default()),
+        iterations(&Iterations::default()),
+        parameter_map(&ParameterMap::default()),
+        work_precision(&WorkPrecision::default()),
+    ];
+    empty.iter().for_each(|svg| drop(parse(svg)));
+}
+
+#[test]
+fn figures_of_extreme_data_do_not_panic() {
+    let values = [0.0, -0.0, 1.0, -1.0, 1e-320, 1e308, -1e308, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    for x in values {
+        for y in values {
+            let points = vec![(x, y), (y, x), (x, x)];
+            let series = vec![Series { label: "s".into(), points: points.clone() }];
+            let intervals = points.clone();
+            let phases = Phases { label: "p".into(), intervals };
+            let guides = vec![Guide { label: "g".into(), value: y }];
+            for axis in [Axis::linear("y"), Axis::log("y")] {
+                let (series, guides, phases) = (series.clone(), guides.clone(), phases.clone());
+                parse(&history(&History { y: axis, series, guides, phases, ..Default::default() }));
+            }
+            let fit = Some(PowerLaw { rate: x, constant: y });
+            let norm =
+                ErrorSeries { points: points.clone(), order: Some(x), fit, baseline: points, ..Default::default() };
+            parse(&convergence(&Convergence { series: vec![norm], slopes: vec![x, 1.0], ..Default::default() }));
+            let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
+            let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
+            parse(&surface(&cells));
+            parse(&parameter_map(&ParameterMap {
+                cells,
+                marked: vec![vec![true]],
+                boundaries: series,
+                ..Default::default()
+            }));
+            let frames = vec![vec![x, y], vec![y, 1.0]];
+            let (times, nodes) = (vec![x, y], vec![y, x]);
+            parse(&space_time(&SpaceTime { times, nodes, frames, ..Default::default() }));
+        }
+    }
+}
+
+#[test]
+fn constant_data_have_an_axis_with_ticks() {
+    let series = vec![Series { label: "s".into(), points: vec![(0.0, 3.0), (1.0, 3.0)] }];
+    let svg = history(&History { y: Axis::linear("v"), series, ..Default::default() });
+    assert!(texts(&svg).iter().filter(|t| t.parse::<f64>().is_ok()).count() >= 5);
+}
+
+#[test]
+fn a_spike_in_a_long_history_is_drawn() {
+    let mut figure = gallery::long_history(200_000);
+    figure.guides.clear();
+    figure.series.truncate(1);
+    figure.series[0].points[123_456].1 = 5.0;
+    let svg = history(&figure);
+    let doc = parse(&svg);
+    let coordinates = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some("#0072B2"));
+    let heights = coordinates.flat_map(|n| n.attribute("points").unwrap_or("").split_whitespace());
+    let highest = heights.filter_map(|p| p.split_once(',')?.1.parse::<f64>().ok()).fold(f64::INFINITY, f64::min);
+    // The top of the plot is 16 px down the page, and 1/22 of the plot's 430 px are left free above the data.
+    assert!(highest < UNITS * (16.0 + 430.0 / 20.0), "{highest}");
+}
+
+#[test]
+fn figures_stay_small() {
+    let noise = |k: usize| (k.wrapping_mul(2_654_435_761) % 1_000_003) as f64 / 1_000_003.0 - 0.5;
+    let line = |s: usize| Series {
+        label: format!("series {s}"),
+        points: (0..100_000).map(|k| (k as f64, noise(k + 31 * s))).collect(),
+    };
+    let intervals = (0..50_000).map(|k| (2.0 * f64::from(k), 2.0 * f64::from(k) + 1.0)).collect();
+    let phases = Phases { label: "at a stop".into(), intervals };
+    let long = History { series: (0..8).map(line).collect(), y: Axis::linear("v"), phases, ..Default::default() };
+    assert!(history(&long).len() < 200_000);
+
+    let mut picture = gallery::wave(600, 400);
+    picture.frames.iter_mut().flatten().enumerate().for_each(|(k, u)| *u = noise(k * k));
+    let noisy = space_time(&picture);
+    assert!(noisy.len() < 400_000, "{}", noisy.len());
+}
+
+#[test]
+fn labels_are_all_there() {
+    let words = texts(&history(&gallery::long_history(1000)));
+    for label in ["g₁ = −0.01", "g₂ = 0.1", "at a stop", "euler-crank-nicolson", "midpoint", "time t (dimensionless)"]
+    {
+        assert!(words.iter().any(|w| w == label), "{label}");
+    }
+    let words = texts(&convergence(&gallery::space_errors()));
+    for label in
+        ["energy norm, order 1, rate 1.002", "baseline (ring)", "mesh width h (dimensionless)", "10⁻³", "1", "2"]
+    {
+        assert!(words.iter().any(|w| w == label), "{label}");
+    }
+    assert!(texts(&parameter_map(&gallery::stability_map())).contains(&"diverged".to_owned()));
+}
+
+#[test]
+fn series_differ_without_colour() {
+    let figure = gallery::long_history(1000);
+    let svg = history(&figure);
+    let doc = parse(&svg);
+    let dashes = |colour: &'static str| {
+        let of_colour = elements(&doc, "polyline").filter(move |n| n.attribute("stroke") == Some(colour));
+        of_colour.filter_map(|n| n.parent()?.attribute("stroke-dasharray")).count()
+    };
+    assert_eq!(dashes("#0072B2"), 0);
+    assert!(dashes("#D55E00") >= 2);
+}
+
+#[test]
+fn a_missing_cell_is_noted_unless_it_is_marked() {
+    let mut map = gallery::stability_map();
+    assert!(!texts(&parameter_map(&map)).iter().any(|t| t.contains("not drawn")));
+    map.marked.clear();
+    assert!(texts(&parameter_map(&map)).iter().any(|t| t.contains("non-finite points not drawn")));
+}
+
+#[test]
+fn markers_lie_where_the_values_in_the_picture_say() {
+    let svg = convergence(&gallery::space_errors());
+    let doc = parse(&svg);
+    let root = doc.root_element();
+    let words = |name: &str| root.attribute(name).unwrap().split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let plot: Vec<f64> = words("data-plot").iter().map(|v| v.parse().unwrap()).collect();
+    let place = |axis: &str, value: f64, from: f64, to: f64| {
+        let words = words(axis);
+        assert_eq!(words[0], "log");
+        let ends: Vec<f64> = words[1..].iter().map(|v| v.parse().unwrap()).collect();
+        from + (value.log10() - ends[0]) / (ends[1] - ends[0]) * (to - from)
+    };
+    let is_velocity = |n: &Node<'_, '_>| n.attribute("data-series").is_some_and(|name| name.starts_with("velocity"));
+    let group = elements(&doc, "g").find(|n| is_velocity(n) && n.has_attribute("data-points")).unwrap();
+    let markers: Vec<_> = group.descendants().filter(|n| n.has_tag_name("circle")).collect();
+    let points: Vec<&str> = group.attribute("data-points").unwrap().split(' ').collect();
+    assert_eq!((markers.len(), points.len()), (10, 10));
+    for (marker, point) in markers.iter().zip(points) {
+        let (x, y) = point.split_once(',').unwrap();
+        let at = (
+            place("data-x", x.parse().unwrap(), plot[0], plot[2]),
+            place("data-y", y.parse().unwrap(), plot[3], plot[1]),
+        );
+        assert!((at.0 - number(*marker, "cx")).abs() < 2.0 && (at.1 - number(*marker, "cy")).abs() < 2.0, "{point}");
+    }
+}

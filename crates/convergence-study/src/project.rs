@@ -25,7 +25,7 @@ impl Project {
     /// A project without kinds, terms and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        Self { name, command, about, kinds: &[], terms: &[], front_pictures: &[] }
+        Self { name, command, about, kinds: &[], groups: &[], terms: &[], front_pictures: &[] }
     }
 }
 

@@ -62,8 +62,13 @@ mod tests {
     use super::*;
 
     fn headers() -> Vec<Header> {
-        let header =
-            |(id, tier): (&str, Tier)| Header { id: id.to_owned(), claim: "c".to_owned(), tier, kind: "k".to_owned() };
+        let header = |(id, tier): (&str, Tier)| Header {
+            id: id.to_owned(),
+            claim: "c".to_owned(),
+            tier,
+            kind: "k".to_owned(),
+            group: "k".to_owned(),
+        };
         [("a-space", Tier::Quick), ("a-time", Tier::Quick), ("b-space", Tier::Full)].map(header).to_vec()
     }
 

@@ -53,7 +53,13 @@ impl Header {
     /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`: it is part of file names.
     /// * `claim`: one line of text.
     pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
-        Self { id: id.into(), claim: claim.into(), tier: Tier::Quick, kind: DEFAULT_KIND.to_owned() }
+        Self {
+            id: id.into(),
+            claim: claim.into(),
+            tier: Tier::Quick,
+            kind: DEFAULT_KIND.to_owned(),
+            group: DEFAULT_KIND.to_owned(),
+        }
     }
 
     /// Reads `[study]` of a file and nothing else.

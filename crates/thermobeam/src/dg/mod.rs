@@ -56,6 +56,7 @@ mod legendre;
 mod lengths;
 mod load;
 mod operator;
+mod problem;
 mod residual;
 mod simulation;
 mod space;
@@ -67,7 +68,8 @@ pub use element::MAX_DEGREE;
 pub use energy::Balance;
 pub use error::{SetupError, StepError, StepFailure};
 pub use load::Load;
-pub use simulation::{Function, Initial, Problem, Simulation, StepReport, Stepping};
+pub use problem::{Function, Initial, Problem, Stepping};
+pub use simulation::{Simulation, StepReport};
 pub use space::{Field, Space};
 
 /// The highest degree in time.

@@ -35,7 +35,7 @@ fn simulation(degree: usize, q: usize, dt: f64) -> Simulation {
 }
 
 #[divan::bench(args = 0..RUNS.len())]
-fn first_experiment(bencher: Bencher, run: usize) {
+fn first_experiment(bencher: Bencher<'_, '_>, run: usize) {
     let (degree, q, dt, end) = RUNS[run];
     bencher.with_inputs(|| simulation(degree, q, dt)).bench_local_values(|mut simulation| {
         simulation.advance(end).expect("steps");

@@ -85,6 +85,7 @@ pub mod vibration;
 /// [contraction]: crate::contraction
 /// [equilibrium]: crate::equilibrium
 /// [vibration]: crate::vibration
+/// [dg]: crate::dg
 // The links above are for rustdoc; those at the end of the file are for readers of the file.
 #[doc = include_str!("../THEORY.md")]
 pub mod theory {}

@@ -28,8 +28,8 @@
 //! # From data to levels
 //!
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
-//! one [`scheme`] by one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Beside it, exact
-//! answers: [`equilibrium`], [`vibration`], [`contraction`]. What all of them must obey is derived in [`theory`]. The crate does no input or output and starts no threads; a
+//! one [`scheme`] by one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Beside it: the same
+//! equations to any order in space and time, [`dg`]; and exact answers: [`equilibrium`], [`vibration`], [`contraction`]. What all of them must obey is derived in [`theory`]. The crate does no input or output and starts no threads; a
 //! failure is a value ([`error`]), and after it the simulation stands where it stood.
 //!
 //! ```

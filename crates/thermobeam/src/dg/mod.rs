@@ -21,7 +21,7 @@
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
 //! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
-//! `energy`: the balance. [`Simulation`]: all of it.
+//! `energy`: the balance. `problem`, `simulation`, `observe`: what a user sees of all that.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -55,6 +55,7 @@ mod forms;
 mod legendre;
 mod lengths;
 mod load;
+mod observe;
 mod operator;
 mod problem;
 mod residual;

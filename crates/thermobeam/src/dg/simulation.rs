@@ -1,15 +1,13 @@
 //! A simulation that stands at one level and takes steps: their lengths, and where contact cuts them.
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
-use super::energy::{Balance, Scene};
 use super::error::{SetupError, StepError, StepFailure};
 use super::lengths::Lengths;
 use super::load::Load;
 use super::problem::{Problem, Stepping, check, initial_level};
-use super::space::{Field, Space};
+use super::space::Space;
 use super::stages::{Stages, Task, stepper};
 use super::{Level, Work};
-use crate::energy::Energy;
 use crate::parameters::{Beam, Obstacles};
 
 /// Rounding errors of the free end's position, in units of the numbers that it is computed from.
@@ -43,26 +41,26 @@ pub struct StepReport {
 
 /// A running simulation, standing at one level, with the step that led there.
 pub struct Simulation {
-    beam: Beam,
-    obstacles: Option<Obstacles>,
-    space: Space,
-    stepping: Stepping,
-    lengths: Lengths,
-    stages: Box<dyn Stages>,
-    load: Option<Box<dyn Load>>,
-    level: Level,
+    pub(super) beam: Beam,
+    pub(super) obstacles: Option<Obstacles>,
+    pub(super) space: Space,
+    pub(super) stepping: Stepping,
+    pub(super) lengths: Lengths,
+    pub(super) stages: Box<dyn Stages>,
+    pub(super) load: Option<Box<dyn Load>>,
+    pub(super) level: Level,
     /// The level before the last step.
-    old: Level,
+    pub(super) old: Level,
     /// The length of the last step, 0 at the start.
-    last_dt: f64,
+    pub(super) last_dt: f64,
     /// What the free end touched during the last step.
-    last_phase: Phase,
-    phase: Phase,
+    pub(super) last_phase: Phase,
+    pub(super) phase: Phase,
     /// Whether the last step's polynomials tell something about the next one.
-    smooth: bool,
-    events: Vec<ContactEvent>,
+    pub(super) smooth: bool,
+    pub(super) events: Vec<ContactEvent>,
     /// Events since the time given, all within `restart_dt`.
-    crowd: (f64, usize),
+    pub(super) crowd: (f64, usize),
 }
 
 impl Simulation {
@@ -377,59 +375,5 @@ impl Simulation {
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
         Work { events: self.events.len(), ..self.stages.work() }
-    }
-
-    /// s of a time in the last step; `None` outside.
-    fn within(&self, t: f64) -> Option<f64> {
-        if !(t >= self.old.t && t <= self.level.t) {
-            return None;
-        }
-        Some(if self.last_dt > 0.0 { ((t - self.old.t) / self.last_dt).min(1.0) } else { 1.0 })
-    }
-
-    /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
-    pub fn value(&self, field: Field, x: f64, t: f64) -> Option<f64> {
-        let s = self.within(t)?;
-        if t == self.level.t {
-            return Some(self.level.value_and_slope(&self.space, field, x).0);
-        }
-        let at = |block, place| self.stages.coefficient(field, block, place).at(s);
-        Some(self.space.evaluate(field, x, at).0)
-    }
-
-    /// The physical temperature, lifting included, at x and at a time in the last step; `None` for other times.
-    pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
-        self.value(Field::Theta, x, t).map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
-    }
-
-    /// Copies the state at a time in the last step into `level`; tells whether there is one.
-    pub fn level_into(&self, t: f64, level: &mut Level) -> bool {
-        match self.within(t) {
-            Some(s) if self.last_dt > 0.0 && t < self.level.t => {
-                self.stages.level_into(s, &self.old, self.last_dt, level);
-                level.t = t;
-                true
-            }
-            Some(_) => {
-                level.copy_from(&self.level);
-                true
-            }
-            None => false,
-        }
-    }
-
-    /// The energy of a level, term by term.
-    pub fn energy(&self, level: &Level) -> Energy {
-        self.scene().energy(level)
-    }
-
-    /// The balance of the last step; that of no step at the start.
-    pub fn balance(&self) -> Balance {
-        let losses = self.stages.losses(&self.space, &self.beam, &self.old, self.last_dt);
-        self.scene().balance(&self.old, &self.level, self.last_phase, losses)
-    }
-
-    fn scene(&self) -> Scene<'_> {
-        Scene { space: &self.space, beam: &self.beam, obstacles: self.obstacles.as_ref() }
     }
 }

@@ -119,4 +119,6 @@ pub struct Work {
     pub factorizations: usize,
     /// Contact events.
     pub events: usize,
+    /// Steps that could not be done and were tried again shorter.
+    pub shortened: usize,
 }

@@ -59,6 +59,8 @@ pub struct Simulation {
     /// Whether the last step's polynomials tell something about the next one.
     pub(super) smooth: bool,
     pub(super) events: Vec<ContactEvent>,
+    /// Steps tried again shorter.
+    pub(super) shortened: usize,
     /// Events since the time given, all within `restart_dt`.
     pub(super) crowd: (f64, usize),
 }
@@ -105,6 +107,7 @@ impl Simulation {
             phase,
             smooth: false,
             events: Vec::with_capacity(EVENTS),
+            shortened: 0,
             crowd: (0.0, 0),
         })
     }
@@ -143,6 +146,7 @@ impl Simulation {
                 self.lengths.set_rung(rung);
                 return Err(error.clone());
             }
+            self.shortened += 1;
         }
     }
 
@@ -374,6 +378,6 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        Work { events: self.events.len(), ..self.stages.work() }
+        Work { events: self.events.len(), shortened: self.shortened, ..self.stages.work() }
     }
 }

@@ -45,7 +45,7 @@ pub(super) struct Task<'a> {
 }
 
 /// The step for any degree q in time, q being no parameter of the type.
-pub(super) trait Stages {
+pub(super) trait Stages: Send {
     /// Starts from velocities and a temperature that are constant in time.
     fn guess_constant(&mut self, level: &Level);
     /// Starts from the last step's polynomials, continued over a step that is `ratio` times as long.

@@ -42,8 +42,8 @@
 //! # From data to levels
 //!
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
-//! one [`scheme`] and one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. Exact solutions for
-//! comparison: [`equilibrium`], [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The
+//! one [`scheme`] and one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. The same equations
+//! to any order in space and time: [`dg`]. Exact solutions for comparison: [`equilibrium`], [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The
 //! crate does no input or output and starts no threads. Every failure is a value of a type in [`error`], and a failed
 //! step leaves the simulation at its last level.
 //!
@@ -100,6 +100,7 @@ pub mod vibration;
 /// [contraction]: crate::contraction
 /// [equilibrium]: crate::equilibrium
 /// [vibration]: crate::vibration
+/// [dg]: crate::dg
 // The links above are for rustdoc, those at the end of THEORY.md for readers of that file.
 #[doc = include_str!("../THEORY.md")]
 pub mod theory {}

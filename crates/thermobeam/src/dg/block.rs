@@ -22,6 +22,16 @@ pub(super) fn minus_product<const S: usize>(y: &Block<S>, matrix: &Matrix<S>, x:
     sum
 }
 
+/// `Σ_j x_j column_j` added to y.
+#[inline(always)]
+pub(super) fn add_columns<const S: usize>(y: &mut [f64; S], columns: &[[f64; S]; S], x: &[f64; S]) {
+    for (column, x) in columns.iter().zip(x) {
+        for (y, entry) in y.iter_mut().zip(column) {
+            *y = entry.mul_add(*x, *y);
+        }
+    }
+}
+
 /// `A x`.
 pub(super) fn product<const S: usize>(matrix: &Matrix<S>, x: &Block<S>) -> Block<S> {
     let mut sum = [[0.0; S]; 3];
@@ -35,7 +45,11 @@ pub(super) fn product<const S: usize>(matrix: &Matrix<S>, x: &Block<S>) -> Block
 
 /// `A B`.
 pub(super) fn matrix_product<const S: usize>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
-    std::array::from_fn(|field| std::array::from_fn(|stage| product(a, &b[field][stage])))
+    let mut c = zero();
+    for (c, b) in c.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        *c = product(a, b);
+    }
+    c
 }
 
 /// `C -= A B`.

@@ -48,6 +48,15 @@ impl Lengths {
         possible
     }
 
+    /// To less than half of the length, if it is at least a thousandth of `restart_dt`.
+    pub(super) fn shorten(&mut self) -> bool {
+        let now = self.get();
+        let shorter = self.rungs[..self.next].iter().rposition(|rung| *rung <= 0.5 * now);
+        let possible = shorter.is_some() && now >= 1e-3 * self.rungs[self.first];
+        self.next = shorter.filter(|_| possible).unwrap_or(self.next);
+        possible
+    }
+
     /// Where the ladder stands.
     pub(super) fn rung(&self) -> usize {
         self.next
@@ -90,6 +99,8 @@ mod tests {
         lengths.climb();
         assert_eq!(lengths.get(), 0.5e-3);
         assert_eq!((0..20).filter(|_| lengths.descend()).count(), 11);
+        let mut lengths = Lengths::new(0.02, 1.5, 0.02);
+        assert_eq!((0..20).filter(|_| lengths.shorten()).count(), 10);
         assert_eq!(Lengths::new(0.02, 1.5, 0.02).count(), 1);
         // Growth 1 leads to dt at once.
         assert_eq!(Lengths::new(0.01, 1.0, 0.02).count(), 2);

@@ -5,7 +5,7 @@ use super::time::{GaussPoint, MAX_STAGES, gauss_points};
 /// Loads F_u, F_φ, F_θ on the right of the three equations, tested with the basis functions.
 ///
 /// [`Space::add_load`](super::Space::add_load) fills such a vector from functions of x.
-pub trait Load {
+pub trait Load: Send {
     /// Fills `load` with the load at time t: `(F_u, χ), (F_φ, ψ), (F_θ, η)` block by block; it comes in as zeros.
     fn at(&mut self, t: f64, load: &mut [[f64; 3]]);
 

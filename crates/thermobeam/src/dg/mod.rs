@@ -21,7 +21,7 @@
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
 //! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
-//! `energy`: the balance. [`Simulation`]: all of it.
+//! `energy`: the balance. `problem`, `simulation`, `observe`: what a user sees of all that.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -55,7 +55,9 @@ mod forms;
 mod legendre;
 mod lengths;
 mod load;
+mod observe;
 mod operator;
+mod problem;
 mod residual;
 mod simulation;
 mod space;
@@ -67,7 +69,8 @@ pub use element::MAX_DEGREE;
 pub use energy::Balance;
 pub use error::{SetupError, StepError, StepFailure};
 pub use load::Load;
-pub use simulation::{Function, Initial, Problem, Simulation, StepReport, Stepping};
+pub use problem::{Function, Initial, Problem, Stepping};
+pub use simulation::{Simulation, StepReport};
 pub use space::{Field, Space};
 
 /// The highest degree in time.
@@ -116,4 +119,6 @@ pub struct Work {
     pub factorizations: usize,
     /// Contact events.
     pub events: usize,
+    /// Steps that could not be done and were tried again shorter.
+    pub shortened: usize,
 }

@@ -1,6 +1,6 @@
 //! The equations of a step, tested with every basis function and every L_i(t): their residuals.
 
-use super::block::Block;
+use super::block::{Block, add_columns};
 use super::load::Forcing;
 use super::space::Space;
 use super::time::{MAX_STAGES, TimeForms};
@@ -176,13 +176,9 @@ impl<const S: usize> Equations<'_, S> {
     fn combine(&self, x: &Block<S>, start: &[f64; 3], axial: &AxialForce<S>, terms: &mut Terms<S>) {
         let forms = self.forms;
         for field in 0..3 {
-            for i in 0..S {
-                let mut sum = -forms.start[i] * start[field];
-                for j in 0..S {
-                    sum = forms.derivative[i][j].mul_add(x[field][j], sum);
-                }
-                terms.inertia[field][i] = sum;
-            }
+            let mut sum = forms.start.map(|sign| -sign * start[field]);
+            add_columns(&mut sum, &forms.derivative_columns, &x[field]);
+            terms.inertia[field] = sum;
         }
         for i in 0..S {
             let duration = self.h * forms.product[i];
@@ -191,13 +187,12 @@ impl<const S: usize> Equations<'_, S> {
             }
             terms.turning[i] = self.beam.a * duration * x[1][i];
             terms.heat[i] = duration * x[2][i];
-            let u = &terms.places[0];
-            let mut sum = axial.top[i] * u.top;
-            for j in 0..S {
-                sum = axial.low[i][j].mul_add(u.low[j], sum);
-            }
-            terms.axial[i] = self.h * sum;
         }
+        let u = &terms.places[0];
+        let mut sum = axial.top.map(|top| top * u.top);
+        // Symmetric: its rows are its columns.
+        add_columns(&mut sum, &axial.low, &u.low);
+        terms.axial = sum.map(|sum| self.h * sum);
     }
 }
 

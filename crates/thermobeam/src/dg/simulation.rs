@@ -1,24 +1,20 @@
 //! A simulation that stands at one level and takes steps: their lengths, and where contact cuts them.
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
-use super::element::MAX_DEGREE;
-use super::energy::{Balance, Scene};
 use super::error::{SetupError, StepError, StepFailure};
-use super::lengths::{Lengths, MAX_RUNGS};
+use super::lengths::Lengths;
 use super::load::Load;
-use super::space::{Field, Space};
+use super::problem::{Problem, Stepping, check, initial_level};
+use super::space::Space;
 use super::stages::{Stages, Task, stepper};
-use super::{Level, MAX_TIME_DEGREE, Work};
-use crate::energy::Energy;
-use crate::mesh::Mesh;
+use super::{Level, Work};
 use crate::parameters::{Beam, Obstacles};
-
-/// Rounding errors that an initial value may carry where the boundary condition asks for a number, in units of the
-/// field's largest coefficient.
-const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// Rounding errors of the free end's position, in units of the numbers that it is computed from.
 const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
+
+/// Rounding errors of the free end's position at a length of which no digit is left to improve, in units of its slack.
+const COLLAPSED: f64 = 64.0;
 
 /// Attempts to end a step on an obstacle: safeguarded by bisection, they are never all needed.
 const ATTEMPTS: usize = 100;
@@ -29,75 +25,8 @@ const CROWD: usize = 64;
 /// Times that one step may be cut: at a crossing, at an earlier one that the shorter step shows, and so on.
 const CUTS: usize = 64;
 
-/// The part of a step for which the free end has to stay in a phase that it enters at an obstacle without being cut.
-const STAY: f64 = 0.125;
-
 /// Contact events that the list of them holds without growing.
 const EVENTS: usize = 1024;
-
-/// A function of x.
-pub type Function = Box<dyn Fn(f64) -> f64>;
-
-/// The initial data (1.2) as functions of x.
-pub struct Initial {
-    /// u_0, zero at x = 0.
-    pub u: Function,
-    /// u_1, zero at x = 0.
-    pub u_t: Function,
-    /// φ_0, zero at x = 0.
-    pub phi: Function,
-    /// φ_1, zero at x = 0.
-    pub phi_t: Function,
-    /// The physical temperature θ_0: θ_A at x = 0 and zero at x = 1.
-    pub theta: Function,
-}
-
-impl Initial {
-    /// A straight beam at rest, its temperature the steady θ_A (1 - x).
-    pub fn at_rest(theta_a: f64) -> Self {
-        let zero = || Box::new(|_: f64| 0.0);
-        Self { u: zero(), u_t: zero(), phi: zero(), phi_t: zero(), theta: Box::new(move |x| theta_a * (1.0 - x)) }
-    }
-}
-
-/// A beam, its obstacles, its elements and its initial data.
-pub struct Problem {
-    /// Coefficients of (1.1).
-    pub beam: Beam,
-    /// The obstacles of (1.3), if any.
-    pub obstacles: Option<Obstacles>,
-    /// The triangulation.
-    pub mesh: Mesh,
-    /// The degree p of the elements, 1..=[`MAX_DEGREE`].
-    pub degree: usize,
-    /// The initial data.
-    pub initial: Initial,
-}
-
-/// How to step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stepping {
-    /// The degree q in time, 0..=[`MAX_TIME_DEGREE`].
-    pub degree: usize,
-    /// The largest step.
-    pub dt: f64,
-    /// The first step, at the start and after a contact event; at most `dt`.
-    pub restart_dt: f64,
-    /// Ratio of a step to the one before while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has length
-    /// `dt`.
-    pub growth: f64,
-    /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the temperature.
-    pub tolerance: f64,
-    /// Iterations after which a step is given up.
-    pub max_iterations: usize,
-}
-
-impl Default for Stepping {
-    /// For the paper's beam: an impact takes (ε √ζ)^(2/3) = 5e-3.
-    fn default() -> Self {
-        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
-    }
-}
 
 /// What a step took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,26 +41,28 @@ pub struct StepReport {
 
 /// A running simulation, standing at one level, with the step that led there.
 pub struct Simulation {
-    beam: Beam,
-    obstacles: Option<Obstacles>,
-    space: Space,
-    stepping: Stepping,
-    lengths: Lengths,
-    stages: Box<dyn Stages>,
-    load: Option<Box<dyn Load>>,
-    level: Level,
+    pub(super) beam: Beam,
+    pub(super) obstacles: Option<Obstacles>,
+    pub(super) space: Space,
+    pub(super) stepping: Stepping,
+    pub(super) lengths: Lengths,
+    pub(super) stages: Box<dyn Stages>,
+    pub(super) load: Option<Box<dyn Load>>,
+    pub(super) level: Level,
     /// The level before the last step.
-    old: Level,
+    pub(super) old: Level,
     /// The length of the last step, 0 at the start.
-    last_dt: f64,
+    pub(super) last_dt: f64,
     /// What the free end touched during the last step.
-    last_phase: Phase,
-    phase: Phase,
+    pub(super) last_phase: Phase,
+    pub(super) phase: Phase,
     /// Whether the last step's polynomials tell something about the next one.
-    smooth: bool,
-    events: Vec<ContactEvent>,
+    pub(super) smooth: bool,
+    pub(super) events: Vec<ContactEvent>,
+    /// Steps tried again shorter.
+    pub(super) shortened: usize,
     /// Events since the time given, all within `restart_dt`.
-    crowd: (f64, usize),
+    pub(super) crowd: (f64, usize),
 }
 
 impl Simulation {
@@ -176,6 +107,7 @@ impl Simulation {
             phase,
             smooth: false,
             events: Vec::with_capacity(EVENTS),
+            shortened: 0,
             crowd: (0.0, 0),
         })
     }
@@ -191,6 +123,8 @@ impl Simulation {
 
     /// Does one step that does not go beyond `limit`; allocates nothing, but for more than 1024 contact events.
     ///
+    /// A step that cannot be done is tried again with less than half of its length, down to a thousandth of `restart_dt`.
+    ///
     /// Returns `None` where the simulation stands at the limit, or beyond it.
     ///
     /// # Errors
@@ -198,15 +132,22 @@ impl Simulation {
     pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
         let (phase, events, crowd) = (self.phase, self.events.len(), self.crowd);
         let rung = self.lengths.rung();
-        let outcome = self.try_step(limit);
-        if outcome.is_err() {
+        let mut first = None;
+        loop {
+            let outcome = self.try_step(limit);
+            let Err(error) = outcome else { return outcome };
             self.phase = phase;
             self.events.truncate(events);
             self.crowd = crowd;
-            self.lengths.set_rung(rung);
             self.smooth = false;
+            // What fails may be done in shorter steps; if not, the first failure tells most.
+            let error = first.get_or_insert(error);
+            if !self.lengths.shorten() {
+                self.lengths.set_rung(rung);
+                return Err(error.clone());
+            }
+            self.shortened += 1;
         }
-        outcome
     }
 
     fn try_step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
@@ -236,7 +177,7 @@ impl Simulation {
             if self.stays(next, h)? {
                 self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
             } else if self.lengths.descend() {
-                // It leaves the other phase as well: a step is too long to tell on which side it is.
+                // It leaves the other phase as well: polynomials of this length are too coarse to tell.
                 h = self.propose(remaining);
             } else {
                 // It grazes the obstacle, by less than the shortest step can tell.
@@ -250,13 +191,13 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// Would the free end stay in another phase for a good part of a step of length h?
+    /// Would the free end stay in another phase throughout a step of length h?
     fn stays(&mut self, phase: Phase, h: f64) -> Result<bool, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);
         let fall = self.first_fall();
         self.phase = present;
-        outcome.map(|_| fall.is_none_or(|(fall, _)| fall.crossing >= STAY))
+        outcome.map(|_| fall.is_none())
     }
 
     /// Takes the step just found: the new level is its end.
@@ -360,7 +301,8 @@ impl Simulation {
                     return Ok((h, iterations, None));
                 }
             }
-            if !(high - low > self.shortest()) {
+            if !(high - low > self.shortest()) && miss.abs() <= COLLAPSED * slack {
+                // Lengths that round-off cannot tell apart.
                 return Ok((h, iterations, Some(next)));
             }
             // First the velocity of the free end, which is the rate but for the error of the step; then secants.
@@ -370,10 +312,10 @@ impl Simulation {
             };
             before = Some((h, miss));
             let guess = h - miss / rate;
-            // A bisection now and then, so that the bracket shrinks whatever the guesses do.
+            // A bisection now and then, so that the bracket shrinks whatever the guesses do; but first a bracket.
             h = if attempt % 4 != 0 && guess > low && guess < high {
                 guess
-            } else if guess >= high && !beyond {
+            } else if !beyond {
                 high
             } else {
                 0.5 * (low + high)
@@ -436,140 +378,6 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        Work { events: self.events.len(), ..self.stages.work() }
+        Work { events: self.events.len(), shortened: self.shortened, ..self.stages.work() }
     }
-
-    /// s of a time in the last step; `None` outside.
-    fn within(&self, t: f64) -> Option<f64> {
-        if !(t >= self.old.t && t <= self.level.t) {
-            return None;
-        }
-        Some(if self.last_dt > 0.0 { ((t - self.old.t) / self.last_dt).min(1.0) } else { 1.0 })
-    }
-
-    /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
-    pub fn value(&self, field: Field, x: f64, t: f64) -> Option<f64> {
-        let s = self.within(t)?;
-        if t == self.level.t {
-            return Some(self.level.value_and_slope(&self.space, field, x).0);
-        }
-        let at = |block, place| self.stages.coefficient(field, block, place).at(s);
-        Some(self.space.evaluate(field, x, at).0)
-    }
-
-    /// The physical temperature, lifting included, at x and at a time in the last step; `None` for other times.
-    pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
-        self.value(Field::Theta, x, t).map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
-    }
-
-    /// Copies the state at a time in the last step into `level`; tells whether there is one.
-    pub fn level_into(&self, t: f64, level: &mut Level) -> bool {
-        match self.within(t) {
-            Some(s) if self.last_dt > 0.0 && t < self.level.t => {
-                self.stages.level_into(s, &self.old, self.last_dt, level);
-                level.t = t;
-                true
-            }
-            Some(_) => {
-                level.copy_from(&self.level);
-                true
-            }
-            None => false,
-        }
-    }
-
-    /// The energy of a level, term by term.
-    pub fn energy(&self, level: &Level) -> Energy {
-        self.scene().energy(level)
-    }
-
-    /// The balance of the last step; that of no step at the start.
-    pub fn balance(&self) -> Balance {
-        let losses = self.stages.losses(&self.space, &self.beam, &self.old, self.last_dt);
-        self.scene().balance(&self.old, &self.level, self.last_phase, losses)
-    }
-
-    fn scene(&self) -> Scene<'_> {
-        Scene { space: &self.space, beam: &self.beam, obstacles: self.obstacles.as_ref() }
-    }
-}
-
-fn check(beam: &Beam, obstacles: Option<&Obstacles>, degree: usize, stepping: &Stepping) -> Result<(), SetupError> {
-    beam.validate()?;
-    if let Some(obstacles) = obstacles {
-        obstacles.validate()?;
-    }
-    let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
-    let refuse = |name, found, allowed: String| Err(SetupError::Setting { name, found, allowed });
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    if !(1..=MAX_DEGREE).contains(&degree) {
-        return refuse("degree of the elements", degree as f64, format!("an integer from 1 to {MAX_DEGREE}"));
-    }
-    if q > MAX_TIME_DEGREE {
-        return refuse("degree in time", q as f64, format!("an integer from 0 to {MAX_TIME_DEGREE}"));
-    }
-    if !positive(dt) {
-        return refuse("dt", dt, "a finite number > 0".into());
-    }
-    if !(positive(restart_dt) && restart_dt <= dt) {
-        return refuse("restart_dt", restart_dt, format!("a number > 0 and at most dt = {dt}"));
-    }
-    if !(growth >= 1.0 && growth.is_finite()) {
-        return refuse("growth", growth, "a finite number >= 1".into());
-    }
-    if growth > 1.0 && (dt / restart_dt).ln() / growth.ln() > MAX_RUNGS as f64 {
-        return refuse("growth", growth, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"));
-    }
-    if !positive(tolerance) {
-        return refuse("tolerance", tolerance, "a finite number > 0".into());
-    }
-    if max_iterations == 0 {
-        return refuse("max_iterations", 0.0, "an integer >= 1".into());
-    }
-    Ok(())
-}
-
-/// (3.6): the projections of the initial data, the temperature lifted.
-fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level, SetupError> {
-    let mut level = Level::new(space);
-    let theta_a = beam.theta_a;
-    let lifted = |x: f64| (initial.theta)(x) - theta_a * (1.0 - x);
-    let fields: [(_, _, &dyn Fn(f64) -> f64); 5] = [
-        ("u", Field::U, &initial.u),
-        ("u_t", Field::V, &initial.u_t),
-        ("phi", Field::Phi, &initial.phi),
-        ("phi_t", Field::W, &initial.phi_t),
-        ("theta", Field::Theta, &lifted),
-    ];
-    for (name, field, f) in fields {
-        let (mut bad, mut scale) = (None, 0.0_f64);
-        space.project(field, f, |element, block, place, value| {
-            if !value.is_finite() {
-                bad.get_or_insert((element, value));
-            }
-            scale = scale.max(value.abs());
-            match field {
-                Field::U | Field::Phi => level.places[block][place] = value,
-                Field::V | Field::W | Field::Theta => level.rates[block][place] = value,
-            }
-        });
-        if let Some((element, found)) = bad {
-            let nodes = space.mesh().nodes();
-            return Err(SetupError::NotFinite { field: name, found, from: nodes[element], to: nodes[element + 1] });
-        }
-        if field == Field::Theta {
-            scale = scale.max(theta_a.abs());
-        }
-        // A bubble on a single linear element has no coefficient at all.
-        let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
-        let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
-        for &(x, allowed) in ends {
-            // What is not a number is no boundary value either.
-            if !(f(x).abs() <= slack) {
-                let found = f(x) + allowed;
-                return Err(SetupError::Boundary { field: name, x, found, allowed });
-            }
-        }
-    }
-    Ok(level)
 }

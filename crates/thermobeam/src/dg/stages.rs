@@ -1,6 +1,6 @@
 //! The polynomials of one step, and how they are found.
 
-use super::block::Block;
+use super::block::{Block, add_columns};
 use super::contact_event::{Phase, Polynomial};
 use super::energy::Losses;
 use super::error::StepFailure;
@@ -45,7 +45,7 @@ pub(super) struct Task<'a> {
 }
 
 /// The step for any degree q in time, q being no parameter of the type.
-pub(super) trait Stages {
+pub(super) trait Stages: Send {
     /// Starts from velocities and a temperature that are constant in time.
     fn guess_constant(&mut self, level: &Level);
     /// Starts from the last step's polynomials, continued over a step that is `ratio` times as long.
@@ -168,26 +168,28 @@ impl<const S: usize> Stepper<S> {
         (change.sqrt(), size.sqrt())
     }
 
-    /// Re-expands the polynomials of `from` over the interval from `start` to `start + ratio` of their step.
+    /// Re-expands polynomials over the interval from `start` to `start + ratio` of their step: the columns of the matrix.
     fn re_expand(&self, start: f64, ratio: f64) -> [[f64; S]; S] {
         // The matrix of the change of basis, by Gauss points that are exact to degree 4q + 3.
-        let mut matrix = [[0.0; S]; S];
+        let mut columns = [[0.0; S]; S];
         for point in &self.forms.gauss {
             let mut values = [0.0; S];
             super::legendre::values_into(2.0 * (start + ratio * point.s) - 1.0, &mut values);
             for i in 0..S {
                 let weight = point.weight * (2 * i + 1) as f64 * point.legendre[i];
                 for j in 0..S {
-                    matrix[i][j] += weight * values[j];
+                    columns[j][i] += weight * values[j];
                 }
             }
         }
-        matrix
+        columns
     }
 }
 
-fn transform<const S: usize>(matrix: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] {
-    std::array::from_fn(|i| matrix[i].iter().zip(y).map(|(m, y)| m * y).sum())
+fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] {
+    let mut sum = [0.0; S];
+    add_columns(&mut sum, columns, y);
+    sum
 }
 
 impl<const S: usize> Stages for Stepper<S> {
@@ -201,19 +203,19 @@ impl<const S: usize> Stages for Stepper<S> {
     }
 
     fn guess_continued(&mut self, ratio: f64) {
-        let matrix = self.re_expand(1.0, ratio);
+        let columns = self.re_expand(1.0, ratio);
         for (x, accepted) in self.trial.x.iter_mut().zip(&self.accepted.x) {
             for field in 0..3 {
-                x[field] = transform(&matrix, &accepted[field]);
+                x[field] = transform(&columns, &accepted[field]);
             }
         }
     }
 
     fn restrict(&mut self, ratio: f64) {
-        let matrix = self.re_expand(0.0, ratio);
+        let columns = self.re_expand(0.0, ratio);
         for x in &mut self.trial.x {
             for field in 0..3 {
-                x[field] = transform(&matrix, &x[field]);
+                x[field] = transform(&columns, &x[field]);
             }
         }
     }

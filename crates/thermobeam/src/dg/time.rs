@@ -7,6 +7,8 @@ use super::legendre;
 pub(super) struct TimeForms<const S: usize> {
     /// `D_ij = ∫ L_j' L_i ds + L_j(0) L_i(0)`: a derivative, and the jump at the start of the step.
     pub(super) derivative: [[f64; S]; S],
+    /// Its columns.
+    pub(super) derivative_columns: [[f64; S]; S],
     /// `T_i = ∫ L_i² ds = 1/(2i + 1)`.
     pub(super) product: [f64; S],
     /// `S_ij = ∫ (∫_0^s L_j) L_i ds`.
@@ -42,7 +44,7 @@ impl<const S: usize> TimeForms<S> {
     pub(super) fn new() -> Self {
         let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let product: [f64; S] = std::array::from_fn(|i| 1.0 / (2 * i + 1) as f64);
-        let derivative = std::array::from_fn(|i| {
+        let derivative: [[f64; S]; S] = std::array::from_fn(|i| {
             // ∫ L_j' L_i = [L_j L_i] for j > i, 0 otherwise.
             std::array::from_fn(|j| if j > i { 1.0 - sign(i + j) } else { 0.0 } + sign(i + j))
         });
@@ -52,7 +54,9 @@ impl<const S: usize> TimeForms<S> {
                 integral[i][j] += product[i] * coefficient;
             }
         }
-        Self { derivative, product, integral, start: std::array::from_fn(sign), gauss: gauss_points(2 * S) }
+        let derivative_columns = std::array::from_fn(|j| derivative.map(|row| row[j]));
+        let (start, gauss) = (std::array::from_fn(sign), gauss_points(2 * S));
+        Self { derivative, derivative_columns, product, integral, start, gauss }
     }
 
     /// `y_0 + h ∫_0^s Σ_j v_j L_j`, of degree q + 1: coefficients 0..=q, and the last one.

@@ -107,3 +107,15 @@ fn the_same_problem_gives_the_same_bits() {
     assert_eq!(one.level(), other.level());
     assert_eq!(one.events(), other.events());
 }
+
+#[test]
+fn a_simulation_may_go_on_in_another_thread() {
+    let mut simulation = first(8, 1, 0.02, 0.5);
+    let expected = tip(&first(8, 1, 0.02, 1.0), Field::U);
+    let moved = std::thread::spawn(move || {
+        simulation.advance(1.0).unwrap();
+        tip(&simulation, Field::U)
+    });
+    // The step that ends at 0.5 is the only difference.
+    close(moved.join().unwrap(), expected, 1e-6);
+}

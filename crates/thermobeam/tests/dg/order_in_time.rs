@@ -61,7 +61,7 @@ fn inside_a_step_the_order_is_that_of_interpolation() {
         let orders = [(q + 2).min(2 * q + 1), q + 1];
         for (k, order) in orders.into_iter().enumerate() {
             let rate = (errors[0][k] / errors[1][k]).log2();
-            assert!((rate - order as f64).abs() <= 0.2, "q = {q}, {k}: {errors:?}, rate {rate}");
+            assert!((rate - order as f64).abs() <= 0.25, "q = {q}, {k}: {errors:?}, rate {rate}");
         }
     }
 }

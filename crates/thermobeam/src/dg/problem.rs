@@ -1,0 +1,162 @@
+//! What is to be simulated, and how: the data, checked once.
+
+use super::element::MAX_DEGREE;
+use super::error::SetupError;
+use super::lengths::MAX_RUNGS;
+use super::space::{Field, Space};
+use super::{Level, MAX_TIME_DEGREE};
+use crate::mesh::Mesh;
+use crate::parameters::{Beam, Obstacles};
+
+/// Rounding errors that an initial value may carry where the boundary condition asks for a number, in units of the
+/// field's largest coefficient.
+const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
+
+/// A function of x.
+pub type Function = Box<dyn Fn(f64) -> f64>;
+
+/// The initial data (1.2) as functions of x.
+pub struct Initial {
+    /// u_0, zero at x = 0.
+    pub u: Function,
+    /// u_1, zero at x = 0.
+    pub u_t: Function,
+    /// φ_0, zero at x = 0.
+    pub phi: Function,
+    /// φ_1, zero at x = 0.
+    pub phi_t: Function,
+    /// The physical temperature θ_0: θ_A at x = 0 and zero at x = 1.
+    pub theta: Function,
+}
+
+impl Initial {
+    /// A straight beam at rest, its temperature the steady θ_A (1 - x).
+    pub fn at_rest(theta_a: f64) -> Self {
+        let zero = || Box::new(|_: f64| 0.0);
+        Self { u: zero(), u_t: zero(), phi: zero(), phi_t: zero(), theta: Box::new(move |x| theta_a * (1.0 - x)) }
+    }
+}
+
+/// A beam, its obstacles, its elements and its initial data.
+pub struct Problem {
+    /// Coefficients of (1.1).
+    pub beam: Beam,
+    /// The obstacles of (1.3), if any.
+    pub obstacles: Option<Obstacles>,
+    /// The triangulation.
+    pub mesh: Mesh,
+    /// The degree p of the elements, 1..=[`MAX_DEGREE`].
+    pub degree: usize,
+    /// The initial data.
+    pub initial: Initial,
+}
+
+/// How to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepping {
+    /// The degree q in time, 0..=[`MAX_TIME_DEGREE`].
+    pub degree: usize,
+    /// The largest step.
+    pub dt: f64,
+    /// The first step, at the start and after a contact event; at most `dt`.
+    pub restart_dt: f64,
+    /// Ratio of a step to the one before while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has length
+    /// `dt`.
+    pub growth: f64,
+    /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the temperature.
+    pub tolerance: f64,
+    /// Iterations after which a step is given up.
+    pub max_iterations: usize,
+}
+
+impl Default for Stepping {
+    /// For the paper's beam: an impact takes (ε √ζ)^(2/3) = 5e-3.
+    fn default() -> Self {
+        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
+    }
+}
+
+pub(super) fn check(
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+    degree: usize,
+    stepping: &Stepping,
+) -> Result<(), SetupError> {
+    beam.validate()?;
+    if let Some(obstacles) = obstacles {
+        obstacles.validate()?;
+    }
+    let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
+    let refuse = |name, found, allowed: String| Err(SetupError::Setting { name, found, allowed });
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    if !(1..=MAX_DEGREE).contains(&degree) {
+        return refuse("degree of the elements", degree as f64, format!("an integer from 1 to {MAX_DEGREE}"));
+    }
+    if q > MAX_TIME_DEGREE {
+        return refuse("degree in time", q as f64, format!("an integer from 0 to {MAX_TIME_DEGREE}"));
+    }
+    if !positive(dt) {
+        return refuse("dt", dt, "a finite number > 0".into());
+    }
+    if !(positive(restart_dt) && restart_dt <= dt) {
+        return refuse("restart_dt", restart_dt, format!("a number > 0 and at most dt = {dt}"));
+    }
+    if !(growth >= 1.0 && growth.is_finite()) {
+        return refuse("growth", growth, "a finite number >= 1".into());
+    }
+    if growth > 1.0 && (dt / restart_dt).ln() / growth.ln() > MAX_RUNGS as f64 {
+        return refuse("growth", growth, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"));
+    }
+    if !positive(tolerance) {
+        return refuse("tolerance", tolerance, "a finite number > 0".into());
+    }
+    if max_iterations == 0 {
+        return refuse("max_iterations", 0.0, "an integer >= 1".into());
+    }
+    Ok(())
+}
+
+/// (3.6): the projections of the initial data, the temperature lifted.
+pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level, SetupError> {
+    let mut level = Level::new(space);
+    let theta_a = beam.theta_a;
+    let lifted = |x: f64| (initial.theta)(x) - theta_a * (1.0 - x);
+    let fields: [(_, _, &dyn Fn(f64) -> f64); 5] = [
+        ("u", Field::U, &initial.u),
+        ("u_t", Field::V, &initial.u_t),
+        ("phi", Field::Phi, &initial.phi),
+        ("phi_t", Field::W, &initial.phi_t),
+        ("theta", Field::Theta, &lifted),
+    ];
+    for (name, field, f) in fields {
+        let (mut bad, mut scale) = (None, 0.0_f64);
+        space.project(field, f, |element, block, place, value| {
+            if !value.is_finite() {
+                bad.get_or_insert((element, value));
+            }
+            scale = scale.max(value.abs());
+            match field {
+                Field::U | Field::Phi => level.places[block][place] = value,
+                Field::V | Field::W | Field::Theta => level.rates[block][place] = value,
+            }
+        });
+        if let Some((element, found)) = bad {
+            let nodes = space.mesh().nodes();
+            return Err(SetupError::NotFinite { field: name, found, from: nodes[element], to: nodes[element + 1] });
+        }
+        if field == Field::Theta {
+            scale = scale.max(theta_a.abs());
+        }
+        // A bubble on a single linear element has no coefficient at all.
+        let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
+        let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
+        for &(x, allowed) in ends {
+            // What is not a number is no boundary value either.
+            if !(f(x).abs() <= slack) {
+                let found = f(x) + allowed;
+                return Err(SetupError::Boundary { field: name, x, found, allowed });
+            }
+        }
+    }
+    Ok(level)
+}

@@ -1,10 +1,11 @@
 //! Laws of asking for an accuracy: held against exact answers, and against much finer runs where the tip is in contact.
 
+use convergence_study::study::FromFile as _;
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::Settings;
 use thermobeam_study::error::free_vibration::{beam, vibration};
 use thermobeam_study::error::yardstick::{Quantity, Reference, Yardstick};
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
 use thermobeam_study::run::march::Family;
 use thermobeam_study::scene::Scene;
@@ -16,7 +17,7 @@ fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Family {
 
 fn manufactured() -> Family {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/midpoint-coupled.toml");
-    let spec = ConvergenceSpec::read(path).unwrap();
+    let spec = Convergence::read(path).unwrap();
     Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end)
 }
 

@@ -108,9 +108,8 @@ impl<'a> Yardstick<'a> {
             Answer::Exact { exact, meter, factors, tip } => {
                 factors.at(exact, t);
                 let errors = meter.measure(level, factors);
-                let of = |norm: Norm| errors[Norm::ALL.iter().position(|&other| other == norm).unwrap_or(0)];
                 let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
-                [of(Norm::Theorem34), of(Norm::Superclose), (level.u[level.u.len() - 1] - u).abs()]
+                [errors[Norm::Theorem34], errors[Norm::Superclose], (level.u[level.u.len() - 1] - u).abs()]
             }
             Answer::Computed { reference, stride, nodes, lengths } => {
                 let fine = &reference.levels[index];

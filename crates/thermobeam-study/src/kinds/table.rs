@@ -7,22 +7,10 @@ use super::{
     bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
     frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
 };
-use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
 pub const KINDS: [KindRow; 17] = [
-    KindRow {
-        name: CONVERGENCE,
-        read: reader::<convergence::Convergence>,
-        why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
-              the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
-              it by c (h + dt).",
-        judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
-                 which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
-                 within the tolerance, whole. Above is as wrong as below. What cannot be told is inconclusive, which is not a pass.",
-        failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
-                  wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-    },
+    convergence::ROW,
     KindRow {
         name: energy::ENERGY,
         read: reader::<energy::EnergyDecay>,

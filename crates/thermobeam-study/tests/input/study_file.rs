@@ -1,8 +1,8 @@
-use convergence_study::study::{Axis, Header, Tier};
+use convergence_study::study::{Axis, FromFile as _, Header, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver};
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::{Norm, Perturbation};
 
 use crate::says;
@@ -13,14 +13,14 @@ const REFINE: &str = "[refine]\naxis = \"space\"\nisolate = true\nelements = [4,
 const EXPECT: &str = "[[expect]]\nnorm = \"velocity\"\norder = 2\ntolerance = 0.05\n";
 
 #[track_caller]
-fn spec(parts: &[&str]) -> ConvergenceSpec {
-    ConvergenceSpec::parse(&parts.concat(), "s.toml").unwrap_or_else(|error| panic!("{error}"))
+fn spec(parts: &[&str]) -> Convergence {
+    Convergence::parse(&parts.concat(), "s.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
 fn refusal(parts: &[&str]) -> String {
     let text = parts.concat();
-    let message = ConvergenceSpec::parse(&text, "s.toml").expect_err(&text).to_string();
+    let message = Convergence::parse(&text, "s.toml".as_ref()).expect_err(&text).to_string();
     assert!((1..=3).contains(&message.lines().count()), "{message}");
     message
 }
@@ -67,8 +67,8 @@ fn the_contracts_example_is_a_study() {
         order = 2
         tolerance = 0.1
         "#]);
-    assert_eq!((spec.id.as_str(), spec.tier), ("theorem-3.4-space", Tier::Quick));
-    assert_eq!(spec.claim, "Theorem 3.4: first order in h");
+    assert_eq!((spec.header.id.as_str(), spec.header.tier), ("theorem-3.4-space", Tier::Quick));
+    assert_eq!(spec.header.claim, "Theorem 3.4: first order in h");
     assert_eq!(spec.beam, Beam { beta: 0.5, ..Beam::default() });
     assert_eq!(spec.obstacles, Some(Obstacles { epsilon: 0.01, ..Obstacles::default() }));
     assert_eq!([spec.exact.u.len(), spec.exact.phi.len(), spec.exact.theta.len()], [1, 2, 1]);
@@ -162,7 +162,7 @@ fn a_wrong_header_is_named() {
         ),
         ("[study]\nname = \"a\"", &["2:1: study.name: unknown key `name`; allowed is id, claim, tier, kind"]),
     ] {
-        says(&Header::parse(text, "s.toml").expect_err(text).to_string(), pieces);
+        says(&Header::parse(text, "s.toml".as_ref()).expect_err(text).to_string(), pieces);
         says(&refusal(&[text]), pieces);
     }
 }
@@ -170,10 +170,10 @@ fn a_wrong_header_is_named() {
 #[test]
 fn the_header_of_any_kind_is_read_without_the_rest() {
     let text = [STUDY, "kind = \"energy\"\n[anything]\nelse = 1"].concat();
-    let header = Header::parse(&text, "s.toml").expect("a header");
+    let header = Header::parse(&text, "s.toml".as_ref()).expect("a header");
     assert_eq!((header.id.as_str(), header.kind.as_str(), header.tier), ("a-1.2", "energy", Tier::Quick));
     says(&refusal(&[&text]), &["5:8: study.kind: found \"energy\"; allowed is \"convergence\""]);
-    assert_eq!(Header::parse(STUDY, "s.toml").expect("a header").kind, "convergence");
+    assert_eq!(Header::parse(STUDY, "s.toml".as_ref()).expect("a header").kind, "convergence");
 }
 
 #[test]

@@ -1,9 +1,10 @@
 use std::fs;
 use std::path::PathBuf;
 
+use convergence_study::study::FromFile as _;
 use convergence_study::study::Header;
 use thermobeam_study::kinds;
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;
@@ -24,7 +25,7 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     says(&missing.to_string(), &["no/such/scene.toml: cannot be read: "]);
     let folder = env!("CARGO_TARGET_TMPDIR");
     says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
-    says(&ConvergenceSpec::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
+    says(&Convergence::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
     says(&Header::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
 }
 
@@ -93,6 +94,6 @@ proptest! {
         if let Err(error) = Scene::parse(&text, "f.toml") {
             prop_assert!(error.to_string().starts_with("f.toml:"), "{}", error);
         }
-        prop_assert!(ConvergenceSpec::parse(&text, "f.toml").is_err());
+        prop_assert!(Convergence::parse(&text, "f.toml".as_ref()).is_err());
     }
 }

@@ -11,7 +11,6 @@ mod modes;
 mod motion;
 
 use super::Study;
-use super::convergence::resolution;
 use super::ladder::{self, Family, Ladder};
 use crate::kinds::tables::{Expectation, Norm, Refine};
 use crate::kinds::untyped::{Case, Measured};
@@ -137,7 +136,9 @@ impl Vibration {
     fn levels(&self, results: &[Result<Measured, CaseFailure>]) -> Vec<LevelErrors> {
         let level = |(i, (elements, steps)): (usize, (usize, usize))| {
             let errors = Norm::ALL.map(|norm| (norm.name().to_owned(), ladder::value(results, i, norm.name())));
-            LevelErrors { parameters: resolution(elements, steps), errors: errors.into() }
+            let parameters = [("elements", elements), ("steps", steps)];
+            let parameters = parameters.map(|(name, count)| (name.to_owned(), count as f64)).into();
+            LevelErrors { parameters, errors: errors.into() }
         };
         self.refine.cases().into_iter().enumerate().map(level).collect()
     }

@@ -5,7 +5,7 @@ use super::{Advantage, WORK_PRECISION, WorkPrecision};
 use crate::error::free_vibration;
 use crate::error::yardstick::Quantity;
 use crate::kinds::FromFile;
-use crate::kinds::convergence::file::ConvergenceSpec;
+use crate::kinds::convergence::Convergence;
 use crate::run::march::Family;
 use crate::scene::Scene;
 use crate::scene::limits;
@@ -87,7 +87,7 @@ fn problem(
             if let Some(field) = section.get("t_end") {
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
-            let spec = ConvergenceSpec::read(file.file(folder)?)?;
+            let spec = <Convergence as convergence_study::study::FromFile>::read(file.file(folder)?)?;
             Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
         }
         (None, Some(file), None) => {

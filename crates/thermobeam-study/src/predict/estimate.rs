@@ -17,7 +17,7 @@
 mod report;
 mod runs;
 
-use crate::run::rerun::RunError;
+use crate::run::driver::RunError;
 use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};

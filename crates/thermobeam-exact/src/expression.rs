@@ -22,6 +22,7 @@ use std::fmt;
 
 use num_dual::Dual2_64;
 
+use crate::function::samples;
 pub use error::{ExpressionError, ExpressionProblem, NotFinite};
 use syntax::Node;
 
@@ -65,9 +66,6 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Samples of [`Self::check_finite`]: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
-    const SAMPLES: u32 = 2520;
-
     /// Reads a function of `variable`; the error points at the place.
     pub fn parse(source: &str, variable: Variable) -> Result<Self, ExpressionError> {
         let root = parser::parse(source, variable)?;
@@ -106,7 +104,7 @@ impl Expression {
 
     /// As [`Self::check_finite`], on [0, end].
     pub fn check_finite_up_to(&self, end: f64, order: usize) -> Result<(), NotFinite> {
-        for at in Self::samples(end) {
+        for at in samples(end) {
             // Values are taken as `eval` gives them, because that is what the solver will see.
             let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
             for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
@@ -116,29 +114,6 @@ impl Expression {
             }
         }
         Ok(())
-    }
-
-    /// The rounding error to expect of a value of this function on [0, end].
-    ///
-    /// `8 ε max(|f| + |x f'|)`: the second term is what a rounding error in x alone does to the value.
-    pub fn roundoff(&self, end: f64) -> f64 {
-        // A handful of operations, each with an error of half an ε, of operands about as large as the result.
-        const ROUNDINGS: f64 = 8.0;
-        ROUNDINGS * f64::EPSILON * self.size(end)
-    }
-
-    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is left out.
-    pub fn size(&self, end: f64) -> f64 {
-        let size_at = |at: f64| {
-            let [value, first, _] = self.derivatives(at);
-            let slope = (at * first).abs();
-            value.abs() + if slope.is_finite() { slope } else { 0.0 }
-        };
-        Self::samples(end).map(size_at).fold(0.0, f64::max)
-    }
-
-    fn samples(end: f64) -> impl Iterator<Item = f64> {
-        (0..=Self::SAMPLES).map(move |i| end * (f64::from(i) / f64::from(Self::SAMPLES)))
     }
 }
 

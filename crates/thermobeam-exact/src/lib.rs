@@ -5,6 +5,7 @@
 //! updates instead of quadrature.
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
+//! * [`function`]: any function with two derivatives, of which a product is made.
 //! * [`solution`]: the sums of products.
 //! * [`factors`]: T, T', T'' and their like at one time, exact or as the scheme sees them.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
@@ -17,6 +18,7 @@
 pub mod errors;
 pub mod expression;
 pub mod factors;
+pub mod function;
 pub mod nearest;
 pub mod norm;
 pub mod quadrature;

@@ -21,8 +21,8 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
 #[test]
 fn the_errors_are_those_of_brute_force_far_from_the_solution() {
     let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap(),
-        t: Expression::parse(t, Variable::T).unwrap(),
+        x: Expression::parse(x, Variable::X).unwrap().into(),
+        t: Expression::parse(t, Variable::T).unwrap().into(),
     };
     let exact = Manufactured {
         u: vec![product("sin(2*x)", "cos(t)"), product("x^2", "1 + t")],

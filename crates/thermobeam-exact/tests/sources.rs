@@ -13,8 +13,8 @@ const BEAM: Beam = Beam { zeta: 0.4, a: 0.6, rho: 1.5, beta: -0.2, theta_a: 0.0 
 
 fn exact() -> Manufactured {
     let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap(),
-        t: Expression::parse(t, Variable::T).unwrap(),
+        x: Expression::parse(x, Variable::X).unwrap().into(),
+        t: Expression::parse(t, Variable::T).unwrap().into(),
     };
     Manufactured {
         u: vec![product("sin(2*x)", "cos(2*t)"), product("x^2", "1 + t^3")],

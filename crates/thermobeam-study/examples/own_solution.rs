@@ -21,7 +21,8 @@ const TOML: &str = r#"
 "#;
 
 fn product(x: &str, t: &str) -> Result<Vec<Product>, ExpressionError> {
-    Ok(vec![Product { x: Expression::parse(x, Variable::X)?, t: Expression::parse(t, Variable::T)? }])
+    let (x, t) = (Expression::parse(x, Variable::X)?, Expression::parse(t, Variable::T)?);
+    Ok(vec![Product { x: x.into(), t: t.into() }])
 }
 
 fn in_rust() -> Result<Convergence, ExpressionError> {

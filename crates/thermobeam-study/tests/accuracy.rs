@@ -12,7 +12,7 @@ use thermobeam_study::scene::Scene;
 
 fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Refinable {
     let modes: Vec<_> = modes.iter().map(|&mode| (mode, 0.1)).collect();
-    Refinable::of_free_solution(vibration(&modes, zeta).unwrap().unwrap(), beam(zeta), t_end)
+    Refinable::of_free_solution(vibration(&modes, zeta).unwrap(), beam(zeta), t_end)
 }
 
 fn manufactured() -> Refinable {

@@ -56,16 +56,7 @@ pub const KINDS: [KindRow; 17] = [
         judged: "For every coefficient some study must see a relative error as small as the file says.",
         failure: "The guard has become blunter: a study has lost levels, or its tolerance has grown.",
     },
-    KindRow {
-        name: vibration::KIND,
-        read: reader::<vibration::Vibration>,
-        why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
-              in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
-              leave the time error alone.",
-        judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
-        failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
-                  can be to blame.",
-    },
+    vibration::ROW,
     frequencies::ROW,
     KindRow {
         name: self_convergence::KIND,

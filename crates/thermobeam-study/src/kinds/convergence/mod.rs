@@ -33,7 +33,7 @@ pub const ROW: KindRow = KindRow {
 };
 
 /// A convergence study, validated.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Convergence {
     /// Id, claim and tier.
     pub header: Header,

@@ -126,10 +126,10 @@ fn vibration(section: &Section<'_>) -> Result<Refinable, InputError> {
     let modes = modes?;
     let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
     match free_vibration::vibration(&modes, zeta) {
-        Ok(Some(exact)) if !modes.is_empty() => {
+        Ok(exact) if !modes.is_empty() => {
             Ok(Refinable::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
         }
-        _ => Err(field.refuse_as_written("a list of modes that ring: zeta times their frequency is below 2")),
+        _ => Err(field.refuse_as_written(allowed)),
     }
 }
 

@@ -161,7 +161,7 @@ pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
 }
 
 /// Values at every `stride`-th node.
-fn restrict(level: &Level, stride: usize) -> Level {
+pub(crate) fn restrict(level: &Level, stride: usize) -> Level {
     map_fields(level, |y| y.iter().step_by(stride).copied().collect())
 }
 

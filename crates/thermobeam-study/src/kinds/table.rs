@@ -58,14 +58,7 @@ pub const KINDS: [KindRow; 17] = [
     },
     vibration::ROW,
     frequencies::ROW,
-    KindRow {
-        name: self_convergence::KIND,
-        read: reader::<self_convergence::SelfConvergence>,
-        why: "For the paper's own data there is no exact solution: rates come from the differences of three levels (Richardson) and \
-              from the distance to a much finer run, contact included.",
-        judged: "Each quantity's rate by the rule of every rate. A wrong coefficient cannot be seen in this way; a lost order can.",
-        failure: "With contact and rough data the order is lost, or the levels are too coarse for it.",
-    },
+    self_convergence::ROW,
     KindRow {
         name: "experiment",
         read: reader::<experiment::Experiments>,

@@ -7,6 +7,7 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
+use crate::error::richardson::{growth, orthogonal_growth};
 use crate::error::yardstick::{Quantity, distance, prolong};
 use crate::run::refinable::{Refinable, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
@@ -148,9 +149,8 @@ impl Forecast<'_> {
     /// Errors of the pilot itself in space and in time, at each time of comparison, times their share in a finer run.
     fn parts(&self, shrink: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let [p, q] = self.rates;
-        let space =
-            if self.pilots.quantity == Quantity::Tip { 2_f64.powf(p) - 1.0 } else { (4_f64.powf(p) - 1.0).sqrt() };
-        let factors = [shrink[0] / space, shrink[1] / (2_f64.powf(q) - 1.0)];
+        let space = if self.pilots.quantity == Quantity::Tip { growth(2.0, p) } else { orthogonal_growth(2.0, p) };
+        let factors = [shrink[0] / space, shrink[1] / growth(2.0, q)];
         self.pilots.differences.iter().map(move |pair| [pair[0] * factors[0], pair[1] * factors[1]])
     }
 

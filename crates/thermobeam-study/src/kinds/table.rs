@@ -66,13 +66,7 @@ pub const KINDS: [KindRow; 17] = [
         judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
         failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
     },
-    KindRow {
-        name: "equilibrium",
-        read: reader::<equilibrium::EndStates>,
-        why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
-        judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact state.",
-        failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
-    },
+    equilibrium::ROW,
     KindRow {
         name: "bifurcation",
         read: reader::<bifurcation::BifurcationStudy>,

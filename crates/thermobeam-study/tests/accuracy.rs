@@ -7,24 +7,24 @@ use thermobeam_study::error::free_vibration::{beam, vibration};
 use thermobeam_study::error::yardstick::{Quantity, Reference, Yardstick};
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::run::refinable::Refinable;
+use thermobeam_study::run::family::Family;
 use thermobeam_study::scene::Scene;
 
-fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Refinable {
+fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Family {
     let modes: Vec<_> = modes.iter().map(|&mode| (mode, 0.1)).collect();
-    Refinable::of_free_solution(vibration(&modes, zeta).unwrap(), beam(zeta), t_end)
+    Family::of_free_solution(vibration(&modes, zeta).unwrap(), beam(zeta), t_end)
 }
 
-fn manufactured() -> Refinable {
+fn manufactured() -> Family {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/midpoint-coupled.toml");
     let spec = Convergence::read(path).unwrap();
-    Refinable::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end)
+    Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end)
 }
 
 /// The error made, over all time levels.
-fn made(problem: &Refinable, quantity: Quantity, scheme: Scheme, settings: Settings, [n, steps]: [usize; 2]) -> f64 {
-    let on = problem.on(n).unwrap();
-    let mut yardstick = Yardstick::new(problem, &on, None).unwrap();
+fn made(family: &Family, quantity: Quantity, scheme: Scheme, settings: Settings, [n, steps]: [usize; 2]) -> f64 {
+    let on = family.on(n).unwrap();
+    let mut yardstick = Yardstick::new(family, &on, None).unwrap();
     let mut run = on.start(scheme, settings, steps).unwrap();
     let mut worst = 0.0_f64;
     for index in 0..steps {
@@ -39,12 +39,12 @@ fn made(problem: &Refinable, quantity: Quantity, scheme: Scheme, settings: Setti
 }
 
 /// Node-steps of the cheapest run with the error `target`, by search over meshes, steps and schemes.
-fn searched(problem: &Refinable, quantity: Quantity, target: f64, about: &Plan) -> f64 {
+fn searched(family: &Family, quantity: Quantity, target: f64, about: &Plan) -> f64 {
     let mut best = f64::INFINITY;
     for scheme in SCHEMES {
         for k in -3..=3 {
             let elements = (about.elements as f64 * 1.25_f64.powi(k)).round() as usize;
-            let fits = |steps: usize| made(problem, quantity, scheme, about.settings, [elements, steps]) <= target;
+            let fits = |steps: usize| made(family, quantity, scheme, about.settings, [elements, steps]) <= target;
             let most = (best / elements as f64).min(2.0 * about.node_steps() / elements as f64) as usize;
             if most < 2 || !fits(most) {
                 continue;
@@ -62,14 +62,14 @@ fn searched(problem: &Refinable, quantity: Quantity, target: f64, about: &Plan) 
 
 /// The error made is that asked for; the run costs at most twice the best, and so does it with its pilots.
 #[track_caller]
-fn check(problem: &Refinable, quantity: Quantity, target: f64) {
-    let plan = plan(problem, &Request::new(quantity, target)).unwrap();
-    let error = made(problem, quantity, plan.scheme, plan.settings, [plan.elements, plan.steps]);
+fn check(family: &Family, quantity: Quantity, target: f64) {
+    let plan = plan(family, &Request::new(quantity, target)).unwrap();
+    let error = made(family, quantity, plan.scheme, plan.settings, [plan.elements, plan.steps]);
     let context = format!("{} {target:e}: {error:e} made by {plan:?}", quantity.name());
     assert!((0.2 * target..=target).contains(&error), "{context}");
     assert!((0.7..=1.4).contains(&(error / plan.believed)), "{context}");
     assert_eq!((plan.scheme.name, plan.trust), ("midpoint", Trust::Firm), "{context}");
-    let best = searched(problem, quantity, target, &plan);
+    let best = searched(family, quantity, target, &plan);
     let cost = plan.node_steps() + plan.pilots.node_steps;
     assert!(cost <= 2.0 * best, "{context}: with pilots {cost:e}, the best {best:e}");
 }
@@ -95,19 +95,19 @@ fn a_manufactured_solution_is_as_accurate_as_asked_for_at_little_cost() {
 #[test]
 fn a_coarse_answer_is_as_accurate_as_asked_for_whatever_the_pilots_cost() {
     for target in [1e-2, 1e-3, 1e-4] {
-        let problem = vibrating(&[0, 1], 0.1, 2.0);
-        let plan = plan(&problem, &Request::new(Quantity::Tip, target)).unwrap();
-        let error = made(&problem, Quantity::Tip, plan.scheme, plan.settings, [plan.elements, plan.steps]);
+        let family = vibrating(&[0, 1], 0.1, 2.0);
+        let plan = plan(&family, &Request::new(Quantity::Tip, target)).unwrap();
+        let error = made(&family, Quantity::Tip, plan.scheme, plan.settings, [plan.elements, plan.steps]);
         assert!((0.2 * target..=target).contains(&error), "{target:e}: {error:e}, {plan:?}");
         assert!(plan.pilots.node_steps < 3000.0);
     }
 }
 
-fn thrown(t_end: f64) -> Refinable {
+fn thrown(t_end: f64) -> Family {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/scenes/paper-1-beta-0.toml");
     let mut scene = Scene::read(path).unwrap();
     scene.t_end = t_end;
-    Refinable::of_scene(&scene)
+    Family::of_scene(&scene)
 }
 
 #[test]
@@ -119,12 +119,12 @@ fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
         (2.0, Quantity::Tip, 1e-3),
         (2.0, Quantity::Tip, 1e-4),
     ] {
-        let problem = thrown(t_end);
-        let plan = plan(&problem, &Request::new(quantity, target)).unwrap();
+        let family = thrown(t_end);
+        let plan = plan(&family, &Request::new(quantity, target)).unwrap();
         let steps = plan.steps.next_multiple_of(OBSERVATIONS);
-        let reference = Reference::compute(&problem, plan.elements * 4, steps * 4, OBSERVATIONS).unwrap();
-        let on = problem.on(plan.elements).unwrap();
-        let mut yardstick = Yardstick::new(&problem, &on, Some(&reference)).unwrap();
+        let reference = Reference::compute(&family, plan.elements * 4, steps * 4, OBSERVATIONS).unwrap();
+        let on = family.on(plan.elements).unwrap();
+        let mut yardstick = Yardstick::new(&family, &on, Some(&reference)).unwrap();
         let mut run = on.start(plan.scheme, plan.settings, steps).unwrap();
         let mut worst = 0.0_f64;
         for index in 0..OBSERVATIONS {
@@ -140,31 +140,31 @@ fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
 
 #[test]
 fn what_cannot_be_reached_is_refused_with_what_can() {
-    let problem = vibrating(&[0, 1], 0.1, 2.0);
+    let family = vibrating(&[0, 1], 0.1, 2.0);
     let limited = Request { max_node_steps: 1e5, ..Request::new(Quantity::Tip, 1e-7) };
-    let error = plan(&problem, &limited).unwrap_err();
+    let error = plan(&family, &limited).unwrap_err();
     let Unreachable::Cost { reachable, cost, .. } = error else { panic!("{error}") };
     assert!(reachable > 1e-7 && reachable < 1e-4 && cost > 1e5, "{error}");
     // What is called reachable can be reached.
-    let within = plan(&problem, &Request { target: reachable, ..limited }).unwrap();
+    let within = plan(&family, &Request { target: reachable, ..limited }).unwrap();
     assert!(within.node_steps() + within.pilots.node_steps <= 1e5);
     let limitless = Request { max_node_steps: f64::INFINITY, ..Request::new(Quantity::Tip, 1e-13) };
-    let error = plan(&problem, &limitless).unwrap_err();
+    let error = plan(&family, &limitless).unwrap_err();
     assert!(
         matches!(error, Unreachable::RoundOff { reachable, .. } if reachable > 1e-13 && reachable < 1e-9),
         "{error}"
     );
     for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(plan(&problem, &Request::new(Quantity::Tip, target)), Err(Unreachable::Target { .. })));
+        assert!(matches!(plan(&family, &Request::new(Quantity::Tip, target)), Err(Unreachable::Target { .. })));
     }
 }
 
 #[test]
 fn round_off_is_below_the_floor_that_is_assumed() {
     // The error in space falls fourfold; by how much it does not is round-off.
-    let problem = vibrating(&[0, 1], 0.1, 2.0);
+    let family = vibrating(&[0, 1], 0.1, 2.0);
     let tip = |n: usize| {
-        let on = problem.on(n).unwrap();
+        let on = family.on(n).unwrap();
         let settings = Settings { tolerance: 1e-13, ..Settings::default() };
         let mut run = on.start(SCHEMES[1], settings, 64).unwrap();
         run.advance(64).unwrap();

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use serde::Serialize;
 use thermobeam_study::error::yardstick;
 use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::run::refinable::Refinable;
+use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::scene::Scene;
 
@@ -33,9 +33,9 @@ pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(S
         Quantity::Tip => yardstick::Quantity::Tip,
         Quantity::Theorem34 => yardstick::Quantity::Theorem34,
     };
-    let problem = Refinable::of_scene(&scene);
-    let plan = plan(&problem, &Request::new(quantity, target))?;
-    let mesh = problem.mesh(plan.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
+    let family = Family::of_scene(&scene);
+    let plan = plan(&family, &Request::new(quantity, target))?;
+    let mesh = family.mesh(plan.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
     let dt = scene.t_end / plan.steps as f64;
     let scene = Scene { mesh, dt, steps: plan.steps, scheme: plan.scheme, settings: plan.settings, ..scene };
     Ok((scene, Planned { quantity, target, plan }))

@@ -6,7 +6,7 @@
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::kinds::tables::{Manufactured, Norm, Product};
-use crate::run::refinable::{OnMesh, Refinable};
+use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
@@ -48,17 +48,12 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Runs the problem by `midpoint`; `steps` must be a multiple of `observations`.
+    /// Runs the family by `midpoint`; `steps` must be a multiple of `observations`.
     ///
     /// # Errors
     /// [`CaseFailure`] where the run does not come to its end.
-    pub fn compute(
-        problem: &Refinable,
-        elements: usize,
-        steps: usize,
-        observations: usize,
-    ) -> Result<Self, CaseFailure> {
-        let on = problem.on(elements)?;
+    pub fn compute(family: &Family, elements: usize, steps: usize, observations: usize) -> Result<Self, CaseFailure> {
+        let on = family.on(elements)?;
         let mut run = on.start(MIDPOINT, Settings { tolerance: 1e-13, ..Settings::default() }, steps)?;
         let mut levels = Vec::with_capacity(observations);
         for _ in 0..observations {
@@ -80,14 +75,14 @@ pub struct Yardstick<'a> {
 }
 
 impl<'a> Yardstick<'a> {
-    /// Against `reference`, or else against the problem's exact solution.
+    /// Against `reference`, or else against the family's exact solution.
     ///
     /// # Errors
     /// [`CaseFailure`] without either, or where the reference's mesh does not contain the nodes.
-    pub fn new(problem: &'a Refinable, on: &OnMesh<'_>, reference: Option<&'a Reference>) -> Result<Self, CaseFailure> {
+    pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Reference>) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
         let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
-        let answer = match (reference, problem.exact()) {
+        let answer = match (reference, family.exact()) {
             (Some(reference), _) => {
                 let (fine, coarse) = (reference.lengths.len(), mesh.elements());
                 if !fine.is_multiple_of(coarse) {
@@ -98,7 +93,7 @@ impl<'a> Yardstick<'a> {
             }
             (None, Some(exact)) => {
                 let mut meter = Box::new(ErrorMeter::new(exact, mesh, false));
-                meter.lift(mesh, problem.beam.theta_a);
+                meter.lift(mesh, family.beam.theta_a);
                 let tip = exact.u.iter().map(|product: &Product| product.x.eval(1.0)).collect();
                 Answer::Exact { exact, meter, factors: Factors::default(), tip }
             }

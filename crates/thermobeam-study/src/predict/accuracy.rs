@@ -9,14 +9,14 @@
 //! the maximum of that norm. Both are believed, not known: the answer says what it believes, and what the pilots cost.
 //!
 //! ```
-//! use thermobeam_study::accuracy::{Request, plan};
-//! use thermobeam_study::run::refinable::Refinable;
+//! use thermobeam_study::predict::accuracy::{Request, plan};
+//! use thermobeam_study::run::family::Family;
 //! use thermobeam_study::scene::Scene;
-//! use thermobeam_study::yardstick::Quantity;
+//! use thermobeam_study::error::yardstick::Quantity;
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
-//! let problem = Refinable::of_scene(&Scene::parse(text, "swing.toml")?);
-//! let plan = plan(&problem, &Request::new(Quantity::Tip, 1e-4))?;
+//! let family = Family::of_scene(&Scene::parse(text, "swing.toml")?);
+//! let plan = plan(&family, &Request::new(Quantity::Tip, 1e-4))?;
 //! assert!(plan.believed <= 1e-4 && plan.scheme.name == "midpoint");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -25,7 +25,7 @@ mod outlook;
 mod pilot;
 
 use crate::error::yardstick::Quantity;
-use crate::run::refinable::{Refinable, Spent};
+use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::Quantiles;
 use convergence_study::study::CaseFailure;
 use outlook::{CANCELLATION, Outlook, PILOT_SHARE, cheapest, leader};
@@ -165,12 +165,12 @@ impl From<CaseFailure> for Unreachable {
 ///
 /// # Errors
 /// [`Unreachable`] says why there is none, and which error could be had.
-pub fn plan(problem: &Refinable, request: &Request) -> Result<Plan, Unreachable> {
+pub fn plan(family: &Family, request: &Request) -> Result<Plan, Unreachable> {
     if !(request.target > 0.0 && request.target.is_finite()) {
         return Err(Unreachable::Target { target: request.target });
     }
     let Some(quantiles) = Quantiles::new(0.95) else { return Err(Unreachable::Pilot("no quantiles".to_owned())) };
-    let mut candidates = first_pilots(problem, request)?;
+    let mut candidates = first_pilots(family, request)?;
     loop {
         let mut spent = Spent::default();
         candidates.iter().for_each(|pilots| spent += pilots.spent);
@@ -198,7 +198,7 @@ pub fn plan(problem: &Refinable, request: &Request) -> Result<Plan, Unreachable>
             return Err(Unreachable::Cost { target, quantity, cost: total, limit, reachable });
         }
         for (k, at) in refined {
-            candidates[k].add(problem, request, at)?;
+            candidates[k].add(family, request, at)?;
         }
     }
 }
@@ -214,13 +214,13 @@ fn within(request: &Request, at: [f64; 2], pilots: Spent) -> bool {
 }
 
 /// The first two pilots of every scheme. A scheme whose pilots fail is left out.
-fn first_pilots(problem: &Refinable, request: &Request) -> Result<Vec<Pilots>, Unreachable> {
-    let steps = 2 * ((0.5 * STEPS_PER_TIME * problem.t_end).ceil() as usize).max(4);
+fn first_pilots(family: &Family, request: &Request) -> Result<Vec<Pilots>, Unreachable> {
+    let steps = 2 * ((0.5 * STEPS_PER_TIME * family.t_end).ceil() as usize).max(4);
     let mut candidates = vec![];
     let mut failure = None;
     for scheme in SCHEMES {
         let mut pilots = Pilots::new(scheme, request.quantity);
-        match [1, 2].into_iter().try_for_each(|k| pilots.add(problem, request, [ELEMENTS * k, steps * k])) {
+        match [1, 2].into_iter().try_for_each(|k| pilots.add(family, request, [ELEMENTS * k, steps * k])) {
             Ok(()) => candidates.push(pilots),
             Err(reason) => failure = Some(reason),
         }

@@ -1,7 +1,7 @@
 //! Scenes and problems, stepped: one driver, and what is recorded, repeated or run side by side with it.
 
 pub mod driver;
+pub mod family;
 pub(crate) mod patience;
-pub mod refinable;
 pub(crate) mod rerun;
 pub mod simulate;

@@ -6,7 +6,7 @@ use crate::error::free_vibration;
 use crate::error::yardstick::Quantity;
 use crate::kinds::FromFile;
 use crate::kinds::convergence::Convergence;
-use crate::run::refinable::Refinable;
+use crate::run::family::Family;
 use crate::scene::Scene;
 use crate::scene::limits;
 use convergence_study::input::{self, InputError, Section};
@@ -75,7 +75,7 @@ fn problem(
     folder: &Path,
     elements: &[usize],
     steps: &[usize],
-) -> Result<(Refinable, Option<[usize; 2]>), InputError> {
+) -> Result<(Family, Option<[usize; 2]>), InputError> {
     let only_with = |key: &str, owner: &str| match (section.get(key), section.get(owner)) {
         (Some(field), None) => Err(field.refuse(format!("{key} without {owner}"), format!("{key} beside {owner}"))),
         _ => Ok(()),
@@ -88,12 +88,12 @@ fn problem(
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
             let spec = <Convergence as convergence_study::study::FromFile>::read(file.file(folder)?)?;
-            Ok((Refinable::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
+            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
         }
         (None, Some(file), None) => {
             let mut scene = Scene::read(file.file(folder)?)?;
             scene.t_end = t_end(section)?;
-            Ok((Refinable::of_scene(&scene), Some(reference(section, elements, steps)?)))
+            Ok((Family::of_scene(&scene), Some(reference(section, elements, steps)?)))
         }
         (None, None, Some(_)) => Ok((vibration(section)?, None)),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
@@ -117,7 +117,7 @@ fn reference(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Resu
 }
 
 /// The lowest modes, each released from a tip displacement of 0.1.
-fn vibration(section: &Section<'_>) -> Result<Refinable, InputError> {
+fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     const AMPLITUDE: f64 = 0.1;
     let allowed = "a list of at least one mode, numbered from 0";
     let field = section.require("vibration", allowed)?;
@@ -127,7 +127,7 @@ fn vibration(section: &Section<'_>) -> Result<Refinable, InputError> {
     let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
     match free_vibration::vibration(&modes, zeta) {
         Ok(exact) if !modes.is_empty() => {
-            Ok(Refinable::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
+            Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
         }
         _ => Err(field.refuse_as_written(allowed)),
     }

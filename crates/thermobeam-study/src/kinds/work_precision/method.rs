@@ -1,7 +1,7 @@
 //! The methods compared, and one run of each.
 
 use crate::error::yardstick::{Yardstick, combine};
-use crate::run::refinable::{OnMesh, Spent};
+use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};

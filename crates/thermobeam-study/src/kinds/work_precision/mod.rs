@@ -33,7 +33,7 @@ mod timed;
 use crate::error::yardstick::{Quantity, Reference, Yardstick};
 use crate::kinds::Study;
 use crate::kinds::untyped::{Case, Measured};
-use crate::run::refinable::Refinable;
+use crate::run::family::Family;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::Header;
 use convergence_study::study::outcome::Outcome;
@@ -63,7 +63,7 @@ pub struct Advantage {
 /// A study of this kind.
 pub struct WorkPrecision {
     header: Header,
-    family: Refinable,
+    family: Family,
     /// Elements and steps of the reference, where there is no exact solution.
     reference: Option<[usize; 2]>,
     computed: OnceLock<Result<Reference, CaseFailure>>,

@@ -9,7 +9,7 @@
 use super::{Request, Trust};
 use crate::error::richardson::{growth, orthogonal_growth};
 use crate::error::yardstick::{Quantity, distance, prolong};
-use crate::run::refinable::{Refinable, Spent};
+use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::Scheme;
@@ -52,10 +52,10 @@ impl Pilots {
     }
 
     /// Adds the pilot with so many elements and steps, both even.
-    pub(super) fn add(&mut self, problem: &Refinable, request: &Request, at: [usize; 2]) -> Result<(), CaseFailure> {
+    pub(super) fn add(&mut self, family: &Family, request: &Request, at: [usize; 2]) -> Result<(), CaseFailure> {
         let [elements, steps] = at;
         let settings = Settings { tolerance: request.tolerance(), ..Settings::default() };
-        let (fine, coarse) = (problem.on(elements)?, problem.on(elements / 2)?);
+        let (fine, coarse) = (family.on(elements)?, family.on(elements / 2)?);
         let mut pilot = fine.start(self.scheme, settings, steps)?;
         let mut wide = coarse.start(self.scheme, settings, steps)?;
         let mut slow = fine.start(self.scheme, settings, steps / 2)?;
@@ -85,7 +85,7 @@ impl Pilots {
         self.at = at;
         let largest = [0, 1].map(|axis| largest(self.differences.iter().map(|pair| pair[axis].abs())));
         record(&mut self.space, Level { step: 1.0 / elements as f64, error: largest[0] });
-        record(&mut self.time, Level { step: problem.t_end / steps as f64, error: largest[1] });
+        record(&mut self.time, Level { step: family.t_end / steps as f64, error: largest[1] });
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! One problem on any mesh and with any step: what everything that trades cost against error runs.
 //!
-//! A [`Refinable`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Refinable::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`CountedRun`] is
+//! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
+//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`FamilyRun`] is
 //! advanced from outside, so that several can go side by side and be compared at the times they share. It counts its cost
 //! as it goes: [`Spent`].
 
@@ -48,7 +48,7 @@ enum Start {
 
 /// A problem on [0, `t_end`], still without mesh and time step.
 #[derive(Debug, Clone)]
-pub struct Refinable {
+pub struct Family {
     /// Coefficients of (1.1).
     pub beam: Beam,
     /// The obstacles of (1.3), if any.
@@ -62,7 +62,7 @@ pub struct Refinable {
     grading: Option<Mesh>,
 }
 
-impl Refinable {
+impl Family {
     /// The problem of a scene; its own dt and number of elements do not matter, the grading of its mesh is kept.
     pub fn of_scene(scene: &Scene) -> Self {
         let nodes = scene.mesh.nodes();
@@ -130,7 +130,7 @@ impl Refinable {
 
 /// A problem on a mesh: what runs with different steps share.
 pub struct OnMesh<'a> {
-    of: &'a Refinable,
+    of: &'a Family,
     problem: Problem,
     sources: Option<Sources>,
 }
@@ -159,22 +159,22 @@ impl OnMesh<'_> {
     ///
     /// # Errors
     /// [`CaseFailure`] where the solver refuses the numbers.
-    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<CountedRun<'_>, CaseFailure> {
+    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<FamilyRun<'_>, CaseFailure> {
         let dt = self.of.t_end / steps as f64;
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
         let driver = Driver::new(self.problem.clone(), stepping)?.timed();
-        Ok(CountedRun { on: self, driver, factors: Factors::default() })
+        Ok(FamilyRun { on: self, driver, factors: Factors::default() })
     }
 }
 
 /// A simulation under way that counts what it costs.
-pub struct CountedRun<'a> {
+pub struct FamilyRun<'a> {
     on: &'a OnMesh<'a>,
     driver: Driver,
     factors: Factors,
 }
 
-impl CountedRun<'_> {
+impl FamilyRun<'_> {
     /// Does `steps` steps. The clock runs while the solver does.
     ///
     /// # Errors

@@ -165,7 +165,7 @@ fn nodal_values_are_those_of_the_products_and_exactly_zero_where_the_beam_is_cla
     let mesh = mesh();
     let mut exact = exact();
     // sin(1000π(x + 1)) is 1e-13 at x = 0.
-    exact.u[0].x = Expression::parse("sin(1000*pi*(x+1))", Variable::X).unwrap();
+    exact.u[0].x = Expression::parse("sin(1000*pi*(x+1))", Variable::X).unwrap().into();
     assert_ne!(exact.u[0].x.eval(0.0), 0.0);
     let nodal = Nodal::of(&exact, &mesh);
     for (products, values) in [(&exact.u, &nodal.u), (&exact.phi, &nodal.phi), (&exact.theta, &nodal.theta)] {
@@ -176,7 +176,7 @@ fn nodal_values_are_those_of_the_products_and_exactly_zero_where_the_beam_is_cla
             assert_eq!(values[1..], expected);
         }
     }
-    exact.theta[0].x = Expression::parse("1e-9 + x", Variable::X).unwrap();
+    exact.theta[0].x = Expression::parse("1e-9 + x", Variable::X).unwrap().into();
     assert_eq!(Nodal::of(&exact, &mesh).theta[0][0], 1e-9);
 }
 

@@ -149,11 +149,11 @@ fn a_random_mesh_is_displaced_before_it_is_mapped() {
 fn a_wrong_header_is_named() {
     for (text, pieces) in [
         ("", &["s.toml:1:1: study: missing; allowed is a table with id, claim and tier"][..]),
-        ("[study]", &["1:1: study.id: missing; allowed is a text of small letters a-z, digits, `.` and `-`"]),
-        ("[study]\nid = \"A b\"", &["2:6: study.id: found the text \"A b\"; allowed is a text of small letters"]),
+        ("[study]", &["1:1: study.id: missing; allowed is 1 to 100 lowercase letters, digits"]),
+        ("[study]\nid = \"A b\"", &["2:6: study.id: found the text \"A b\"; allowed is 1 to 100 lowercase letters"]),
         ("[study]\nid = \"\"", &["2:6: study.id: found the text \"\""]),
         ("[study]\nid = 3", &["2:6: study.id: found 3; allowed is a text"]),
-        ("[study]\nid = \"a\"", &["1:1: study.claim: missing; allowed is a text that says"]),
+        ("[study]\nid = \"a\"", &["1:1: study.claim: missing; allowed is one line of text that says"]),
         ("[study]\nid = \"a\"\nclaim = \" \"", &["3:9: study.claim: found the text \" \""]),
         ("[study]\nid = \"a\"\nclaim = \"b\"", &["study.tier: missing; allowed is \"quick\" or \"full\""]),
         (

@@ -1,9 +1,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use convergence_study::study::FromFile as _;
-use convergence_study::study::Header;
-use thermobeam_study::kinds;
+use convergence_study::study::{FromFile as _, Header, StudyFile};
+use thermobeam_study::kinds::KINDS;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::scene::Scene;
 
@@ -42,7 +41,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let alone = folder.path().join("alone.toml");
         fs::copy(&path, &alone).expect("a copy");
-        let Err(error) = study::read(&alone) else { continue };
+        let Err(error) = StudyFile::read(&KINDS, &alone) else { continue };
         missed += 1;
         assert!(error.place.is_some() && error.field.is_some(), "{error}");
         let begin = format!("{}:", alone.display());

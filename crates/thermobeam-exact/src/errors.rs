@@ -10,7 +10,7 @@
 //! φ, `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
 
 use crate::factors::Factors;
-use crate::norm::Norm;
+use crate::norm::{Norm, Norms};
 use crate::quadrature::RULE;
 use crate::solution::{Manufactured, Product};
 use crate::sources::nodal;
@@ -133,8 +133,8 @@ impl ErrorMeter {
         add_outer(&mut self.gram_shear, weight, &shear);
     }
 
-    /// The eight errors of `level`, in the order of [`Norm::ALL`], against the exact solution with the given factors.
-    pub fn measure(&mut self, level: &Level, factors: &Factors) -> [f64; 8] {
+    /// The errors of `level` against the exact solution with the given factors.
+    pub fn measure(&mut self, level: &Level, factors: &Factors) -> Norms {
         let Factors { u, phi, theta } = factors;
         let [v_d, u_d, w_d, phi_d, theta_d] = &mut self.difference;
         difference_into(&level.v, &self.u, &u.rate, v_d);
@@ -157,7 +157,7 @@ impl ErrorMeter {
         };
         let displacement = l2_squared(&self.lengths, u_d) + correction(u_d, &self.u, &u.value, &self.gram_u);
         let root = |square: f64| if square < 0.0 { 0.0 } else { square.sqrt() };
-        Norm::ALL.map(|norm| match norm {
+        Norms::of(|norm| match norm {
             Norm::Velocity => root(squares.velocity),
             Norm::Shear => root(squares.shear),
             Norm::RotationRate => root(squares.rotation_rate),

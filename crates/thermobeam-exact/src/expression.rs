@@ -22,6 +22,7 @@ use std::fmt;
 
 use num_dual::Dual2_64;
 
+use crate::function::samples;
 pub use error::{ExpressionError, ExpressionProblem, NotFinite};
 use syntax::Node;
 
@@ -65,9 +66,6 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Number of sample intervals: a multiple of all numbers up to 10, so 1/3 and 0.1 are sampled exactly.
-    const SAMPLES: u32 = 2520;
-
     /// Parses a function of `variable`.
     ///
     /// # Errors
@@ -112,7 +110,7 @@ impl Expression {
 
     /// As [`Self::check_finite`] on [0, end].
     pub fn check_finite_up_to(&self, end: f64, order: usize) -> Result<(), NotFinite> {
-        for at in Self::samples(end) {
+        for at in samples(end) {
             // The values of `eval`, because those are used by the solver.
             let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
             for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
@@ -122,29 +120,6 @@ impl Expression {
             }
         }
         Ok(())
-    }
-
-    /// Bound on the rounding error of a value of this function on [0, end].
-    ///
-    /// `8 ε max(|f| + |x f'|)`; the second term is the effect of a rounding error of x.
-    pub fn roundoff(&self, end: f64) -> f64 {
-        // Several operations, each with an error of ε/2, on operands about as large as the result.
-        const ROUNDINGS: f64 = 8.0;
-        ROUNDINGS * f64::EPSILON * self.size(end)
-    }
-
-    /// `max(|f| + |x f'|)` over samples of [0, end]; derivatives that are not finite are left out.
-    pub fn size(&self, end: f64) -> f64 {
-        let size_at = |at: f64| {
-            let [value, first, _] = self.derivatives(at);
-            let slope = (at * first).abs();
-            value.abs() + if slope.is_finite() { slope } else { 0.0 }
-        };
-        Self::samples(end).map(size_at).fold(0.0, f64::max)
-    }
-
-    fn samples(end: f64) -> impl Iterator<Item = f64> {
-        (0..=Self::SAMPLES).map(move |i| end * (f64::from(i) / f64::from(Self::SAMPLES)))
     }
 }
 

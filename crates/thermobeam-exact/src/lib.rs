@@ -5,6 +5,7 @@
 //! vector operations instead of quadrature.
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
+//! * [`function`]: any function with two derivatives, of which a product is made.
 //! * [`solution`]: the sums of products.
 //! * [`factors`]: T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
@@ -19,6 +20,7 @@ pub mod any_order;
 pub mod errors;
 pub mod expression;
 pub mod factors;
+pub mod function;
 pub mod nearest;
 pub mod norm;
 pub mod quadrature;

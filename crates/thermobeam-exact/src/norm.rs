@@ -1,4 +1,6 @@
-//! The norms in which an error is measured.
+//! The norms in which an error is measured, and an error in each of them.
+
+use std::ops::{Index, IndexMut};
 
 /// A norm of the error at one time level. A convergence study takes its maximum over the time levels n = 1..N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,6 +48,75 @@ impl Norm {
             Norm::Theorem34 => "theorem-3.4",
             Norm::Displacement => "displacement",
             Norm::Superclose => "superclose",
+        }
+    }
+}
+
+/// One number for each norm, such as the errors at one time level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Norms([f64; Norm::ALL.len()]);
+
+impl Norms {
+    /// Zero in each norm: where a maximum starts.
+    pub const ZERO: Self = Self([0.0; Norm::ALL.len()]);
+
+    /// NaN in each norm: what a run that failed has measured.
+    pub const NAN: Self = Self([f64::NAN; Norm::ALL.len()]);
+
+    /// The numbers that `f` gives.
+    pub fn of(f: impl FnMut(Norm) -> f64) -> Self {
+        Self(Norm::ALL.map(f))
+    }
+
+    /// Each norm with its number.
+    pub fn iter(&self) -> impl Iterator<Item = (Norm, f64)> {
+        Norm::ALL.into_iter().zip(self.0)
+    }
+
+    /// The larger number in each norm; NaN where one of them is NaN.
+    pub fn max(&self, other: &Self) -> Self {
+        Self::of(|norm| {
+            let (a, b) = (self[norm], other[norm]);
+            if a.is_nan() || a >= b { a } else { b }
+        })
+    }
+}
+
+impl Index<Norm> for Norms {
+    type Output = f64;
+
+    fn index(&self, norm: Norm) -> &f64 {
+        &self.0[norm as usize]
+    }
+}
+
+impl IndexMut<Norm> for Norms {
+    fn index_mut(&mut self, norm: Norm) -> &mut f64 {
+        &mut self.0[norm as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_norm_has_its_own_number() {
+        for (k, norm) in Norm::ALL.into_iter().enumerate() {
+            let mut norms = Norms::of(|norm| norm as usize as f64);
+            assert_eq!(norms[norm], k as f64);
+            norms[norm] = -1.0;
+            assert_eq!(norms.iter().filter(|(_, value)| *value == -1.0).collect::<Vec<_>>(), [(norm, -1.0)]);
+        }
+    }
+
+    #[test]
+    fn a_maximum_keeps_nan() {
+        let one = Norms::of(|norm| if norm == Norm::Shear { f64::NAN } else { 1.0 });
+        let two = Norms::of(|norm| if norm == Norm::Velocity { 2.0 } else { 0.5 });
+        for worst in [one.max(&two), two.max(&one)] {
+            assert_eq!((worst[Norm::Velocity], worst[Norm::Theorem34]), (2.0, 1.0));
+            assert!(worst[Norm::Shear].is_nan());
         }
     }
 }

@@ -1,18 +1,18 @@
 //! Exact solutions: sums of products of a function of x and a function of t.
 
-use crate::expression::Expression;
+use crate::function::Factor;
 
 /// A product X(x) T(t).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Product {
     /// X, a function of x; finite on [0, 1] with its first two derivatives.
-    pub x: Expression,
+    pub x: Factor,
     /// T, a function of t; finite on [0, t_end] with its first two derivatives.
-    pub t: Expression,
+    pub t: Factor,
 }
 
 /// An exact solution: a sum of products for each field; an empty sum is 0.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Manufactured {
     /// Displacement; each X is 0 at x = 0.
     pub u: Vec<Product>,

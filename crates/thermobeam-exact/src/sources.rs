@@ -388,7 +388,7 @@ mod tests {
 
     fn product(x: &str) -> Product {
         let parse = |text, variable| Expression::parse(text, variable).unwrap();
-        Product { x: parse(x, Variable::X), t: parse("1", Variable::T) }
+        Product { x: parse(x, Variable::X).into(), t: parse("1", Variable::T).into() }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::f64::consts::{E, PI};
 
 use proptest::prelude::*;
 use thermobeam_exact::expression::{Expression, Variable};
+use thermobeam_exact::function::Function as _;
 
 /// Asserts that a message contains these pieces in this order.
 #[track_caller]

@@ -13,8 +13,8 @@ const BEAM: Beam = Beam { zeta: 0.4, a: 0.6, rho: 1.5, beta: -0.2, theta_a: 0.0 
 
 fn exact() -> Manufactured {
     let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap(),
-        t: Expression::parse(t, Variable::T).unwrap(),
+        x: Expression::parse(x, Variable::X).unwrap().into(),
+        t: Expression::parse(t, Variable::T).unwrap().into(),
     };
     Manufactured {
         u: vec![product("sin(2*x)", "cos(2*t)"), product("x^2", "1 + t^3")],
@@ -165,7 +165,7 @@ fn nodal_values_are_exact_and_zero_at_the_clamped_end() {
     let mesh = mesh();
     let mut exact = exact();
     // sin(1000π(x + 1)) is 1e-13 at x = 0.
-    exact.u[0].x = Expression::parse("sin(1000*pi*(x+1))", Variable::X).unwrap();
+    exact.u[0].x = Expression::parse("sin(1000*pi*(x+1))", Variable::X).unwrap().into();
     assert_ne!(exact.u[0].x.eval(0.0), 0.0);
     let nodal = Nodal::of(&exact, &mesh);
     for (products, values) in [(&exact.u, &nodal.u), (&exact.phi, &nodal.phi), (&exact.theta, &nodal.theta)] {
@@ -176,7 +176,7 @@ fn nodal_values_are_exact_and_zero_at_the_clamped_end() {
             assert_eq!(values[1..], expected);
         }
     }
-    exact.theta[0].x = Expression::parse("1e-9 + x", Variable::X).unwrap();
+    exact.theta[0].x = Expression::parse("1e-9 + x", Variable::X).unwrap().into();
     assert_eq!(Nodal::of(&exact, &mesh).theta[0][0], 1e-9);
 }
 

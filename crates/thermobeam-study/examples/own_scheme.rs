@@ -7,13 +7,14 @@
 use std::error::Error;
 
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile as _, run_here};
+use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
-use thermobeam_study::kinds::{Study, convergence::Convergence};
+use thermobeam_study::kinds::convergence::Convergence;
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
 /// discrete gradient. It damps half as much as the paper's, and is of first order all the same.
@@ -35,11 +36,9 @@ const STUDY: &str = r#"
 
 /// The verdict on an order in dt.
 fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
-    let mut spec = ConvergenceSpec::parse(STUDY, "my-scheme.toml")?;
-    (spec.refine.scheme, spec.expect[0].order) = (scheme, order);
-    let study = Convergence::new(spec);
-    let results: Vec<_> = (0..study.cases().len()).map(|case| study.run(case)).collect();
-    let outcome = study.conclude(&results);
+    let mut study = Convergence::parse(STUDY, "my-scheme.toml".as_ref())?;
+    (study.refine.scheme, study.expect[0].order) = (scheme, order);
+    let outcome = run_here(&study);
     Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
 }
 
@@ -54,7 +53,7 @@ fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
     for _ in 0..2000 {
         simulation.advance()?;
         let new = simulation.level();
-        largest = largest.max(simulation.balance(&old, &new).residual.abs());
+        largest = max_or_nan(largest, simulation.balance(&old, &new).residual.abs());
         old = new;
     }
     Ok(largest)

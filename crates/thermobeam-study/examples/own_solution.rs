@@ -4,15 +4,13 @@
 
 use std::error::Error;
 
-use convergence_study::study::outcome::Outcome;
-use convergence_study::study::{Axis, Tier};
+use convergence_study::study::{Axis, FromFile as _, Header, Tier, run_here};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::{Expectation, Manufactured, Norm, Product, Refine};
-use thermobeam_study::kinds::{Study, convergence::Convergence};
 
 const TOML: &str = r#"
     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
@@ -23,10 +21,11 @@ const TOML: &str = r#"
 "#;
 
 fn product(x: &str, t: &str) -> Result<Vec<Product>, ExpressionError> {
-    Ok(vec![Product { x: Expression::parse(x, Variable::X)?, t: Expression::parse(t, Variable::T)? }])
+    let (x, t) = (Expression::parse(x, Variable::X)?, Expression::parse(t, Variable::T)?);
+    Ok(vec![Product { x: x.into(), t: t.into() }])
 }
 
-fn in_rust() -> Result<ConvergenceSpec, ExpressionError> {
+fn in_rust() -> Result<Convergence, ExpressionError> {
     let exact = Manufactured { u: product("sin(2*x)", "cos(t)")?, phi: product("x^2", "exp(-t)")?, theta: vec![] };
     let refine = Refine {
         axis: Axis::Space,
@@ -40,10 +39,13 @@ fn in_rust() -> Result<ConvergenceSpec, ExpressionError> {
         scheme: EULER_CRANK_NICOLSON,
         settings: Settings { tolerance: 1e-13, ..Settings::default() },
     };
-    Ok(ConvergenceSpec {
-        id: "my-own".to_owned(),
-        claim: "Second order to the interpolant".to_owned(),
-        tier: Tier::Quick,
+    Ok(Convergence {
+        header: Header {
+            id: "my-own".to_owned(),
+            claim: "Second order to the interpolant".to_owned(),
+            tier: Tier::Quick,
+            kind: "convergence".to_owned(),
+        },
         beam: Beam::default(),
         obstacles: None,
         exact,
@@ -53,15 +55,10 @@ fn in_rust() -> Result<ConvergenceSpec, ExpressionError> {
     })
 }
 
-fn run(spec: ConvergenceSpec) -> Outcome {
-    let study = Convergence::new(spec);
-    // Cases are pure: run them in any order, on any thread.
-    let results: Vec<_> = (0..study.cases().len()).map(|case| study.run(case)).collect();
-    study.conclude(&results)
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
-    let (rust, toml) = (run(in_rust()?), run(ConvergenceSpec::parse(TOML, "my-own.toml")?));
+    let (rust, toml) = (in_rust()?, Convergence::parse(TOML, "my-own.toml".as_ref())?);
+    // Cases are pure: they may run in any order, on any thread.
+    let (rust, toml) = (run_here(&rust), run_here(&toml));
     for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
         println!("n = {:3}   superclose {error:.4e}", level.parameter("elements").unwrap_or(f64::NAN));
     }

@@ -12,11 +12,11 @@
 //! [`fit`] and verdicts by [`verdict`], and all that was found is an [`outcome`]. The [`runner`] alone knows threads.
 //!
 //! ```
-//! use thermobeam_study::study::{Study, convergence::Convergence};
-//! use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
-//! use thermobeam_study::verdict::Verdict;
+//! use convergence_study::judge::verdict::Verdict;
+//! use convergence_study::study::{FromFile, run_here};
+//! use thermobeam_study::kinds::convergence::Convergence;
 //!
-//! let spec = ConvergenceSpec::parse(
+//! let study = Convergence::parse(
 //!     r#"
 //!     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
 //!     exact.u = [{ x = "sin(2*x)", t = "cos(t)" }]
@@ -24,12 +24,10 @@
 //!     refine = { axis = "space", isolate = true, elements = [16, 32, 64, 128], steps = 10, t_end = 1.0, tolerance = 1e-13 }
 //!     expect = [{ norm = "superclose", order = 2.0, tolerance = 0.02 }]
 //!     "#,
-//!     "my-own.toml",
+//!     "my-own.toml".as_ref(),
 //! )?;
-//! let study = Convergence::new(spec);
-//! let results: Vec<_> = (0..study.cases().len()).map(|case| study.run(case)).collect();
-//! assert_eq!(study.conclude(&results).verdict, Verdict::Pass);
-//! # Ok::<(), thermobeam_study::document::InputError>(())
+//! assert_eq!(run_here(&study).verdict, Verdict::Pass);
+//! # Ok::<(), convergence_study::input::InputError>(())
 //! ```
 //!
 //! # The same rule for any code

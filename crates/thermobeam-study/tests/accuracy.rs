@@ -1,22 +1,23 @@
 //! Laws of asking for an accuracy: held against exact answers, and against much finer runs where the tip is in contact.
 
+use convergence_study::study::FromFile as _;
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::Settings;
 use thermobeam_study::error::free_vibration::{beam, vibration};
 use thermobeam_study::error::yardstick::{Quantity, Reference, Yardstick};
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::run::march::Family;
+use thermobeam_study::run::family::Family;
 use thermobeam_study::scene::Scene;
 
 fn vibrating(modes: &[usize], zeta: f64, t_end: f64) -> Family {
     let modes: Vec<_> = modes.iter().map(|&mode| (mode, 0.1)).collect();
-    Family::of_free_solution(vibration(&modes, zeta).unwrap().unwrap(), beam(zeta), t_end)
+    Family::of_free_solution(vibration(&modes, zeta).unwrap(), beam(zeta), t_end)
 }
 
 fn manufactured() -> Family {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/midpoint-coupled.toml");
-    let spec = ConvergenceSpec::read(path).unwrap();
+    let spec = Convergence::read(path).unwrap();
     Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end)
 }
 
@@ -24,12 +25,12 @@ fn manufactured() -> Family {
 fn made(family: &Family, quantity: Quantity, scheme: Scheme, settings: Settings, [n, steps]: [usize; 2]) -> f64 {
     let on = family.on(n).unwrap();
     let mut yardstick = Yardstick::new(family, &on, None).unwrap();
-    let mut march = on.march(scheme, settings, steps).unwrap();
+    let mut run = on.start(scheme, settings, steps).unwrap();
     let mut worst = 0.0_f64;
     for index in 0..steps {
-        march.advance(1).unwrap();
-        let t = march.t();
-        let errors = yardstick.measure(march.level(), index, t);
+        run.advance(1).unwrap();
+        let t = run.t();
+        let errors = yardstick.measure(run.level(), index, t);
         let error = errors[Quantity::ALL.iter().position(|&other| other == quantity).unwrap()];
         assert!(error.is_finite());
         worst = worst.max(error);
@@ -124,11 +125,11 @@ fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
         let reference = Reference::compute(&family, plan.elements * 4, steps * 4, OBSERVATIONS).unwrap();
         let on = family.on(plan.elements).unwrap();
         let mut yardstick = Yardstick::new(&family, &on, Some(&reference)).unwrap();
-        let mut march = on.march(plan.scheme, plan.settings, steps).unwrap();
+        let mut run = on.start(plan.scheme, plan.settings, steps).unwrap();
         let mut worst = 0.0_f64;
         for index in 0..OBSERVATIONS {
-            march.advance(steps / OBSERVATIONS).unwrap();
-            let errors = yardstick.measure(march.level(), index, 0.0);
+            run.advance(steps / OBSERVATIONS).unwrap();
+            let errors = yardstick.measure(run.level(), index, 0.0);
             worst = worst.max(errors[if quantity == Quantity::Tip { 2 } else { 0 }]);
         }
         let context = format!("T = {t_end}, {} {target:e}: {worst:e}, {plan:?}", quantity.name());
@@ -165,9 +166,9 @@ fn round_off_is_below_the_floor_that_is_assumed() {
     let tip = |n: usize| {
         let on = family.on(n).unwrap();
         let settings = Settings { tolerance: 1e-13, ..Settings::default() };
-        let mut march = on.march(SCHEMES[1], settings, 64).unwrap();
-        march.advance(64).unwrap();
-        march.level().u[n]
+        let mut run = on.start(SCHEMES[1], settings, 64).unwrap();
+        run.advance(64).unwrap();
+        run.level().u[n]
     };
     let [a, b, c] = [8192, 16384, 32768].map(tip);
     let noise = ((a - b) / 4.0 - (b - c)).abs();

@@ -118,19 +118,6 @@ fn every_claim_of_section_5_can_fail() {
 }
 
 #[test]
-fn every_claim_about_end_states_can_fail() {
-    let ran = Ran::new("equilibria.toml");
-    ran.is_sound();
-    let finest = "paper-2-beta-5, n = 160";
-    ran.catches(finest, "u", 2e-6);
-    ran.catches(finest, "φ", 2e-6);
-    ran.catches(finest, "u_tip", 0.0141797);
-    ran.catches(finest, "contact", 1.0);
-    ran.catches("paper-2-beta-5, n = 40", "u", 1e-5);
-    ran.catches("paper-1-beta-0, n = 160", "u", 2e-6);
-}
-
-#[test]
 fn every_claim_about_branches_can_fail() {
     let ran = Ran::new("bifurcation.toml");
     ran.is_sound();
@@ -173,7 +160,7 @@ fn every_claim_about_rigid_obstacles_can_fail() {
 
 #[test]
 fn no_claim_holds_without_numbers() {
-    for file in ["section-5.toml", "equilibria.toml", "bifurcation.toml", "rigid-obstacles.toml"] {
+    for file in ["section-5.toml", "bifurcation.toml", "rigid-obstacles.toml"] {
         let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
         let outcome = study.conclude(&vec![Ok(Measured::default()); study.cases().len()]);
         // That every case has a result is true, and says nothing.
@@ -185,9 +172,7 @@ fn no_claim_holds_without_numbers() {
 
 #[test]
 fn a_case_gives_the_same_result_every_time() {
-    for (file, label) in
-        [("equilibria.toml", "paper-3-beta-minus-0.8, n = 20"), ("rigid-obstacles.toml", "impact, ε = 1.0e-4")]
-    {
+    for (file, label) in [("rigid-obstacles.toml", "impact, ε = 1.0e-4")] {
         let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
         let index = study.cases().iter().position(|case| case.label == label).unwrap();
         assert_eq!(study.run(index), study.run(index));
@@ -205,7 +190,7 @@ fn the_full_study_reads_like_the_quick_one() {
 #[test]
 fn complaints_name_the_field() {
     use thermobeam_study::kinds::{
-        FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
+        FromFile, bifurcation::BifurcationStudy, experiment::Experiments, rigid::RigidStudy,
     };
     let complaint = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(path(file)).unwrap();
@@ -213,7 +198,6 @@ fn complaints_name_the_field() {
         let (text, name) = (text.replacen(from, to, 1), path(file));
         let error = match file {
             "section-5.toml" => Experiments::parse(&text, &name).err(),
-            "equilibria.toml" => EndStates::parse(&text, &name).err(),
             "bifurcation.toml" => BifurcationStudy::parse(&text, &name).err(),
             _ => RigidStudy::parse(&text, &name).err(),
         };
@@ -225,9 +209,6 @@ fn complaints_name_the_field() {
         ("section-5.toml", "paper-1-beta-5", "paper-1-beta-minus-0.5", "experiments.first"),
         ("section-5.toml", "window", "windows", "run.windows"),
         ("section-5.toml", "[-1.0, -0.9", "[-0.9, -1.0", "steady.beta"),
-        ("equilibria.toml", "[20, 40, 80, 160]", "[20, 40]", "run.elements"),
-        ("equilibria.toml", "tolerance = 0.02", "tolerance = 0.6", "expect.tolerance"),
-        ("equilibria.toml", "paper-1-beta-5", "impact-5", "impact-5"),
         ("bifurcation.toml", "beta = [-1.0, 1.0]", "beta = [1.0, -1.0]", "diagram.beta"),
         ("bifurcation.toml", "distance = 1e-3", "distance = \"far\"", "rest.distance"),
         ("rigid-obstacles.toml", "1e-1, 3.16e-2", "1e-1, 3.16e-1", "obstacles.epsilon"),

@@ -3,14 +3,13 @@
 use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::CaseFailure;
+use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here, run_here};
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 use thermobeam_study::kinds::energy::EnergyDecay;
 use thermobeam_study::kinds::fixed_point::FixedPoint;
-use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::kinds::tables::{Norm, Norms};
 use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{FromFile, Study};
 
@@ -18,13 +17,13 @@ fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
 }
 
-fn spec(name: &str) -> ConvergenceSpec {
-    ConvergenceSpec::read(file(name)).unwrap()
+fn convergence(name: &str) -> Convergence {
+    Convergence::read(file(name)).unwrap()
 }
 
-fn errors(spec: &ConvergenceSpec, elements: usize, steps: usize, defect: Option<Defect>) -> [f64; 8] {
-    let (beam, obstacles) = spec.solver_coefficients();
-    Prepared::new(spec, elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
+fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
+    let (beam, obstacles) = study.solver_coefficients();
+    Prepared::new(study, elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
 }
 
 fn results(study: &dyn Study) -> Vec<Result<Measured, CaseFailure>> {
@@ -42,10 +41,9 @@ const TABLE: [Norm; 7] = [
     Norm::Superclose,
 ];
 
-fn meets(found: &[f64; 8], expected: &[f64]) {
-    for (norm, expected) in TABLE.iter().zip(expected) {
-        let index = Norm::ALL.iter().position(|other| other == norm).unwrap();
-        let found = found[index];
+fn meets(found: &Norms, expected: &[f64]) {
+    for (norm, expected) in TABLE.into_iter().zip(expected) {
+        let found = found[norm];
         assert!((found - expected).abs() < 5e-4 * expected, "{}: {found} for {expected}", norm.name());
     }
 }
@@ -53,65 +51,81 @@ fn meets(found: &[f64; 8], expected: &[f64]) {
 #[test]
 fn the_errors_are_those_of_the_independent_implementation() {
     let space = [4.454e-8, 2.341e-4, 1.437e-8, 4.662e-5, 6.309e-8, 2.349e-4, 2.879e-8];
-    meets(&errors(&spec("theorem-3.4-space.toml"), 4096, 20, None), &space);
+    meets(&errors(&convergence("theorem-3.4-space.toml"), 4096, 20, None), &space);
     let time = [1.169e-3, 4.223e-4, 1.122e-4, 2.851e-4, 1.774e-5, 1.197e-3];
-    meets(&errors(&spec("theorem-3.4-time.toml"), 8, 1024, None), &time);
+    meets(&errors(&convergence("theorem-3.4-time.toml"), 8, 1024, None), &time);
 }
 
 #[test]
 fn isolation_is_exact_whatever_the_other_axis() {
     // In the time design the space error is zero: the errors do not depend on how coarse the mesh is, but for what the
     // coarse interpolant itself is. With as good as no time error they vanish.
-    let mut spec = spec("midpoint-time.toml");
-    spec.refine.t_end = 1e-3;
-    let found = errors(&spec, 8, 200, None);
-    assert!(found.iter().all(|error| *error < 1e-11), "{found:?}");
+    let mut study = convergence("midpoint-time.toml");
+    study.refine.t_end = 1e-3;
+    let found = errors(&study, 8, 200, None);
+    assert!(found.iter().all(|(_, error)| error < 1e-11), "{found:?}");
 }
 
 #[test]
 fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
     // No time error at all: with a tenth of the steps the errors are of the same size, not ten times larger.
-    let spec = spec("theorem-3.4-space.toml");
-    let (few, many) = (errors(&spec, 64, 4, None), errors(&spec, 64, 40, None));
-    for (few, many) in few.iter().zip(many) {
-        assert!(few / many < 3.0 && many / few < 3.0, "{few} {many}");
+    let study = convergence("theorem-3.4-space.toml");
+    let (few, many) = (errors(&study, 64, 4, None), errors(&study, 64, 40, None));
+    for (norm, few) in few.iter() {
+        let many = many[norm];
+        assert!(few / many < 3.0 && many / few < 3.0, "{}: {few} {many}", norm.name());
     }
 }
 
 #[test]
 fn every_defect_leaves_a_mark_that_no_refinement_removes() {
-    let spec = spec("theta-a-20-space.toml");
-    let superclose = 7;
-    let honest = errors(&spec, 512, 20, None)[superclose];
+    let study = convergence("theta-a-20-space.toml");
+    let honest = errors(&study, 512, 20, None)[Norm::Superclose];
     for defect in Defect::ALL {
-        let found = errors(&spec, 512, 20, Some(defect))[superclose];
+        let found = errors(&study, 512, 20, Some(defect))[Norm::Superclose];
         assert!(found > 20.0 * honest, "{}: {found} against {honest}", defect.name());
     }
 }
 
 #[test]
 fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
-    let mut wrong = spec("theorem-3.4-space.toml");
-    wrong.refine.elements = vec![64, 128, 256, 512];
-    let honest = Convergence::new(wrong.clone());
-    assert_eq!(honest.conclude(&results(&honest)).verdict, Verdict::Pass);
+    let mut study = convergence("theorem-3.4-space.toml");
+    study.refine.elements = vec![64, 128, 256, 512];
+    assert_eq!(run_here(&study).verdict, Verdict::Pass);
     let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap() + "\n[control]\nzeta = 0.10001\n";
-    wrong.control = ConvergenceSpec::parse(&text, "wrong.toml").unwrap().control;
-    let study = Convergence::new(wrong);
-    let outcome = study.conclude(&results(&study));
+    study.control = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().control;
+    let outcome = run_here(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.summary.contains("superclose"), "{}", outcome.summary);
 }
 
 #[test]
 fn a_failed_case_fails_its_study_and_keeps_its_reason() {
-    let study = Convergence::new(spec("theorem-3.4-time.toml"));
-    let mut results = results(&study);
-    results[3] = Err(CaseFailure { reason: "step 7 went astray".to_owned() });
-    let outcome = study.conclude(&results);
-    assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(outcome.summary.contains("step 7 went astray"), "{}", outcome.summary);
-    assert!(outcome.levels[3].errors.iter().all(|(_, error)| error.is_nan()));
+    for name in ["theorem-3.4-time.toml", "theorem-3.4-grid.toml"] {
+        let mut study = convergence(name);
+        if study.refine.grid {
+            (study.refine.elements, study.refine.steps) = (vec![8, 16, 32], vec![8, 16, 32]);
+        }
+        let mut ran = run_cases_here(&study);
+        ran[3].found = Err(CaseFailure { reason: "step 7 went astray".to_owned() });
+        let outcome = study.judge(&ran);
+        assert_eq!(outcome.verdict, Verdict::Fail);
+        let failed = outcome.checks.iter().filter(|check| check.verdict == Verdict::Fail);
+        assert!(failed.into_iter().any(|check| check.evidence.contains("step 7 went astray")), "{:?}", outcome.checks);
+        assert!(outcome.levels[3].errors.iter().all(|(_, error)| error.is_nan()));
+    }
+}
+
+#[test]
+fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
+    let study = convergence("theorem-3.4-time.toml");
+    let sound = run_cases_here(&study);
+    assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
+    for norm in Norm::ALL {
+        let mut ran = sound.clone();
+        ran[1].found.as_mut().unwrap()[norm] = f64::NAN;
+        assert_eq!(study.judge(&ran).verdict, Verdict::Fail, "{}", norm.name());
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use serde::Serialize;
 use thermobeam_study::error::yardstick;
 use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
-use thermobeam_study::run::march::Family;
+use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::scene::Scene;
 

@@ -87,9 +87,14 @@ impl Levels {
 
     /// One verdict for each error of which an order is claimed.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
+        self.judge_by(|judge| judge)
+    }
+
+    /// The same by a rule with other settings, such as the floor below which these errors are not known.
+    pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let verdict = |column: &ErrorColumn| {
             let Claim { order, tolerance } = column.claim?;
-            let judged = Judge::new(tolerance).map(|judge| judge.judge(&self.points(column), order));
+            let judged = Judge::new(tolerance).map(|judge| settings(judge).judge(&self.points(column), order));
             Some((column.name.clone(), judged.unwrap_or_else(|error| unusable(order, tolerance, &error))))
         };
         self.columns.iter().filter_map(verdict).collect()

@@ -12,16 +12,14 @@
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::run::patience::StepPatience;
-use convergence_study::run::time_limit::Patience;
-use convergence_study::study::Axis;
-use convergence_study::study::CaseFailure;
+use crate::kinds::convergence::Convergence;
+use crate::kinds::tables::Norms;
+use crate::run::driver::Driver;
+use convergence_study::study::{Axis, CaseFailure};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::Level;
+use thermobeam::simulation::{Initial, Problem, Stepping};
 
 /// A mistake made on purpose in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,7 +71,7 @@ pub struct Disagreement {
 
 /// Space vectors and error meter of one mesh: what several runs on it share.
 pub struct Prepared<'a> {
-    spec: &'a ConvergenceSpec,
+    study: &'a Convergence,
     mesh: Mesh,
     nodal: Nodal,
     sources: Sources,
@@ -85,91 +83,80 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// [`CaseFailure`] where the study's map makes no mesh of so many elements.
-    pub fn new(spec: &'a ConvergenceSpec, elements: usize) -> Result<Self, CaseFailure> {
-        let mesh = spec.refine.mesh(elements)?;
-        let time_isolated = spec.refine.isolate && spec.refine.axis == Axis::Time;
+    pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, CaseFailure> {
+        let mesh = study.refine.mesh(elements)?;
+        let time_isolated = study.refine.isolate && study.refine.axis == Axis::Time;
         let sources = if time_isolated {
-            Sources::discrete(&spec.exact, &spec.beam, &mesh)
+            Sources::discrete(&study.exact, &study.beam, &mesh)
         } else {
-            Sources::strong(&spec.exact, &spec.beam, &mesh)
+            Sources::strong(&study.exact, &study.beam, &mesh)
         };
-        let meter = ErrorMeter::new(&spec.exact, &mesh, time_isolated);
-        let nodal = Nodal::of(&spec.exact, &mesh);
-        Ok(Self { spec, mesh, nodal, sources, meter })
+        let meter = ErrorMeter::new(&study.exact, &mesh, time_isolated);
+        let nodal = Nodal::of(&study.exact, &mesh);
+        Ok(Self { study, mesh, nodal, sources, meter })
     }
 
-    /// Runs so many steps and returns the errors in the order of [`crate::kinds::tables::Norm::ALL`], each the maximum over
-    /// n = 1..N.
+    /// Runs so many steps and returns the errors, each the maximum over n = 1..N.
     ///
     /// A maximum keeps NaN: an error that is not a number at one time is not a number at all.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's own words.
-    pub fn run(&mut self, steps: usize, disagreement: Disagreement) -> Result<[f64; 8], CaseFailure> {
+    pub fn run(&mut self, steps: usize, disagreement: Disagreement) -> Result<Norms, CaseFailure> {
         self.meter.lift(&self.mesh, disagreement.beam.theta_a);
-        let mut case = DesignCase::new(self, steps, disagreement)?;
-        let mut worst = [0.0_f64; 8];
-        let mut patience = Patience::of(&case.simulation);
+        let mut run = DesignRun::new(self, steps, disagreement)?;
+        let mut worst = Norms::ZERO;
         for n in 1..=steps {
-            patience.before_step_of(&case.simulation)?;
-            let errors = case.step(n)?;
-            for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
-            }
+            worst = worst.max(&run.step(n)?);
         }
         Ok(worst)
     }
 }
 
-struct DesignCase<'a> {
-    spec: &'a ConvergenceSpec,
+struct DesignRun<'a> {
+    study: &'a Convergence,
     dt: f64,
     defect: Option<Defect>,
     sources: &'a Sources,
     meter: &'a mut ErrorMeter,
-    simulation: Simulation,
-    level: Level,
+    driver: Driver,
     /// Factors at t_{n-1} and t_n, and those of the sources.
     old: Factors,
     new: Factors,
     source: Factors,
 }
 
-impl<'a> DesignCase<'a> {
+impl<'a> DesignRun<'a> {
     fn new(prepared: &'a mut Prepared<'_>, steps: usize, disagreement: Disagreement) -> Result<Self, CaseFailure> {
-        let Prepared { spec, mesh, nodal, sources, meter } = prepared;
+        let Prepared { study, mesh, nodal, sources, meter } = prepared;
         let Disagreement { beam, obstacles, defect } = disagreement;
         let mut old = Factors::default();
-        old.at(&spec.exact, 0.0);
-        let initial = initial(nodal, &spec.beam, mesh, &old, beam.theta_a);
-        let dt = spec.refine.dt(steps);
-        let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
-        let level = Level::new(mesh.nodes().len());
-        let simulation = Simulation::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
+        old.at(&study.exact, 0.0);
+        let initial = initial(nodal, &study.beam, mesh, &old, beam.theta_a);
+        let dt = study.refine.dt(steps);
+        let stepping = Stepping { scheme: study.refine.scheme, settings: study.refine.settings, dt, loaded: true };
+        let driver = Driver::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
         let (new, source) = (old.clone(), old.clone());
-        Ok(Self { spec, dt, defect, sources, meter, simulation, level, old, new, source })
+        Ok(Self { study, dt, defect, sources, meter, driver, old, new, source })
     }
 
     /// Step n and its errors.
-    fn step(&mut self, n: usize) -> Result<[f64; 8], CaseFailure> {
-        let exact = &self.spec.exact;
+    fn step(&mut self, n: usize) -> Result<Norms, CaseFailure> {
+        let exact = &self.study.exact;
         self.new.at(exact, n as f64 * self.dt);
-        let (n_value, force) = if self.spec.refine.isolate && self.spec.refine.axis == Axis::Space {
+        let (n_value, force) = if self.study.refine.isolate && self.study.refine.axis == Axis::Space {
             self.discrete_factors()
         } else {
             self.exact_factors(n)
         };
-        if let Some(load) = self.simulation.load_mut() {
-            let loads = match self.defect {
-                Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
-                Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
-                _ => BoundaryLoads::Both,
-            };
-            self.sources.fill(&self.source, n_value, force, loads, load);
-        }
-        self.simulation.advance()?;
-        self.simulation.observe(&mut self.level);
-        let errors = self.meter.measure(&self.level, &self.new);
+        let loads = match self.defect {
+            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
+            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
+            _ => BoundaryLoads::Both,
+        };
+        let (sources, source) = (self.sources, &self.source);
+        self.driver.advance(|_, load| sources.fill(source, n_value, force, loads, load))?;
+        let errors = self.meter.measure(self.driver.level(), &self.new);
         std::mem::swap(&mut self.old, &mut self.new);
         Ok(errors)
     }
@@ -177,15 +164,15 @@ impl<'a> DesignCase<'a> {
     /// Source factors, N and contact force at t_{n-½}.
     fn exact_factors(&mut self, n: usize) -> (f64, f64) {
         let at = if self.defect == Some(Defect::SourceAtNewLevel) { n as f64 } else { n as f64 - 0.5 };
-        self.source.at(&self.spec.exact, at * self.dt);
+        self.source.at(&self.study.exact, at * self.dt);
         let values = &self.source.u.value;
-        let force = self.spec.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
+        let force = self.study.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
         (self.sources.axial_force(values), force)
     }
 
     /// What the scheme makes of the time sequence between t_{n-1} and t_n.
     fn discrete_factors(&mut self) -> (f64, f64) {
-        let scheme = self.spec.refine.scheme;
+        let scheme = self.study.refine.scheme;
         self.source.of_step(&self.old, &mut self.new, scheme.inertia, self.dt);
         if self.defect == Some(Defect::SourceAtNewLevel) {
             self.source.u.value.clone_from(&self.new.u.value);
@@ -194,7 +181,8 @@ impl<'a> DesignCase<'a> {
         let (n_old, n_new) = (self.sources.axial_force(old), self.sources.axial_force(new));
         let n_value = if self.defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
         let (u_old, u_new) = (self.sources.tip(old), self.sources.tip(new));
-        let force = self.spec.obstacles.map_or(0.0, |obstacles| self.contact(&obstacles, scheme.contact, u_new, u_old));
+        let force =
+            self.study.obstacles.map_or(0.0, |obstacles| self.contact(&obstacles, scheme.contact, u_new, u_old));
         (n_value, force)
     }
 

@@ -1,82 +1,204 @@
 //! Free vibrations of the linear beam as exact solutions in the form of the manufactured ones.
 //!
-//! For a = β = ρ = 0, no obstacles and θ = 0 each damped mode solves (1.1) without any load. Written as products of a
-//! function of x and a function of t it serves every reader of manufactured solutions, and its loads are all zero.
+//! For a = β = ρ = 0 and no obstacles each damped mode solves (1.1) without any load, and so does `sin kπx e^{-κ²t}`,
+//! κ = kπ, as a temperature. Sums of such products serve every reader of manufactured solutions; their loads are zero.
 
-use crate::expression::{Expression, ExpressionError, Variable};
+use std::f64::consts::PI;
+
+use crate::exact::function::{Factor, Function};
 use crate::kinds::tables::{Manufactured, Product};
-use thermobeam::parameters::Beam;
-use thermobeam::vibration::Mode;
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, ParameterError};
+use thermobeam::vibration::{Mode, TimeFactor};
 
 /// The beam that vibrates freely with viscosity ζ: everything else is switched off.
 pub fn beam(zeta: f64) -> Beam {
     Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 }
 }
 
-/// U(x) and Φ(x) of a mode, as functions that can be read.
-///
-/// With `κ±² = ω² ∓ ω`, positive because every ω is above 1, `U = A [(1 - ω) S+ - (1 + ω) S-] + B [C+ - C-]` and
-/// `Φ = A [C+ - C-] + B ω [S+ + S-]`; A and B follow from the slopes at the clamped end.
-pub fn shape(mode: &Mode) -> [String; 2] {
-    let omega = mode.omega();
-    let [plus, minus] = [omega * (omega - 1.0), omega * (omega + 1.0)].map(f64::sqrt);
-    let (a, b) = (-mode.u_x(0.0) / (2.0 * omega), mode.phi_x(0.0) / (2.0 * omega));
-    let cosines = format!("cos({plus:e}*x) - cos({minus:e}*x)");
-    let (u_plus, u_minus) = (a * (1.0 - omega) / plus, -a * (1.0 + omega) / minus);
-    let (phi_plus, phi_minus) = (b * omega / plus, b * omega / minus);
-    [
-        format!("({u_plus:e})*sin({plus:e}*x) + ({u_minus:e})*sin({minus:e}*x) + ({b:e})*({cosines})"),
-        format!("({a:e})*({cosines}) + ({phi_plus:e})*sin({plus:e}*x) + ({phi_minus:e})*sin({minus:e}*x)"),
-    ]
+/// U of a mode; its second derivative by the mode's equation `U'' = Φ' - ω² U`.
+#[derive(Debug)]
+struct Displacement(Mode);
+
+impl Function for Displacement {
+    fn derivatives(&self, x: f64) -> [f64; 3] {
+        let Self(mode) = self;
+        let u = mode.u(x);
+        [u, mode.u_x(x), mode.phi_x(x) - mode.omega().powi(2) * u]
+    }
+
+    fn eval(&self, x: f64) -> f64 {
+        self.0.u(x)
+    }
 }
 
-/// T(t) of a mode of frequency ω released at rest with T(0) = `amplitude`; `None` where it does not ring (ζω >= 2).
-pub fn factor(omega: f64, zeta: f64, amplitude: f64) -> Option<String> {
-    let gamma = 0.5 * zeta * omega * omega;
-    let square = (omega - gamma) * (omega + gamma);
-    (square > 0.0).then(|| {
-        let (ring, sine) = (square.sqrt(), amplitude * gamma / square.sqrt());
-        format!("exp(-({gamma:e})*t)*(({amplitude:e})*cos({ring:e}*t) + ({sine:e})*sin({ring:e}*t))")
-    })
+/// Φ of a mode; its second derivative by the mode's equation `Φ'' = Φ - U' - ω² Φ`.
+#[derive(Debug)]
+struct Rotation(Mode);
+
+impl Function for Rotation {
+    fn derivatives(&self, x: f64) -> [f64; 3] {
+        let Self(mode) = self;
+        let phi = mode.phi(x);
+        [phi, mode.phi_x(x), phi - mode.u_x(x) - mode.omega().powi(2) * phi]
+    }
+
+    fn eval(&self, x: f64) -> f64 {
+        self.0.phi(x)
+    }
+}
+
+/// T of a damped mode; its second derivative by `T'' = -ω² (T + ζ T')`.
+#[derive(Debug)]
+struct Damped {
+    factor: TimeFactor,
+    omega: f64,
+    zeta: f64,
+}
+
+impl Function for Damped {
+    fn derivatives(&self, t: f64) -> [f64; 3] {
+        let (value, slope) = (self.factor.value(t), self.factor.slope(t));
+        [value, slope, -self.omega.powi(2) * (value + self.zeta * slope)]
+    }
+}
+
+/// `sin κx`.
+#[derive(Debug)]
+struct Sine(f64);
+
+impl Function for Sine {
+    fn derivatives(&self, x: f64) -> [f64; 3] {
+        let Self(kappa) = *self;
+        let (sine, cosine) = (kappa * x).sin_cos();
+        [sine, kappa * cosine, -kappa * kappa * sine]
+    }
+}
+
+/// `start e^{-rate t}`.
+#[derive(Debug)]
+struct Decay {
+    start: f64,
+    rate: f64,
+}
+
+impl Function for Decay {
+    fn derivatives(&self, t: f64) -> [f64; 3] {
+        let value = self.start * (-self.rate * t).exp();
+        [value, -self.rate * value, self.rate * self.rate * value]
+    }
+}
+
+/// The P1 function with the given values at the nodes of a mesh; its second derivative is 0 on each element.
+#[derive(Debug)]
+pub(crate) struct PiecewiseLinear {
+    nodes: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl PiecewiseLinear {
+    /// * `values`: one for each node.
+    pub(crate) fn new(mesh: &Mesh, values: Vec<f64>) -> Self {
+        Self { nodes: mesh.nodes().to_vec(), values }
+    }
+}
+
+impl Function for PiecewiseLinear {
+    fn derivatives(&self, x: f64) -> [f64; 3] {
+        let Self { nodes, values } = self;
+        let left = nodes.partition_point(|node| *node <= x).clamp(1, nodes.len() - 1) - 1;
+        let length = nodes[left + 1] - nodes[left];
+        let fraction = (x - nodes[left]) / length;
+        let value = (1.0 - fraction) * values[left] + fraction * values[left + 1];
+        [value, (values[left + 1] - values[left]) / length, 0.0]
+    }
+}
+
+/// T of a mode of frequency ω with T(0) and T'(0).
+///
+/// # Errors
+/// [`ParameterError`] for ω or ζ that is negative or not finite.
+pub(crate) fn damped(omega: f64, zeta: f64, start: [f64; 2]) -> Result<Factor, ParameterError> {
+    Ok(Factor::new(Damped { factor: TimeFactor::new(omega, zeta, start[0], start[1])?, omega, zeta }))
+}
+
+/// A temperature that decays like e^{-rate t}.
+pub(crate) fn decay(rate: f64, start: f64) -> Factor {
+    Factor::new(Decay { start, rate })
+}
+
+/// Adds a mode by its index from 0, with its tip displacement and velocity at t = 0.
+///
+/// # Errors
+/// [`ParameterError`] for a ζ that is negative or not finite.
+pub(crate) fn add_mode(
+    exact: &mut Manufactured,
+    index: usize,
+    zeta: f64,
+    start: [f64; 2],
+) -> Result<(), ParameterError> {
+    let mode = Mode::new(index);
+    let t = damped(mode.omega(), zeta, start)?;
+    exact.u.push(Product { x: Factor::new(Displacement(mode)), t: t.clone() });
+    exact.phi.push(Product { x: Factor::new(Rotation(mode)), t });
+    Ok(())
+}
+
+/// Adds the temperature `amplitude sin kπx e^{-κ²t}`, κ = kπ.
+pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64) {
+    let kappa = k as f64 * PI;
+    exact.theta.push(Product { x: Factor::new(Sine(kappa)), t: decay(kappa * kappa, amplitude) });
 }
 
 /// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t = 0, released at rest.
 ///
-/// `None` where a mode does not ring: ζω >= 2.
-///
 /// # Errors
-/// [`ExpressionError`] never, for finite amplitudes.
-pub fn vibration(modes: &[(usize, f64)], zeta: f64) -> Result<Option<Manufactured>, ExpressionError> {
+/// [`ParameterError`] for a ζ that is negative or not finite.
+pub fn vibration(modes: &[(usize, f64)], zeta: f64) -> Result<Manufactured, ParameterError> {
     let mut exact = Manufactured::default();
-    for &(index, amplitude) in modes {
-        let mode = Mode::new(index);
-        let Some(factor) = factor(mode.omega(), zeta, amplitude) else { return Ok(None) };
-        let t = Expression::parse(&factor, Variable::T)?;
-        for (field, x) in [&mut exact.u, &mut exact.phi].into_iter().zip(shape(&mode)) {
-            field.push(Product { x: Expression::parse(&x, Variable::X)?, t: t.clone() });
-        }
-    }
-    Ok(Some(exact))
+    modes.iter().try_for_each(|&(index, amplitude)| add_mode(&mut exact, index, zeta, [amplitude, 0.0]))?;
+    Ok(exact)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use thermobeam::vibration::DampedMode;
+
+    /// Derivatives against central differences, far from round-off.
+    #[track_caller]
+    fn check(function: &dyn Function, at: f64, size: f64) {
+        const H: f64 = 1e-4;
+        let [left, middle, right] = [at - H, at, at + H].map(|x| function.eval(x));
+        let [value, first, second] = function.derivatives(at);
+        assert_eq!(value, middle, "{function:?}");
+        assert!((first - (right - left) / (2.0 * H)).abs() < 1e-6 * size, "{function:?}: {first}");
+        assert!((second - (right - 2.0 * middle + left) / (H * H)).abs() < 1e-4 * size, "{function:?}: {second}");
+    }
 
     #[test]
-    fn the_functions_are_those_of_the_mode() {
-        for index in 0..4 {
-            let mode = Mode::new(index);
-            let damped = DampedMode::new(mode, 0.1).unwrap();
-            let exact = vibration(&[(index, 1.0)], 0.1).unwrap().unwrap();
-            for i in 0..=10 {
-                let (x, t) = (f64::from(i) / 10.0, 0.3 * f64::from(i));
-                assert!((exact.u[0].x.eval(x) - mode.u(x)).abs() < 1e-13, "mode {index}, u at {x}");
-                assert!((exact.phi[0].x.eval(x) - mode.phi(x)).abs() < 1e-13, "mode {index}, phi at {x}");
-                assert!((exact.u[0].t.eval(t) - damped.factor(t)).abs() < 1e-13, "mode {index}, factor at {t}");
-            }
+    fn derivatives_are_those_of_the_functions() {
+        // Two modes that ring and one, of index 20, that creeps.
+        let mut exact = vibration(&[(0, 1.0), (3, 0.2), (20, 1e-4)], 0.1).expect("a vibration");
+        add_temperature(&mut exact, 3, 2.0);
+        for x in [0.1, 0.37, 0.8] {
+            exact.u[..2]
+                .iter()
+                .chain(&exact.phi[..2])
+                .chain(&exact.theta)
+                .for_each(|product| check(&*product.x, x, 1e3));
+            exact.u.iter().chain(&exact.theta).for_each(|product| check(&*product.t, x, 1e3));
         }
-        assert_eq!(vibration(&[(40, 1.0)], 0.1), Ok(None));
+    }
+
+    #[test]
+    fn a_piecewise_linear_function_has_its_values_at_the_nodes_to_the_last_bit() {
+        let mesh = Mesh::from_nodes(vec![0.0, 0.3, 0.7, 1.0]).expect("a mesh");
+        let values = vec![0.1, -1.0 / 3.0, 2.0, 0.7];
+        let function = PiecewiseLinear::new(&mesh, values.clone());
+        for (x, value) in mesh.nodes().iter().zip(values) {
+            assert_eq!(function.eval(*x), value);
+        }
+        let [value, slope, curvature] = function.derivatives(0.5);
+        assert!((value - 2.5 / 3.0).abs() < 1e-15 && (slope - 17.5 / 3.0).abs() < 1e-14 && curvature == 0.0);
     }
 }

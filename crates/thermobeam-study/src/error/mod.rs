@@ -2,4 +2,5 @@
 
 pub mod design;
 pub mod free_vibration;
+pub(crate) mod richardson;
 pub mod yardstick;

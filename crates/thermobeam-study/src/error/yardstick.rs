@@ -6,7 +6,7 @@
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::kinds::tables::{Manufactured, Norm, Product};
-use crate::run::march::{Family, OnMesh};
+use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
@@ -54,11 +54,11 @@ impl Reference {
     /// [`CaseFailure`] where the run does not come to its end.
     pub fn compute(family: &Family, elements: usize, steps: usize, observations: usize) -> Result<Self, CaseFailure> {
         let on = family.on(elements)?;
-        let mut march = on.march(MIDPOINT, Settings { tolerance: 1e-13, ..Settings::default() }, steps)?;
+        let mut run = on.start(MIDPOINT, Settings { tolerance: 1e-13, ..Settings::default() }, steps)?;
         let mut levels = Vec::with_capacity(observations);
         for _ in 0..observations {
-            march.advance(steps / observations)?;
-            levels.push(march.level().clone());
+            run.advance(steps / observations)?;
+            levels.push(run.level().clone());
         }
         Ok(Self { lengths: on.mesh().lengths().collect(), mesh: on.mesh().clone(), levels })
     }
@@ -108,9 +108,8 @@ impl<'a> Yardstick<'a> {
             Answer::Exact { exact, meter, factors, tip } => {
                 factors.at(exact, t);
                 let errors = meter.measure(level, factors);
-                let of = |norm: Norm| errors[Norm::ALL.iter().position(|&other| other == norm).unwrap_or(0)];
                 let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
-                [of(Norm::Theorem34), of(Norm::Superclose), (level.u[level.u.len() - 1] - u).abs()]
+                [errors[Norm::Theorem34], errors[Norm::Superclose], (level.u[level.u.len() - 1] - u).abs()]
             }
             Answer::Computed { reference, stride, nodes, lengths } => {
                 let fine = &reference.levels[index];
@@ -157,7 +156,7 @@ pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
 }
 
 /// Values at every `stride`-th node.
-fn restrict(level: &Level, stride: usize) -> Level {
+pub(crate) fn restrict(level: &Level, stride: usize) -> Level {
     map_fields(level, |y| y.iter().step_by(stride).copied().collect())
 }
 

@@ -13,9 +13,8 @@
 //! ```
 
 use crate::error::design::{Defect, Disagreement, Prepared};
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::kinds::convergence::step;
-use crate::kinds::tables::Norm;
+use crate::kinds::convergence::Convergence;
+use crate::kinds::tables::{Norm, Norms};
 use crate::kinds::untyped::{Case, Measured};
 use crate::kinds::{FromFile, Study};
 use crate::scene::tables;
@@ -34,7 +33,7 @@ pub const CONTROLS: &str = "controls";
 pub struct Controls {
     header: Header,
     relative: f64,
-    studies: Vec<ConvergenceSpec>,
+    studies: Vec<Convergence>,
 }
 
 /// What is wrong in a run.
@@ -60,7 +59,7 @@ impl Fault {
     }
 
     /// The disagreement it makes; `None` where the study does not have the coefficient, or has it zero.
-    fn plant(self, spec: &ConvergenceSpec, relative: f64) -> Option<Disagreement> {
+    fn plant(self, spec: &Convergence, relative: f64) -> Option<Disagreement> {
         let (beam, obstacles) = (spec.beam, spec.obstacles);
         match self {
             Fault::None => Some(Disagreement { beam, obstacles, defect: None }),
@@ -74,14 +73,14 @@ impl Fault {
 }
 
 /// The studies that a section names, with its own levels where it gives them.
-pub(crate) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<ConvergenceSpec>, InputError> {
+pub(crate) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence>, InputError> {
     let allowed = "a list of at least one study file beside this one";
     let files = section.require("studies", allowed)?.items(allowed)?;
     let levels = section.get("elements").map(|field| field.items("a list of numbers of elements")).transpose()?;
     let levels = levels.unwrap_or_default().iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
     let mut studies = vec![];
     for file in files {
-        let mut spec = ConvergenceSpec::read(file.file(folder)?)?;
+        let mut spec = <Convergence as convergence_study::study::FromFile>::read(file.file(folder)?)?;
         if !levels.is_empty() {
             spec.refine.elements.clone_from(&levels);
         }
@@ -124,7 +123,7 @@ impl Controls {
     }
 
     /// Study and level of each case.
-    fn levels(&self) -> Vec<(&ConvergenceSpec, usize, usize)> {
+    fn levels(&self) -> Vec<(&Convergence, usize, usize)> {
         self.studies
             .iter()
             .flat_map(|spec| spec.refine.cases().into_iter().map(move |(n, steps)| (spec, n, steps)))
@@ -132,22 +131,17 @@ impl Controls {
     }
 
     /// The verdict on one study under one fault: the worst over its norms; `None` where the fault cannot be planted.
-    fn verdict(
-        &self,
-        spec: &ConvergenceSpec,
-        fault: Fault,
-        results: &[Result<Measured, CaseFailure>],
-    ) -> Option<Verdict> {
+    fn verdict(&self, spec: &Convergence, fault: Fault, results: &[Result<Measured, CaseFailure>]) -> Option<Verdict> {
         fault.plant(spec, self.relative)?;
         let of_study: Vec<_> =
-            self.levels().into_iter().zip(results).filter(|((of, ..), _)| of.id == spec.id).collect();
+            self.levels().into_iter().zip(results).filter(|((of, ..), _)| of.header.id == spec.header.id).collect();
         Some(Verdict::worst(spec.expect.iter().map(|expectation| {
             let levels: Vec<Level> = of_study
                 .iter()
                 .map(|&((_, elements, steps), result)| {
                     let key = key(fault, expectation.norm);
                     Level {
-                        step: step(spec, elements, steps),
+                        step: spec.step(elements, steps),
                         error: result.as_ref().map_or(f64::NAN, |m| m.value(&key)),
                     }
                 })
@@ -168,8 +162,8 @@ impl Study for Controls {
 
     fn cases(&self) -> Vec<Case> {
         let faults = Fault::all().len() as f64;
-        let case = |(spec, n, steps): (&ConvergenceSpec, usize, usize)| Case {
-            label: format!("{}, n = {n}, {steps} steps", spec.id),
+        let case = |(spec, n, steps): (&Convergence, usize, usize)| Case {
+            label: format!("{}, n = {n}, {steps} steps", spec.header.id),
             cost: n as f64 * (steps as f64 * faults + 50.0),
         };
         self.levels().into_iter().map(case).collect()
@@ -185,9 +179,9 @@ impl Study for Controls {
             let errors = match prepared.run(steps, disagreement) {
                 Ok(errors) => errors,
                 Err(failure) if fault == Fault::None => return Err(failure),
-                Err(_) => [f64::NAN; 8],
+                Err(_) => Norms::NAN,
             };
-            for (norm, error) in Norm::ALL.into_iter().zip(errors) {
+            for (norm, error) in errors.iter() {
                 measured.push(key(fault, norm), error);
             }
         }
@@ -222,7 +216,7 @@ impl Study for Controls {
         let summary = format!("{headline}, coefficients being off by {:e}", self.relative);
         let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         let mut head = vec!["fault".to_owned()];
-        head.extend(self.studies.iter().map(|spec| spec.id.clone()));
+        head.extend(self.studies.iter().map(|spec| spec.header.id.clone()));
         outcome.tables.push(Table {
             title: "Verdict of each study under each fault: `fail` is what is wanted, `not there` a term that the study has not".to_owned(),
             head,

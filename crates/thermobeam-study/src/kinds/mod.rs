@@ -17,7 +17,6 @@ pub mod experiment;
 pub mod extremes;
 pub mod fixed_point;
 pub mod frequencies;
-mod ladder;
 pub mod random_scenes;
 pub mod rigid;
 pub mod self_convergence;

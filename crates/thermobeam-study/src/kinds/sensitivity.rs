@@ -10,9 +10,8 @@
 
 use crate::error::design::{Disagreement, Prepared};
 use crate::kinds::controls::perturbed;
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::kinds::convergence::step;
-use crate::kinds::tables::Norm;
+use crate::kinds::convergence::Convergence;
+use crate::kinds::tables::Norms;
 use crate::kinds::untyped::{Case, Measured};
 use crate::kinds::{FromFile, Study};
 use crate::scene::tables;
@@ -32,7 +31,7 @@ const BISECTIONS: usize = 9;
 /// A study of this kind.
 pub struct Sensitivity {
     header: Header,
-    studies: Vec<ConvergenceSpec>,
+    studies: Vec<Convergence>,
     range: [f64; 2],
     at_most: f64,
 }
@@ -62,7 +61,7 @@ impl Sensitivity {
     }
 
     /// Study and coefficient of each case; coefficients that a study lacks, or has zero, are left out.
-    fn pairs(&self) -> Vec<(&ConvergenceSpec, &'static str)> {
+    fn pairs(&self) -> Vec<(&Convergence, &'static str)> {
         let keys = tables::BEAM_KEYS.iter().chain(&tables::OBSTACLE_KEYS);
         let of_study = |spec| keys.clone().map(move |key| (spec, *key));
         let pairs = self.studies.iter().flat_map(of_study);
@@ -72,12 +71,12 @@ impl Sensitivity {
 
 /// The runs of one study, prepared once for all bisections.
 struct Detector<'a> {
-    spec: &'a ConvergenceSpec,
+    spec: &'a Convergence,
     prepared: Vec<(Prepared<'a>, usize, usize)>,
 }
 
 impl<'a> Detector<'a> {
-    fn new(spec: &'a ConvergenceSpec) -> Result<Self, CaseFailure> {
+    fn new(spec: &'a Convergence) -> Result<Self, CaseFailure> {
         let prepare = |(n, steps)| Ok((Prepared::new(spec, n)?, n, steps));
         Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
     }
@@ -89,18 +88,17 @@ impl<'a> Detector<'a> {
         };
         let disagreement = Disagreement { beam, obstacles, defect: None };
         let spec = self.spec;
-        let errors: Vec<(f64, [f64; 8])> = self
+        let errors: Vec<(f64, Norms)> = self
             .prepared
             .iter_mut()
             // A wrong run that breaks down has been noticed.
             .map(|(prepared, n, steps)| {
-                (step(spec, *n, *steps), prepared.run(*steps, disagreement).unwrap_or([f64::NAN; 8]))
+                (spec.step(*n, *steps), prepared.run(*steps, disagreement).unwrap_or(Norms::NAN))
             })
             .collect();
         spec.expect.iter().any(|expectation| {
-            let index = Norm::ALL.iter().position(|norm| *norm == expectation.norm).unwrap_or(0);
             let levels: Vec<Level> =
-                errors.iter().map(|&(step, errors)| Level { step, error: errors[index] }).collect();
+                errors.iter().map(|&(step, errors)| Level { step, error: errors[expectation.norm] }).collect();
             judge(&levels, expectation.order, expectation.tolerance).verdict == Verdict::Fail
         })
     }
@@ -112,12 +110,14 @@ impl Study for Sensitivity {
     }
 
     fn cases(&self) -> Vec<Case> {
-        let cost = |spec: &ConvergenceSpec| -> f64 {
+        let cost = |spec: &Convergence| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
             spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
         };
-        let case =
-            |(spec, key): (&ConvergenceSpec, &str)| Case { label: format!("{key} in {}", spec.id), cost: cost(spec) };
+        let case = |(spec, key): (&Convergence, &str)| Case {
+            label: format!("{key} in {}", spec.header.id),
+            cost: cost(spec),
+        };
         self.pairs().into_iter().map(case).collect()
     }
 
@@ -139,8 +139,8 @@ impl Study for Sensitivity {
 
     fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
         let pairs = self.pairs();
-        let smallest = |spec: &ConvergenceSpec, key: &str| {
-            let index = pairs.iter().position(|(of, name)| of.id == spec.id && *name == key)?;
+        let smallest = |spec: &Convergence, key: &str| {
+            let index = pairs.iter().position(|(of, name)| of.header.id == spec.header.id && *name == key)?;
             Some(results.get(index)?.as_ref().map_or(f64::NAN, |measured| measured.value("smallest")))
         };
         let (mut checks, mut rows, mut quantities) = (vec![], vec![], vec![]);
@@ -165,7 +165,7 @@ impl Study for Sensitivity {
         let headline = summary.clone();
         let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
         let mut head = vec!["coefficient".to_owned()];
-        head.extend(self.studies.iter().map(|spec| spec.id.clone()));
+        head.extend(self.studies.iter().map(|spec| spec.header.id.clone()));
         outcome.tables.push(Table {
             title: "Smallest relative error that makes the study fail".to_owned(),
             head,

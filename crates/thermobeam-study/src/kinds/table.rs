@@ -8,22 +8,10 @@ use super::{
     extremes, fixed_point, frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration,
     work_precision,
 };
-use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 19] = [
-    KindRow {
-        name: CONVERGENCE,
-        read: reader::<convergence::Convergence>,
-        why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
-              the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
-              it by c (h + dt).",
-        judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
-                 which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
-                 within the tolerance, whole. Above is as wrong as below. What cannot be told is inconclusive, which is not a pass.",
-        failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
-                  wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-    },
+pub const KINDS: [KindRow; 17] = [
+    convergence::ROW,
     KindRow {
         name: energy::ENERGY,
         read: reader::<energy::EnergyDecay>,
@@ -61,25 +49,9 @@ pub const KINDS: [KindRow; 19] = [
         judged: "For every coefficient some study must see a relative error as small as the file says.",
         failure: "The guard has become blunter: a study has lost levels, or its tolerance has grown.",
     },
-    KindRow {
-        name: vibration::KIND,
-        read: reader::<vibration::Vibration>,
-        why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
-              in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
-              leave the time error alone.",
-        judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
-        failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
-                  can be to blame.",
-    },
+    vibration::ROW,
     frequencies::ROW,
-    KindRow {
-        name: self_convergence::KIND,
-        read: reader::<self_convergence::SelfConvergence>,
-        why: "For the paper's own data there is no exact solution: rates come from the differences of three levels (Richardson) and \
-              from the distance to a much finer run, contact included.",
-        judged: "Each quantity's rate by the rule of every rate. A wrong coefficient cannot be seen in this way; a lost order can.",
-        failure: "With contact and rough data the order is lost, or the levels are too coarse for it.",
-    },
+    self_convergence::ROW,
     KindRow {
         name: "experiment",
         read: reader::<experiment::Experiments>,
@@ -87,13 +59,7 @@ pub const KINDS: [KindRow; 19] = [
         judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
         failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
     },
-    KindRow {
-        name: "equilibrium",
-        read: reader::<equilibrium::EndStates>,
-        why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
-        judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact state.",
-        failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
-    },
+    equilibrium::ROW,
     KindRow {
         name: "bifurcation",
         read: reader::<bifurcation::BifurcationStudy>,

@@ -20,7 +20,7 @@ pub const TERMS: [Term; Norm::ALL.len()] = {
 };
 
 /// What a norm measures.
-const fn text(norm: Norm) -> &'static str {
+pub(crate) const fn text(norm: Norm) -> &'static str {
     match norm {
         Norm::Velocity => "the L2 norm of the error of the velocity u_t",
         Norm::Shear => "the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",

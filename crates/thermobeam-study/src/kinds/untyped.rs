@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use convergence_study::input::{self, InputError, Section};
-use convergence_study::study::{self as harness, CaseFailure, Check, Header, Outcome, Ran};
+use convergence_study::study::{self as harness, CaseFailure, Header, Outcome, Ran};
 
 /// One computation of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,25 +107,4 @@ pub(crate) fn reader<S: Study + FromFile + 'static>(
     _: &Path,
 ) -> Result<Box<dyn harness::Study>, InputError> {
     Ok(harness::erased(Typed(S::parse(root.text(), Path::new(root.file()))?)))
-}
-
-/// Fails unless there is a result for every case.
-pub(crate) fn completion(cases: &[Case], results: &[Result<Measured, CaseFailure>]) -> Check {
-    let ran: Vec<_> = cases
-        .iter()
-        .enumerate()
-        .map(|(i, case)| Ran {
-            case: harness::Case { label: case.label.clone(), cost: case.cost, data: () },
-            found: results.get(i).cloned().unwrap_or(Err(CaseFailure { reason: "no result".to_owned() })),
-        })
-        .collect();
-    harness::levels::completion(&ran, |_| vec![])
-}
-
-/// The number of that name of a case; NaN where there is none.
-pub(crate) fn value(results: &[Result<Measured, CaseFailure>], index: usize, name: &str) -> f64 {
-    match results.get(index) {
-        Some(Ok(measured)) => measured.value(name),
-        _ => f64::NAN,
-    }
 }

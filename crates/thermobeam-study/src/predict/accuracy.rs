@@ -9,10 +9,10 @@
 //! the maximum of that norm. Both are believed, not known: the answer says what it believes, and what the pilots cost.
 //!
 //! ```
-//! use thermobeam_study::accuracy::{Request, plan};
-//! use thermobeam_study::march::Family;
+//! use thermobeam_study::predict::accuracy::{Request, plan};
+//! use thermobeam_study::run::family::Family;
 //! use thermobeam_study::scene::Scene;
-//! use thermobeam_study::yardstick::Quantity;
+//! use thermobeam_study::error::yardstick::Quantity;
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
 //! let family = Family::of_scene(&Scene::parse(text, "swing.toml")?);
@@ -25,7 +25,7 @@ mod outlook;
 mod pilot;
 
 use crate::error::yardstick::Quantity;
-use crate::run::march::{Family, Spent};
+use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::Quantiles;
 use convergence_study::study::CaseFailure;
 use outlook::{CANCELLATION, Outlook, PILOT_SHARE, cheapest, leader};

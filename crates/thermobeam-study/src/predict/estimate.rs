@@ -3,21 +3,20 @@
 //! No exact solution is needed, only the scene run again, seven times at four and a half times its cost:
 //!
 //! * *space*: on a half and a quarter of the elements. With the differences `d1 = |q_{h/2h}|`, `d2 = |q_{2h/4h}|` the rate is
-//!   `p = log2(d2/d1)` and the error of the scene itself `d1/(2^p - 1)` (Richardson);
+//!   `p = log2(d2/d1)` and the error of the scene itself `d1/(2^p - 1)` (`error::richardson`);
 //! * *time*: the same with a half and a quarter of the steps;
 //! * *iteration*: against Newton's method with a tolerance a hundred times tighter;
 //! * *round-off*: with every inner node moved by one rounding error of its position. That changes the lengths, and with
 //!   them every matrix entry, by about as much as rounding changes what the entries act on; with the sum of N rounded
 //!   increments, √N ε |q| at least, it tells the order of magnitude and no more.
 //!
-//! An observed rate above the scheme's order is not believed: near a zero of d1 it would promise an error of nothing. It
-//! is cut at the order, and the error is then read off d2. Below ½ it is cut too: such a sequence has told nothing yet.
 //! The parts are added up as if their signs were equal.
 
 mod report;
 mod runs;
 
-use crate::run::rerun::RunError;
+use crate::error::richardson::error_and_rate;
+use crate::run::driver::RunError;
 use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
@@ -128,9 +127,6 @@ fn last(curve: &[f64]) -> Vec<f64> {
 /// Order of everything estimated here in h: values at nodes and the energy converge faster than the theorem's norm.
 const SPACE_ORDER: f64 = 2.0;
 
-/// Below this an observed rate says that the sequence does not converge yet.
-const LOWEST_RATE: f64 = 0.5;
-
 /// Estimates the discretisation errors of a scene.
 ///
 /// # Errors
@@ -148,7 +144,7 @@ fn of((name, read): Observable, scene: &Scene, runs: &Runs) -> Estimate {
     let tight = read(&runs.tight);
     let richardson = |coarser: &[Reading; 2], order: f64, from: usize, to: usize| {
         let [half, quarter] = [read(&coarser[0]), read(&coarser[1])];
-        let (error, rate) = extrapolate(distance(&half, &tight), distance(&quarter, &half), order);
+        let (error, rate) = error_and_rate(distance(&half, &tight), distance(&quarter, &half), order);
         // From the resolution measured to the scene's own, where 4 does not divide that.
         (error * (from as f64 / to as f64).powf(order), rate)
     };
@@ -168,42 +164,4 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
         return f64::NAN;
     }
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
-}
-
-/// Error at h from the differences of h against 2h and of 2h against 4h, and the observed rate.
-fn extrapolate(fine: f64, coarse: f64, order: f64) -> (f64, Option<f64>) {
-    let rate = Some((coarse / fine).log2()).filter(|rate| rate.is_finite());
-    let p = rate.map_or(order, |rate| rate.clamp(LOWEST_RATE, order));
-    let growth = 2f64.powf(p);
-    (max_or_nan(fine, coarse / growth) / (growth - 1.0), rate)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::extrapolate;
-
-    #[test]
-    fn a_clean_sequence_gives_its_error() {
-        for p in [1.0_f64, 1.5, 2.0] {
-            let q = |h: f64| 1.0 + 0.3 * h.powf(p);
-            let (error, rate) = extrapolate((q(0.2) - q(0.1)).abs(), (q(0.4) - q(0.2)).abs(), 2.0);
-            assert!((error - 0.3 * 0.1_f64.powf(p)).abs() < 1e-12);
-            assert!((rate.unwrap() - p).abs() < 1e-10);
-        }
-    }
-
-    #[test]
-    fn an_accidental_agreement_promises_nothing() {
-        let (error, _) = extrapolate(1e-9, 1e-3, 1.0);
-        assert!(error > 4e-4, "{error}");
-        let (error, rate) = extrapolate(1e-3, 1e-3, 2.0);
-        assert!(error > 2e-3 && rate == Some(0.0), "{error}");
-    }
-
-    #[test]
-    fn nothing_moves_and_nothing_is_hidden() {
-        assert_eq!(extrapolate(0.0, 0.0, 2.0), (0.0, None));
-        assert!(extrapolate(f64::NAN, 1.0, 2.0).0.is_nan());
-        assert!(extrapolate(1.0, f64::NAN, 2.0).0.is_nan());
-    }
 }

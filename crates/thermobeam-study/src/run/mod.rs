@@ -2,7 +2,7 @@
 
 pub mod any_order;
 pub mod driver;
-pub mod march;
+pub mod family;
 pub(crate) mod patience;
-pub mod rerun;
+pub(crate) mod rerun;
 pub mod simulate;

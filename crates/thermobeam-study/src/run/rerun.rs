@@ -1,35 +1,15 @@
 //! A scene run again: on another mesh, with other time steps, by another scheme or solver.
 
-use crate::expression::Expression;
-use crate::run::patience::StepPatience;
+use std::ops::ControlFlow;
+
+use crate::run::driver::{Driver, RunError};
+use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::run::time_limit::{Patience, TimeUp};
-use thermobeam::error::{SetupError, StepError};
+use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
-use thiserror::Error;
-
-/// Why a scene could not be run to its end.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum RunError {
-    /// It could not be set up.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A step could not be done.
-    #[error(transparent)]
-    Step(#[from] StepError),
-    /// The limit on the time of a case was reached.
-    #[error(transparent)]
-    TimeUp(#[from] TimeUp),
-}
-
-impl From<MeshError> for RunError {
-    fn from(error: MeshError) -> Self {
-        Self::Setup(error.into())
-    }
-}
 
 /// What a scene is run with.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,9 +44,12 @@ impl<'s> Rerun<'s> {
         Self { scene, mesh: mesh.clone(), steps: *steps, t_end: *t_end, scheme: *scheme, settings: *settings }
     }
 
-    /// Runs it.
+    /// Runs it to its end.
     ///
     /// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
+    ///
+    /// # Errors
+    /// [`RunError`] where the solver refuses the problem, or a step fails.
     pub(crate) fn run<S>(
         &self,
         samples: usize,
@@ -74,51 +57,35 @@ impl<'s> Rerun<'s> {
     ) -> Result<Trace<S>, RunError> {
         let Self { scheme, settings, .. } = *self;
         let dt = self.t_end / self.steps as f64;
-        let mut simulation = Simulation::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
-        let mut level = simulation.level();
-        let mut patience = Patience::of(&simulation);
-        let last = level.u.len() - 1;
-        let mut trace = Trace { tip: [level.u[last]; 2], samples: Vec::with_capacity(samples) };
+        let mut driver = Driver::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
+        let last = self.mesh.elements();
+        let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
         let stride = self.steps / samples;
-        for n in 1..=self.steps {
-            patience.before_step_of(&simulation)?;
-            simulation.advance()?;
-            simulation.observe(&mut level);
-            let tip = level.u[last];
-            trace.tip = [low(trace.tip[0], tip), -low(-trace.tip[1], -tip)];
-            if n % stride == 0 {
-                trace.samples.push(sample(&simulation, &level));
+        driver.run(self.steps, |step| {
+            let tip = step.new.u[last];
+            trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
+            if step.simulation.step() % stride == 0 {
+                trace.samples.push(sample(step.simulation, step.new));
             }
-        }
+            ControlFlow::<()>::Continue(())
+        })?;
         Ok(trace)
     }
 
     fn problem(&self) -> Problem {
-        let at_nodes = |function: &Option<Expression>| {
-            let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
-            self.mesh.nodes().iter().map(value).collect()
-        };
-        let data = &self.scene.initial;
-        let initial = Initial {
-            u: at_nodes(&data.u),
-            u_t: at_nodes(&data.u_t),
-            phi: at_nodes(&data.phi),
-            phi_t: at_nodes(&data.phi_t),
-            theta: at_nodes(&data.theta),
-        };
+        let initial = simulate::initial(self.scene, &self.mesh);
         Problem { beam: self.scene.beam, obstacles: self.scene.obstacles, mesh: self.mesh.clone(), initial }
     }
-}
-
-/// The smaller of both; NaN once one of them was.
-fn low(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a <= b { a } else { b }
 }
 
 /// `elements` elements laid out as those of `mesh`: its nodes x_i as a function of i/n, linear in between, taken at j/m.
 ///
 /// Where m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
 pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
+    if elements == 0 {
+        // The error that every mesh without elements is refused with.
+        return Mesh::uniform(0);
+    }
     let (nodes, n) = (mesh.nodes(), mesh.elements());
     let node = |j: usize| {
         // In whole numbers: a rounded j/m would put nested nodes a bit beside each other.
@@ -139,6 +106,7 @@ mod tests {
     fn resampled_meshes_are_nested_to_the_last_bit() {
         let mesh = Mesh::mapped(12, |s| 0.3 * s + 0.7 * s * s).expect("a mesh");
         assert_eq!(resampled(&mesh, 12).expect("a mesh"), mesh);
+        assert!(resampled(&mesh, 0).is_err());
         for (coarse, fine) in [(3, 6), (4, 12), (12, 36), (24, 48), (5, 35)] {
             let [coarse, fine] = [coarse, fine].map(|n| resampled(&mesh, n).expect("a mesh"));
             let ratio = fine.elements() / coarse.elements();

@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
-//! use thermobeam_study::simulate::{Recording, Simulator};
+//! use thermobeam_study::run::simulate::{Recording, Simulator};
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
 //! let scene = Scene::parse(text, "swing.toml")?;
@@ -25,20 +25,19 @@ mod object;
 mod record;
 mod together;
 
-use crate::run::patience::StepPatience;
-use std::time::{Duration, Instant};
+use std::ops::ControlFlow;
+use std::time::Duration;
 
 use thermobeam::energy::Balance;
-use thermobeam::error::{SetupError, StepError};
+use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
-use thiserror::Error;
 
 use crate::expression::Expression;
+use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
-use convergence_study::run::time_limit::{Patience, TimeUp};
 use convergence_study::text::number::max_or_nan;
 
 pub use figures::figures;
@@ -159,20 +158,9 @@ pub struct Run {
     /// Whether the temperature was computed: it is left out where nothing heats the beam.
     pub is_heated: bool,
     /// Why the run ended early, if it did.
-    pub failure: Option<RunFailure>,
+    pub failure: Option<RunError>,
     /// History and frames, if they were asked for.
     pub record: Option<Record>,
-}
-
-/// Why a run ended before the scene's end.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum RunFailure {
-    /// A step that could not be done.
-    #[error(transparent)]
-    Step(#[from] StepError),
-    /// The limit on its time was reached.
-    #[error(transparent)]
-    Time(#[from] TimeUp),
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -211,9 +199,8 @@ pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
 
 /// A scene, ready to run.
 pub struct Simulator {
-    simulation: Simulation,
-    middle: Middle,
-    dt: f64,
+    driver: Driver,
+    sampler: Sampler,
     steps: usize,
 }
 
@@ -224,73 +211,58 @@ impl Simulator {
     /// [`SetupError`] where the solver cannot work with the scene's numbers.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-        let simulation = Simulation::new(problem(scene), stepping)?;
-        Ok(Self { simulation, middle: Middle::of(&scene.mesh), dt: scene.dt, steps: scene.steps })
+        let driver = Driver::new(problem(scene), stepping)?.timed();
+        let sampler = Sampler { middle: Middle::of(&scene.mesh), dt: scene.dt };
+        Ok(Self { driver, sampler, steps: scene.steps })
     }
 
     /// Steps to the end; `progress` hears the number of steps done after each of them.
-    pub fn run(mut self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
-        let mut old = self.simulation.level();
-        let mut new = old.clone();
-        let first = self.first_sample(&old);
-        let mut record = (recording == Recording::History)
-            .then(|| Record::new(self.simulation.problem().mesh.nodes(), self.steps, first, &old.u));
+    pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
+        let Self { mut driver, sampler, steps } = self;
+        let start = driver.level().clone();
+        // No step has led to the start, so that its contact force is that of the law.
+        let obstacles = driver.simulation().problem().obstacles;
+        let first = sampler.sample(driver.simulation(), &start).at_the_start(obstacles);
+        let nodes = driver.simulation().problem().mesh.nodes();
+        let mut record = (recording == Recording::History).then(|| Record::new(nodes, steps, first, &start.u));
         let mut tally = Tally::new(first.u_tip);
-        let mut wall = Duration::ZERO;
-        let mut failure = None;
-        let mut patience = Patience::of(&self.simulation);
-        while self.simulation.step() < self.steps {
-            if let Err(up) = patience.before_step_of(&self.simulation) {
-                failure = Some(up.into());
-                break;
-            }
-            let start = Instant::now();
-            let outcome = self.simulation.advance();
-            wall += start.elapsed();
-            let report = match outcome {
-                Ok(report) => report,
-                Err(error) => {
-                    failure = Some(error.into());
-                    break;
-                }
-            };
-            self.simulation.observe(&mut new);
-            let balance = self.simulation.balance(&old, &new);
+        let ended = driver.run(steps, |step| {
+            let Step { report, old, new, simulation } = step;
+            let balance = simulation.balance(old, new);
             tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
             if let Some(record) = &mut record {
-                record.add(self.simulation.step(), &balance, &new.u, || self.sample(&new));
+                record.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
             }
-            std::mem::swap(&mut old, &mut new);
-            progress(self.simulation.step());
-        }
-        let last = if self.simulation.step() == 0 { first } else { self.sample(&old) };
+            progress(simulation.step());
+            ControlFlow::<()>::Continue(())
+        });
+        let end = driver.level().clone();
+        let simulation = driver.simulation();
+        let last = if simulation.step() == 0 { first } else { sampler.sample(simulation, &end) };
         if let Some(record) = &mut record {
-            record.finish(last, &old.u);
+            record.finish(last, &end.u);
         }
-        self.summary(tally, wall, [first, last], failure, record)
+        let (work, is_heated) = (simulation.work(), simulation.is_heated());
+        Run {
+            failure: ended.err(),
+            record,
+            ..tally.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
+        }
     }
+}
 
-    fn summary(
-        self,
-        tally: Tally,
-        wall: Duration,
-        ends: [Sample; 2],
-        failure: Option<RunFailure>,
-        record: Option<Record>,
-    ) -> Run {
-        let (work, is_heated) = (self.simulation.work(), self.simulation.is_heated());
-        Run { failure, record, ..tally.run(self.simulation.step(), ends, wall, work, is_heated) }
-    }
+/// Reads samples off the levels of a simulation.
+#[derive(Debug, Clone, Copy)]
+struct Sampler {
+    middle: Middle,
+    dt: f64,
+}
 
-    /// No step has led to the start, so that its contact force is that of the law.
-    fn first_sample(&self, level: &Level) -> Sample {
-        self.sample(level).at_the_start(self.simulation.problem().obstacles)
-    }
-
-    fn sample(&self, level: &Level) -> Sample {
-        let theta_a = self.simulation.problem().beam.theta_a;
-        let t = self.simulation.step() as f64 * self.dt;
-        Sample::of(level, t, self.middle, theta_a, self.simulation.energy(level).total())
+impl Sampler {
+    fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
+        let theta_a = simulation.problem().beam.theta_a;
+        let t = simulation.step() as f64 * self.dt;
+        Sample::of(level, t, self.middle, theta_a, simulation.energy(level).total())
     }
 }
 

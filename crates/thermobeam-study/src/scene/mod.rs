@@ -33,6 +33,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
 
+use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
 use convergence_study::input::{self, Field, InputError, Section};

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use thermobeam_study::kinds;
+use convergence_study::study::StudyFile;
+use thermobeam_study::kinds::KINDS;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::sweep::Sweep;
 
@@ -29,7 +30,7 @@ fn refusal(name: &str, changes: &[(&str, &str)]) -> String {
     }
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    kinds::read(&file).err().unwrap_or_else(|| panic!("{name} with {changes:?} is not refused")).to_string()
+    StudyFile::read(&KINDS, &file).err().unwrap_or_else(|| panic!("{name} with {changes:?} is not refused")).to_string()
 }
 
 #[test]

@@ -1,9 +1,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use convergence_study::study::Header;
-use thermobeam_study::kinds;
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use convergence_study::study::{FromFile as _, Header, StudyFile};
+use thermobeam_study::kinds::KINDS;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;
@@ -24,7 +24,7 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     says(&missing.to_string(), &["no/such/scene.toml: cannot be read: "]);
     let folder = env!("CARGO_TARGET_TMPDIR");
     says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
-    says(&ConvergenceSpec::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
+    says(&Convergence::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
     says(&Header::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
 }
 
@@ -41,7 +41,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let alone = folder.path().join("alone.toml");
         fs::copy(&path, &alone).expect("a copy");
-        let Err(error) = kinds::read(&alone) else { continue };
+        let Err(error) = StudyFile::read(&KINDS, &alone) else { continue };
         missed += 1;
         assert!(error.place.is_some() && error.field.is_some(), "{error}");
         let begin = format!("{}:", alone.display());
@@ -93,6 +93,6 @@ proptest! {
         if let Err(error) = Scene::parse(&text, "f.toml") {
             prop_assert!(error.to_string().starts_with("f.toml:"), "{}", error);
         }
-        prop_assert!(ConvergenceSpec::parse(&text, "f.toml").is_err());
+        prop_assert!(Convergence::parse(&text, "f.toml".as_ref()).is_err());
     }
 }

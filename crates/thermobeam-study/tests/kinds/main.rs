@@ -1,8 +1,10 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
+mod equilibrium;
 mod frequencies;
 mod self_convergence;
 mod stress;
+mod typed;
 mod vibration;
 
 use convergence_study::judge::verdict::Verdict;

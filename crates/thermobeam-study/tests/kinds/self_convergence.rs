@@ -1,7 +1,9 @@
-use crate::{changed, file, passes_but_not_without_each_case, report, results, text};
+use crate::typed::{changed, passes_but_not_without_each_case, report};
+use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
-use thermobeam_study::kinds::self_convergence::SelfConvergence;
-use thermobeam_study::kinds::{FromFile, Study};
+use convergence_study::study::{FromFile, Kind, run_cases_here, run_here};
+use thermobeam::solve::Level;
+use thermobeam_study::kinds::self_convergence::{SelfConvergence, Traced};
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 
@@ -13,7 +15,19 @@ fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
 
 #[test]
 fn quick_files_pass_but_not_without_each_case() {
-    FILES.iter().for_each(|name| passes_but_not_without_each_case(&parse(name, |text| text)));
+    for name in FILES {
+        let study = parse(name, |text| text);
+        let sound = passes_but_not_without_each_case(&study);
+        for case in 0..sound.len() {
+            let short = changed::<SelfConvergence>(&sound, |index, found| {
+                if index == case {
+                    found.samples.pop();
+                }
+            });
+            assert_eq!(study.judge(&short).verdict, Verdict::Fail, "{name}: a sample of case {case} is missing");
+        }
+        assert_eq!(study.judge(&sound[..sound.len() - 1]).verdict, Verdict::Fail, "{name} without its reference");
+    }
 }
 
 #[test]
@@ -24,13 +38,26 @@ fn every_file_can_be_read() {
     }
 }
 
+type Number = fn(&mut Traced) -> &mut f64;
+
 #[test]
 fn each_quantity_can_fail() {
     let study = parse("reference-space.toml", |text| text);
-    let sound = results(&study);
+    let sound = run_cases_here(&study);
     let h = |case: usize| if case == 5 { 0.0 } else { 0.1 * 0.5f64.powi(case as i32) };
-    for name in ["tip 3", "rotation 10", "energy 1"] {
-        let verdict = |change: &dyn Fn(usize, f64) -> f64| study.conclude(&changed(&sound, name, change)).verdict;
+    let numbers: [(&str, Number); 3] = [
+        ("tip", |found| found.samples[2].level.u.last_mut().expect("a node")),
+        ("rotation", |found| found.samples[9].level.phi.last_mut().expect("a node")),
+        ("energy", |found| &mut found.samples[0].energy),
+    ];
+    for (name, number) in numbers {
+        let verdict = |change: &dyn Fn(usize, f64) -> f64| {
+            let planted = changed::<SelfConvergence>(&sound, |case, found| {
+                let number = number(found);
+                *number = change(case, *number);
+            });
+            study.judge(&planted).verdict
+        };
         assert_eq!(verdict(&|_, value| value), Verdict::Pass);
         assert_eq!(verdict(&|case, value| if case == 1 { f64::NAN } else { value }), Verdict::Fail, "{name}");
         assert_eq!(verdict(&|case, value| value + 100.0 * h(case)), Verdict::Fail, "{name}: first order");
@@ -41,14 +68,20 @@ fn each_quantity_can_fail() {
 #[test]
 fn the_functions_themselves_can_fail() {
     let study = parse("reference-space.toml", |text| text);
-    let sound = results(&study);
-    for field in ["u 2", "v 5", "phi 7", "w 10", "theta 1"] {
+    let sound = run_cases_here(&study);
+    let fields: [(&str, usize, fn(&mut Level) -> &mut Vec<f64>); 5] = [
+        ("u", 1, |level| &mut level.u),
+        ("v", 4, |level| &mut level.v),
+        ("phi", 6, |level| &mut level.phi),
+        ("w", 9, |level| &mut level.w),
+        ("theta", 0, |level| &mut level.theta),
+    ];
+    for (name, sample, field) in fields {
         for defect in [f64::NAN, 0.5] {
             let mut planted = sound.clone();
-            let measured = planted[4].as_mut().expect("a result");
-            let curve = measured.series.iter_mut().find(|(name, _)| name == field).expect("a field");
-            curve.1[7].1 += defect;
-            assert_ne!(study.conclude(&planted).verdict, Verdict::Pass, "{field} {defect}");
+            let found = planted[4].found.as_mut().expect("a result");
+            field(&mut found.samples[sample].level)[7] += defect;
+            assert_ne!(study.judge(&planted).verdict, Verdict::Pass, "{name} {defect}");
         }
     }
 }
@@ -56,16 +89,17 @@ fn the_functions_themselves_can_fail() {
 #[test]
 fn a_tip_that_stays_free_is_no_study_of_contact() {
     let study = parse("reference-time.toml", |text| text);
-    let sound = results(&study);
-    let free = changed(&changed(&sound, "tip min", |_, _| -0.009), "tip max", |_, _| 0.09);
-    let outcome = study.conclude(&free);
-    assert_eq!(outcome.verdict, Verdict::Fail, "{}", report(&outcome));
+    let sound = run_cases_here(&study);
+    for range in [[-0.009, 0.09], [f64::NAN; 2]] {
+        let free = changed::<SelfConvergence>(&sound, |_, found| found.tip_range = range);
+        let outcome = study.judge(&free);
+        assert_eq!(outcome.verdict, Verdict::Fail, "{}", report(&outcome));
+    }
 }
 
 #[test]
 fn an_order_that_the_scheme_has_not_fails() {
-    let study = parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0"));
-    let outcome = study.conclude(&results(&study));
+    let outcome = run_here(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0")));
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Fail), "{}", report(&outcome));
 }
@@ -73,8 +107,9 @@ fn an_order_that_the_scheme_has_not_fails() {
 #[test]
 fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
-    let planted = changed(&results(&study), "tip max", |case, value| value + 0.1 * case as f64);
-    assert_eq!(study.conclude(&planted).verdict, Verdict::Pass);
+    let sound = run_cases_here(&study);
+    let planted = changed::<SelfConvergence>(&sound, |case, found| found.tip_range[1] += 0.1 * case as f64);
+    assert_eq!(study.judge(&planted).verdict, Verdict::Pass);
 }
 
 #[test]
@@ -86,6 +121,7 @@ fn a_file_that_makes_no_sense_is_refused() {
         ("paper-1-beta-0", "paper-1-beta-00", "scene.file: found the text"),
         ("quantity = \"tip\"", "quantity = \"tips\"", "did you mean \"tip\"?"),
         ("axis = \"space\"", "axis = \"both\"", "refine.axis"),
+        ("quantity = \"rotation\"", "quantity = \"tip\"", "found \"tip\" a second time"),
     ] {
         let name = file("reference-space.toml");
         let changed = text("reference-space.toml").replace(from, to);

@@ -1,64 +1,91 @@
 //! The verdict over a grid of (h, dt): squares of space and time error add, and both orders are fitted at once.
 
-use super::figures;
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::kinds::tables::Expectation;
 use convergence_study::judge::fit::{Quantiles, SurfaceFit, SurfacePoint, fit_surface};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
+use convergence_study::plots;
+use convergence_study::study::levels::{self, Levels};
+use convergence_study::study::{Check, Figure, Outcome, Quantity, Table};
+
+use super::Convergence;
+use super::judge::Run;
+use crate::kinds::tables::{Expectation, Norm, not_finite};
 
 /// Confidence of intervals and of the joint region.
 const CONFIDENCE: f64 = 0.95;
 /// Root mean square misfit in log e up to which the model is taken for a description of the data.
 const MISFIT: f64 = 0.1;
+/// Relative change of a fitted order that the baseline tolerates: the fit ends where its steps are that small.
+const FIT_TOLERANCE: f64 = 1e-3;
 
-pub(super) fn conclude(spec: &ConvergenceSpec, levels: &[LevelErrors]) -> Outcome {
+pub(super) fn judge(study: &Convergence, ran: &[Run], levels: &Levels) -> Outcome {
     let mut checks = vec![];
     let mut rows = vec![];
     let mut quantities = vec![];
-    for expectation in &spec.expect {
-        let norm = expectation.norm.name();
-        let points: Vec<SurfacePoint> = levels
-            .iter()
-            .map(|level| SurfacePoint {
-                h: 1.0 / super::elements_of(level) as f64,
-                dt: spec.refine.dt(super::steps_of(level)),
-                error: level.error(norm),
-            })
-            .collect();
-        let fit = Quantiles::new(CONFIDENCE).ok_or("no quantiles".to_owned());
-        match fit.and_then(|quantiles| fit_surface(&points, &quantiles).map_err(|error| error.to_string())) {
+    for expectation in &study.expect {
+        let norm = expectation.norm;
+        match fit(study, ran, norm) {
             Ok(fit) => {
-                checks.extend(judge(expectation, &fit));
-                rows.push(row(norm, &fit));
-                for (name, value) in [("p", fit.p), ("q", fit.q)] {
-                    quantities.push(Quantity { name: format!("{name} {norm}"), value, tolerance: 1e-3 });
+                checks.extend(judge_fit(expectation, &fit));
+                rows.push(row(norm.name(), &fit));
+                for (letter, value) in [("p", fit.p), ("q", fit.q)] {
+                    let name = format!("{letter} {}", norm.name());
+                    quantities.push(Quantity { name, value, tolerance: FIT_TOLERANCE });
                 }
             }
-            Err(reason) => checks.push(Check::that(false, format!("{norm}: the model can be fitted"), reason)),
+            Err(reason) => checks.push(Check::that(false, format!("{}: the model can be fitted", norm.name()), reason)),
         }
     }
     let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
-    let mut outcome = Outcome { headline: headline(&rows), ..Outcome::new(summary, vec![], checks) };
-    outcome.tables.push(Table {
-        title: "Fit of e² = (C_h h^p)² + (C_t dt^q)²".to_owned(),
-        head: [
-            "norm",
-            "p",
-            "95 % interval",
-            "q",
-            "95 % interval",
-            "rms misfit",
-            "misfit of the plain sum",
-            "joint region",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-        rows,
+    checks.push(levels::completion(ran, not_finite));
+    quantities.extend(levels.quantities(&[]));
+    Outcome {
+        headline: headline(&rows),
+        tables: vec![table(rows)],
+        figures: study.expect.iter().map(|expectation| surface(study, ran, expectation.norm)).collect(),
+        quantities,
+        ..Outcome::new(summary, vec![], checks)
+    }
+}
+
+fn error(run: &Run, norm: Norm) -> f64 {
+    run.ok().map_or(f64::NAN, |errors| errors[norm])
+}
+
+fn fit(study: &Convergence, ran: &[Run], norm: Norm) -> Result<SurfaceFit, String> {
+    let point = |run: &Run| {
+        let (elements, steps) = run.case.data;
+        SurfacePoint { h: 1.0 / elements as f64, dt: study.refine.dt(steps), error: error(run, norm) }
+    };
+    let points: Vec<SurfacePoint> = ran.iter().map(point).collect();
+    let quantiles = Quantiles::new(CONFIDENCE).ok_or("no quantiles")?;
+    fit_surface(&points, &quantiles).map_err(|error| error.to_string())
+}
+
+fn table(rows: Vec<Vec<String>>) -> Table {
+    let head =
+        ["norm", "p", "95 % interval", "q", "95 % interval", "rms misfit", "misfit of the plain sum", "joint region"];
+    Table { title: "Fit of e² = (C_h h^p)² + (C_t dt^q)²".to_owned(), head: head.map(str::to_owned).to_vec(), rows }
+}
+
+/// The error over the grid of (h, dt).
+fn surface(study: &Convergence, ran: &[Run], norm: Norm) -> Figure {
+    let refine = &study.refine;
+    // The cases run over the steps first, elements being the outer loop.
+    let at = |k: usize, j: usize| ran.get(j * refine.steps.len() + k).map_or(f64::NAN, |run| error(run, norm));
+    let svg = plots::surface(&plots::Surface {
+        x: plots::Axis::log("mesh width h (dimensionless)"),
+        y: plots::Axis::log("time step dt (dimensionless)"),
+        z: plots::Axis::log(format!("error, {}", norm.name())),
+        x_values: refine.elements.iter().map(|&elements| 1.0 / elements as f64).collect(),
+        y_values: refine.steps.iter().map(|&steps| refine.dt(steps)).collect(),
+        values: (0..refine.steps.len()).map(|k| (0..refine.elements.len()).map(|j| at(k, j)).collect()).collect(),
+        ..plots::Surface::default()
     });
-    outcome.quantities = quantities;
-    outcome.figures = spec.expect.iter().map(|e| figures::surface(spec, levels, e.norm.name())).collect();
-    outcome
+    Figure {
+        file: format!("{}-surface-{}.svg", study.header.id, norm.name()),
+        caption: format!("Error in the norm `{}` over mesh width and time step.", norm.name()),
+        svg,
+    }
 }
 
 /// The observed orders of each norm.
@@ -70,8 +97,8 @@ fn headline(rows: &[Vec<String>]) -> String {
     rows.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// Both orders by equivalence: the interval inside the band passes, outside fails, else nothing is known.
-fn judge(expectation: &Expectation, fit: &SurfaceFit) -> Vec<Check> {
+/// Both orders by equivalence: passes where the interval lies inside the band, fails where it lies outside, else inconclusive.
+fn judge_fit(expectation: &Expectation, fit: &SurfaceFit) -> Vec<Check> {
     let Expectation { norm, order, tolerance } = *expectation;
     let norm = norm.name();
     let one = |letter: &str, rate: f64, interval: [f64; 2]| {

@@ -1,52 +1,54 @@
 //! The file of a study without exact solution: a scene, what is refined, what is claimed.
 
-use super::quantity::Observable;
-use super::{Claim, SelfConvergence};
-use crate::kinds::FromFile;
-use crate::scene::Scene;
-use crate::scene::tables;
-use convergence_study::input::{self, Field, InputError, Section};
-use convergence_study::study::Axis;
-use convergence_study::study::Header;
 use std::path::Path;
+
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::study::levels::Claim;
+use convergence_study::study::{Axis, Header};
 use thermobeam::scheme::{SCHEMES, Scheme};
 
-impl FromFile for SelfConvergence {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, Self::from_document)
-    }
+use super::{Observable, Resolution, SelfConvergence};
+use crate::scene::{Scene, tables};
+
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<SelfConvergence, InputError> {
+    root.allow(&["study", "scene", "refine", "expect"])?;
+    let named = root.require("scene", "a table with the scene's file")?.section()?;
+    named.allow(&["file"])?;
+    let scene = Scene::read(named.require("file", "the path of a scene, from this file's folder")?.file(folder)?)?;
+    let section = root.require("refine", "a table with axis, elements, steps and reference")?.section()?;
+    section.allow(&KEYS)?;
+    let axis =
+        section.require("axis", "\"space\", \"time\"")?.choice(&[("space", Axis::Space), ("time", Axis::Time)])?;
+    let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
+    let (elements, steps) = resolutions(&section, axis, samples)?;
+    let positive = "a finite number > 0";
+    let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
+    let own = scheme(&section, "scheme", scene.scheme)?;
+    let of_reference = scheme(&section, "reference_scheme", own)?;
+    let last = elements.len() - 1;
+    let run = |(k, (elements, steps)): (usize, (usize, usize))| {
+        let scheme = if k == last { of_reference } else { own };
+        Resolution { elements, steps, scheme }
+    };
+    Ok(SelfConvergence {
+        header,
+        axis,
+        runs: elements.into_iter().zip(steps).enumerate().map(run).collect(),
+        t_end,
+        samples,
+        contact: contact(&section, &scene)?,
+        claims: claims(root, axis)?,
+        scene,
+    })
 }
 
-impl SelfConvergence {
-    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "scene", "refine", "expect"])?;
-        let named = root.require("scene", "a table with the scene's file")?.section()?;
-        named.allow(&["file"])?;
-        let file = named.require("file", "the path of a scene, from this file's folder")?;
-        let scene = Scene::read(file.file(folder)?)?;
-        let section = root.require("refine", "a table with axis, elements, steps and reference")?.section()?;
-        section.allow(&KEYS)?;
-        let axis =
-            section.require("axis", "\"space\", \"time\"")?.choice(&[("space", Axis::Space), ("time", Axis::Time)])?;
-        let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
-        let (elements, steps) = resolutions(&section, axis, samples)?;
-        let positive = "a finite number > 0";
-        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
-        let scheme = scheme(&section, "scheme", scene.scheme)?;
-        Ok(Self {
-            header: Header::from_document(root)?,
-            axis,
-            elements,
-            steps,
-            t_end,
-            samples,
-            scheme,
-            reference_scheme: self::scheme(&section, "reference_scheme", scheme)?,
-            contact: section.get("contact").map_or(Ok(false), |field| field.boolean())?,
-            claims: claims(root)?,
-            scene,
-        })
+fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
+    let Some(field) = section.get("contact") else { return Ok(false) };
+    let contact = field.boolean()?;
+    if contact && scene.obstacles.is_none() {
+        return Err(field.refuse("true, of a scene without obstacles", "false, or a scene with obstacles"));
     }
+    Ok(contact)
 }
 
 const KEYS: [&str; 9] =
@@ -96,22 +98,27 @@ fn nested(field: &Field<'_>, levels: &mut Vec<usize>) -> Result<(), InputError> 
     }
 }
 
-fn claims(root: &Section<'_>) -> Result<Vec<Claim>, InputError> {
+fn claims(root: &Section<'_>, axis: Axis) -> Result<Vec<(Observable, Claim)>, InputError> {
     let allowed = "at least one table [[expect]] with quantity, order and tolerance";
     let field = root.require("expect", allowed)?;
-    let observables = Observable::ALL.map(|observable| (observable.name(), observable));
-    let names = observables.map(|(name, _)| format!("\"{name}\"")).join(", ");
+    let observables: Vec<_> = Observable::of(axis).map(|observable| (observable.name(), observable)).collect();
+    let names = observables.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["quantity", "order", "tolerance"])?;
         let positive = "a finite number > 0";
         let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
-        Ok(Claim {
-            observable: section.require("quantity", &names)?.choice(&observables)?,
-            order: number("order")?,
-            tolerance: number("tolerance")?,
-        })
+        let observable = section.require("quantity", &names)?.choice(&observables)?;
+        Ok((observable, Claim { order: number("order")?, tolerance: number("tolerance")? }))
     };
-    let claims = field.items(allowed)?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let mut claims: Vec<(Observable, Claim)> = vec![];
+    for item in field.items(allowed)? {
+        let claim = read(&item)?;
+        if claims.iter().any(|(earlier, _)| *earlier == claim.0) {
+            let found = format!("\"{}\" a second time", claim.0.name());
+            return Err(item.section()?.refuse("quantity", found, "each quantity once"));
+        }
+        claims.push(claim);
+    }
     if claims.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(claims) }
 }

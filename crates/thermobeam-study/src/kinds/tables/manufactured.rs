@@ -62,7 +62,7 @@ fn product<'a>(section: &Section<'a>, t_end: f64) -> Result<(Field<'a>, Product)
     };
     let (field, x) = factor("x", Variable::X, 1.0)?;
     let (_, t) = factor("t", Variable::T, t_end)?;
-    Ok((field, Product { x, t }))
+    Ok((field, Product { x: x.into(), t: t.into() }))
 }
 
 /// θ(x, t) = `expected` at an end of the beam, at some times, up to round-off.

@@ -71,6 +71,11 @@ impl Refine {
         self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
     }
 
+    /// What identifies a run in words.
+    pub fn label(elements: usize, steps: usize) -> String {
+        format!("n = {elements}, {steps} steps")
+    }
+
     /// The mesh of that many elements, displaced and mapped as the study says.
     pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
         mesh(elements, self.map.as_ref(), self.perturbation)

@@ -20,14 +20,14 @@
 //! A temperature `sin kπx e^{-κ²t}`, κ = kπ, lives beside the beam without touching it for a = 0; Crank-Nicolson
 //! multiplies it by `(1 - κ² dt/2)/(1 + κ² dt/2)` a step.
 
-use thermobeam::parameters::ParameterError;
 use thermobeam::scheme::Scheme;
-use thermobeam::vibration::TimeFactor;
+
+use crate::exact::function::Factor;
 
 /// Position and velocity of a mode at each time level n = 0..N.
 pub(super) type Path = Vec<[f64; 2]>;
 
-/// Who moves the mode.
+/// What moves the modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Clock {
     /// The equation in time.
@@ -38,64 +38,59 @@ pub(super) enum Clock {
 
 /// Time levels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Levels {
+pub(super) struct TimeLevels {
     /// δt.
     pub(super) dt: f64,
     /// N.
     pub(super) steps: usize,
 }
 
-impl Clock {
-    /// The path of a vibration with `omega_squared` from `start`.
-    ///
-    /// Errors: ω² or ζ negative or not finite.
-    pub(super) fn vibration(
-        self,
-        levels: Levels,
-        omega_squared: f64,
-        zeta: f64,
-        start: [f64; 2],
-    ) -> Result<Path, ParameterError> {
-        let Levels { dt, steps } = levels;
-        let factor = TimeFactor::new(omega_squared.sqrt(), zeta, start[0], start[1])?;
-        let Clock::Scheme(scheme) = self else {
-            return Ok((0..=steps).map(|n| n as f64 * dt).map(|t| [factor.value(t), factor.slope(t)]).collect());
+impl TimeLevels {
+    /// The path of an exact time factor.
+    pub(super) fn exact(self, factor: &Factor) -> Path {
+        let at = |n: usize| {
+            let [value, slope, _] = factor.derivatives(n as f64 * self.dt);
+            [value, slope]
         };
+        (0..=self.steps).map(at).collect()
+    }
+
+    /// The path of a vibration of frequency ω by a scheme, from position and velocity.
+    pub(super) fn vibration(self, scheme: Scheme, omega_squared: f64, zeta: f64, start: [f64; 2]) -> Path {
+        let Self { dt, steps } = self;
         let kappa = scheme.inertia / dt;
         let step = |[q, v]: [f64; 2]| {
             let carrying = (kappa * v - omega_squared * q) / (kappa + omega_squared * (zeta + 0.5 * dt));
             [q + dt * carrying, v + scheme.inertia * (carrying - v)]
         };
-        Ok(std::iter::successors(Some(start), |&state| Some(step(state))).take(steps + 1).collect())
+        std::iter::successors(Some(start), |&state| Some(step(state))).take(steps + 1).collect()
     }
 
     /// The path of a temperature that decays like e^{-κ²t}, from `start`; its velocity is not asked for and zero.
-    pub(super) fn temperature(self, levels: Levels, kappa_squared: f64, start: f64) -> Path {
-        let Levels { dt, steps } = levels;
-        let half = 0.5 * dt * kappa_squared;
+    ///
+    /// All schemes take the temperature by Crank-Nicolson.
+    pub(super) fn temperature(self, kappa_squared: f64, start: f64) -> Path {
+        let half = 0.5 * self.dt * kappa_squared;
         let ratio = (1.0 - half) / (1.0 + half);
-        let value = |n: usize| match self {
-            Clock::Exact => start * (-kappa_squared * n as f64 * dt).exp(),
-            // All schemes take the temperature by Crank-Nicolson.
-            Clock::Scheme(_) => start * ratio.powi(n as i32),
-        };
-        (0..=steps).map(|n| [value(n), 0.0]).collect()
+        (0..=self.steps).map(|n| [start * ratio.powi(n as i32), 0.0]).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::free_vibration::damped;
     use thermobeam::scheme::SCHEMES;
 
     #[test]
     fn the_schemes_paths_converge_at_their_order() {
+        let start = [0.5, -1.0];
+        let factor = damped(1.7_f64.sqrt(), 0.2, start).expect("a factor");
         for scheme in SCHEMES {
             let error = |steps: usize| {
-                let levels = Levels { dt: 2.0 / steps as f64, steps };
-                let path = |clock: Clock| clock.vibration(levels, 1.7, 0.2, [0.5, -1.0]).expect("a path");
-                let ends = [path(Clock::Exact), path(Clock::Scheme(scheme))].map(|path| path[steps]);
-                (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1])
+                let levels = TimeLevels { dt: 2.0 / steps as f64, steps };
+                let (exact, found) = (levels.exact(&factor)[steps], levels.vibration(scheme, 1.7, 0.2, start)[steps]);
+                (exact[0] - found[0]).hypot(exact[1] - found[1])
             };
             let rate = (error(500) / error(1000)).log2();
             assert!((rate - scheme.order).abs() < 0.01, "{}: {rate}", scheme.name);

@@ -1,59 +1,22 @@
 //! The file of a vibration study: modes, what is refined, orders.
 
-use super::Vibration;
-use crate::kinds::FromFile;
-use crate::kinds::tables::{Refine, control, expectations, refine};
-use crate::scene::limits;
-use crate::scene::tables;
-use convergence_study::input::{self, Field, InputError, Section};
-use convergence_study::study::Axis;
-use convergence_study::study::Header;
-use std::path::Path;
+use convergence_study::input::{Field, InputError, Section};
+use convergence_study::study::{Axis, Header};
 use thermobeam::parameters::Beam;
 
-/// A vibration as the file has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Vibrating {
-    /// From 0, the lowest frequency.
-    pub(super) index: usize,
-    /// The mode's tip displacement and velocity at t = 0.
-    pub(super) start: [f64; 2],
-}
+use super::{Cooling, Vibrating, Vibration};
+use crate::kinds::tables::{Refine, control, expectations, refine};
+use crate::scene::{limits, tables};
 
-/// A temperature as the file has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cooling {
-    /// k of sin kπx.
-    pub(super) k: usize,
-    /// Its amplitude at t = 0.
-    pub(super) amplitude: f64,
-}
-
-impl FromFile for Vibration {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, |root, _| Self::from_document(root))
-    }
-}
-
-impl Vibration {
-    fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
-        let beam = beam(root)?;
-        let refine = refine(root)?;
-        bounded(root, &refine)?;
-        let modes = modes(root, &refine)?;
-        let heat = heat(root, &refine)?;
-        let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
-        Ok(Self {
-            header: Header::from_document(root)?,
-            beam,
-            solver,
-            modes,
-            heat,
-            refine,
-            expect: expectations(root)?,
-        })
-    }
+pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Vibration, InputError> {
+    root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
+    let beam = beam(root)?;
+    let refine = refine(root)?;
+    bounded(root, &refine)?;
+    let modes = modes(root, &refine)?;
+    let heat = heat(root, &refine)?;
+    let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
+    Ok(Vibration { header, beam, solver, modes, heat, refine, expect: expectations(root)? })
 }
 
 /// The beam, which must be one whose modes are exact.
@@ -80,7 +43,7 @@ fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     if of_mesh { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
 }
 
-/// Does the study start from the modes of its mesh, of which there are only so many?
+/// The most modes that may be asked for: a study that starts from the modes of its mesh has `of_mesh` of them.
 fn most(refine: &Refine, of_mesh: usize) -> usize {
     if refine.isolate && refine.axis == Axis::Time { of_mesh } else { usize::MAX }
 }

@@ -5,8 +5,8 @@ use super::{Advantage, WORK_PRECISION, WorkPrecision};
 use crate::error::free_vibration;
 use crate::error::yardstick::Quantity;
 use crate::kinds::FromFile;
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::run::march::Family;
+use crate::kinds::convergence::Convergence;
+use crate::run::family::Family;
 use crate::scene::Scene;
 use crate::scene::limits;
 use convergence_study::input::{self, InputError, Section};
@@ -87,7 +87,7 @@ fn problem(
             if let Some(field) = section.get("t_end") {
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
-            let spec = ConvergenceSpec::read(file.file(folder)?)?;
+            let spec = <Convergence as convergence_study::study::FromFile>::read(file.file(folder)?)?;
             Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
         }
         (None, Some(file), None) => {
@@ -126,10 +126,10 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     let modes = modes?;
     let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
     match free_vibration::vibration(&modes, zeta) {
-        Ok(Some(exact)) if !modes.is_empty() => {
+        Ok(exact) if !modes.is_empty() => {
             Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
         }
-        _ => Err(field.refuse_as_written("a list of modes that ring: zeta times their frequency is below 2")),
+        _ => Err(field.refuse_as_written(allowed)),
     }
 }
 

@@ -13,7 +13,7 @@ use super::{Timed, WorkPrecision};
 use crate::error::yardstick::Yardstick;
 use crate::exact::factors::Factors;
 use crate::kinds::work_precision::method::Measurement;
-use crate::run::march::{OnMesh, Spent};
+use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};

@@ -1,7 +1,7 @@
 //! The methods compared, and one run of each.
 
 use crate::error::yardstick::{Yardstick, combine};
-use crate::run::march::{OnMesh, Spent};
+use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};
@@ -54,28 +54,28 @@ impl Method {
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
         let settings = Settings { solver: self.solver, tolerance, max_iterations: 1000, ..Settings::default() };
-        let mut march = on.march(self.scheme, settings, steps)?;
-        let mut half = if self.extrapolated { Some(on.march(self.scheme, settings, 2 * steps)?) } else { None };
+        let mut run = on.start(self.scheme, settings, steps)?;
+        let mut half = if self.extrapolated { Some(on.start(self.scheme, settings, 2 * steps)?) } else { None };
         let mut errors = [0.0_f64; 3];
         for index in 0..observations {
-            march.advance(steps / observations)?;
+            run.advance(steps / observations)?;
             let extrapolated: Option<Level> = match &mut half {
                 None => None,
                 Some(half) => {
                     half.advance(2 * steps / observations)?;
-                    Some(combine(half.level(), march.level(), 2.0))
+                    Some(combine(half.level(), run.level(), 2.0))
                 }
             };
-            let t = march.t();
+            let t = run.t();
             let found = match &extrapolated {
                 Some(level) => yardstick.measure(level, index, t),
-                None => yardstick.measure(march.level(), index, t),
+                None => yardstick.measure(run.level(), index, t),
             };
             for (worst, error) in errors.iter_mut().zip(found) {
                 *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
             }
         }
-        let mut spent = march.spent();
+        let mut spent = run.spent();
         if let Some(half) = half {
             spent += half.spent();
         }

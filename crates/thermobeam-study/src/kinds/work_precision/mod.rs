@@ -33,7 +33,7 @@ mod timed;
 use crate::error::yardstick::{Quantity, Reference, Yardstick};
 use crate::kinds::Study;
 use crate::kinds::untyped::{Case, Measured};
-use crate::run::march::Family;
+use crate::run::family::Family;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::Header;
 use convergence_study::study::outcome::Outcome;

@@ -7,8 +7,9 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
+use crate::error::richardson::{growth, orthogonal_growth};
 use crate::error::yardstick::{Quantity, distance, prolong};
-use crate::run::march::{Family, Spent};
+use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::Scheme;
@@ -55,9 +56,9 @@ impl Pilots {
         let [elements, steps] = at;
         let settings = Settings { tolerance: request.tolerance(), ..Settings::default() };
         let (fine, coarse) = (family.on(elements)?, family.on(elements / 2)?);
-        let mut pilot = fine.march(self.scheme, settings, steps)?;
-        let mut wide = coarse.march(self.scheme, settings, steps)?;
-        let mut slow = fine.march(self.scheme, settings, steps / 2)?;
+        let mut pilot = fine.start(self.scheme, settings, steps)?;
+        let mut wide = coarse.start(self.scheme, settings, steps)?;
+        let mut slow = fine.start(self.scheme, settings, steps / 2)?;
         self.differences.clear();
         for _ in 0..steps / 2 {
             pilot.advance(2)?;
@@ -78,8 +79,8 @@ impl Pilots {
             };
             self.differences.push(pair);
         }
-        for march in [&pilot, &wide, &slow] {
-            self.spent += march.spent();
+        for run in [&pilot, &wide, &slow] {
+            self.spent += run.spent();
         }
         self.at = at;
         let largest = [0, 1].map(|axis| largest(self.differences.iter().map(|pair| pair[axis].abs())));
@@ -148,9 +149,8 @@ impl Forecast<'_> {
     /// Errors of the pilot itself in space and in time, at each time of comparison, times their share in a finer run.
     fn parts(&self, shrink: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let [p, q] = self.rates;
-        let space =
-            if self.pilots.quantity == Quantity::Tip { 2_f64.powf(p) - 1.0 } else { (4_f64.powf(p) - 1.0).sqrt() };
-        let factors = [shrink[0] / space, shrink[1] / (2_f64.powf(q) - 1.0)];
+        let space = if self.pilots.quantity == Quantity::Tip { growth(2.0, p) } else { orthogonal_growth(2.0, p) };
+        let factors = [shrink[0] / space, shrink[1] / growth(2.0, q)];
         self.pilots.differences.iter().map(move |pair| [pair[0] * factors[0], pair[1] * factors[1]])
     }
 

@@ -3,9 +3,10 @@
 use serde::Serialize;
 use thermobeam::error::StepFailure;
 
+use super::Run;
 use super::budget::{self, ErrorBudget};
-use super::{Run, RunFailure};
 use crate::predict::estimate::Budget;
+use crate::run::driver::RunError;
 use crate::scene::Scene;
 
 /// The object that `run --format json` prints.
@@ -92,6 +93,7 @@ enum Numbers {
     NonFinite { iterations: usize, increment: f64 },
     Indefinite { node: usize, pivot: f64, n_value: f64 },
     Limit { limit_seconds: f64 },
+    None {},
 }
 
 impl<'a> Object<'a> {
@@ -143,10 +145,14 @@ impl<'a> Object<'a> {
     }
 }
 
-fn failure(ended: &RunFailure) -> Failure {
+fn failure(ended: &RunError) -> Failure {
     let error = match ended {
-        RunFailure::Step(error) => error,
-        RunFailure::Time(up) => {
+        RunError::Step(error) => error,
+        RunError::Setup(error) => {
+            let message = error.to_string();
+            return Failure { kind: "setup", step: 0, t: 0.0, message, numbers: Numbers::None {} };
+        }
+        RunError::TimeUp(up) => {
             let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
             return Failure { kind: "time-limit", step: up.step, t: up.t, message: up.to_string(), numbers };
         }

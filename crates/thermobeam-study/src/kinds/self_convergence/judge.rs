@@ -1,0 +1,208 @@
+//! The verdict: rates of both readings where an order is claimed, and contact where the study is one of contact.
+
+use convergence_study::judge::verdict::RateVerdict;
+use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
+use convergence_study::study::{Axis, Check, LevelErrors, Outcome, Quantity, Ran, Table};
+
+use super::{Observable, Resolution, Sample, SelfConvergence, Traced, cases, figures};
+use crate::error::richardson;
+use crate::run::rerun::resampled;
+
+/// Half-width of the band about the order for quantities that are shown but not claimed.
+const SHOWN_TOLERANCE: f64 = 0.1;
+
+/// Relative change that the baseline tolerates in a value of the solution itself.
+const VALUE_TOLERANCE: f64 = 1e-8;
+
+pub(super) type Run = Ran<Resolution, Traced>;
+
+/// Which run a level is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reading {
+    /// The next finer one.
+    Successive,
+    /// The reference.
+    Reference,
+}
+
+impl Reading {
+    const ALL: [Reading; 2] = [Reading::Successive, Reading::Reference];
+
+    fn name(self) -> &'static str {
+        match self {
+            Reading::Successive => "successive",
+            Reading::Reference => "reference",
+        }
+    }
+}
+
+pub(super) fn judge(study: &SelfConvergence, ran: &[Run]) -> Outcome {
+    let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
+    for reading in Reading::ALL {
+        let claimed = differences(study, ran, reading, |claim| claim.is_some());
+        let judged = claimed.judge();
+        quantities.extend(claimed.quantities(&judged));
+        rates.extend(judged);
+        let others = differences(study, ran, reading, |claim| claim.is_none());
+        shown.extend(others.judge());
+        append(&mut errors, claimed.errors());
+        append(&mut errors, others.errors());
+    }
+    quantities.extend(values_guarded(study, ran));
+    let mut checks = vec![levels::completion(ran, not_finite)];
+    checks.extend(contact(study, ran));
+    let mut tables = vec![values(study, ran)];
+    if !shown.is_empty() {
+        tables.insert(0, levels::rate_table("Rates shown, not claimed: not needed for a pass", &shown));
+    }
+    let both: Vec<(String, RateVerdict)> = rates.iter().chain(&shown).cloned().collect();
+    let to_reference = differences(study, ran, Reading::Reference, |_| true).figure(
+        format!("{}-errors.svg", study.header.id),
+        Some(format!("No exact solution: {}", study.scene.name)),
+        "Differences to the reference run, with the orders of a smooth solution.".to_owned(),
+        &both,
+    );
+    Outcome {
+        levels: errors,
+        tables,
+        figures: vec![to_reference, figures::tip(study, ran)],
+        quantities,
+        ..Outcome::new(levels::summary(&rates), rates, checks)
+    }
+}
+
+/// Adds errors to those of the same level; the coarsest levels are the first of both.
+fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
+    for (k, level) in more.into_iter().enumerate() {
+        match levels.get_mut(k) {
+            Some(known) => known.errors.extend(level.errors),
+            None => levels.push(level),
+        }
+    }
+}
+
+/// Differences of each level to what the reading compares it with, of the observables whose claim is `wanted`.
+fn differences(
+    study: &SelfConvergence,
+    ran: &[Run],
+    reading: Reading,
+    wanted: impl Fn(Option<&Claim>) -> bool,
+) -> Levels {
+    let reference = study.runs.len() - 1;
+    let count = if reading == Reading::Successive { reference - 1 } else { reference };
+    let finer = |k: usize| if reading == Reading::Successive { k + 1 } else { reference };
+    let found = |k: usize| ran.get(k).and_then(Ran::ok);
+    let column = |observable: Observable| {
+        let claim = study.claim(observable);
+        let difference = |k: usize| match (found(k), found(finer(k))) {
+            (Some(coarse), Some(fine)) => observable.difference(coarse, fine),
+            _ => f64::NAN,
+        };
+        let smooth =
+            Claim { order: observable.order(study.axis, study.runs[0].scheme.order), tolerance: SHOWN_TOLERANCE };
+        wanted(claim).then(|| ErrorColumn {
+            name: format!("{}, {}", observable.name(), reading.name()),
+            errors: (0..count).map(difference).collect(),
+            claim: Some(claim.copied().unwrap_or(smooth)),
+        })
+    };
+    Levels {
+        axis: study.axis,
+        refinements: cases::cases(study)
+            .iter()
+            .take(count)
+            .map(|case| refinement(study, &case.label, case.data))
+            .collect(),
+        columns: Observable::of(study.axis).filter_map(column).collect(),
+    }
+}
+
+fn refinement(study: &SelfConvergence, label: &str, resolution: Resolution) -> Refinement {
+    let Resolution { elements, steps, .. } = resolution;
+    Refinement {
+        label: label.to_owned(),
+        parameters: [("elements", elements), ("steps", steps)]
+            .map(|(name, count)| (name.to_owned(), count as f64))
+            .into(),
+        step: study.step(resolution),
+    }
+}
+
+fn not_finite(found: &Traced) -> Vec<String> {
+    let finite = |sample: &Sample| {
+        let level = &sample.level;
+        let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
+        sample.energy.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
+    };
+    let range = found.tip_range.iter().any(|tip| !tip.is_finite()).then(|| "the range of u(1)".to_owned());
+    let broken = found.samples.iter().position(|sample| !finite(sample));
+    range.into_iter().chain(broken.map(|k| format!("sample {}", k + 1))).collect()
+}
+
+/// A number of a run at sample `k` from 1; NaN where there is none.
+fn at_sample(ran: &[Run], run: usize, k: usize, number: impl Fn(&Sample) -> f64) -> f64 {
+    ran.get(run).and_then(Ran::ok).and_then(|found| found.samples.get(k - 1)).map_or(f64::NAN, number)
+}
+
+/// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
+fn values(study: &SelfConvergence, ran: &[Run]) -> Table {
+    let reference = study.runs.len() - 1;
+    let [before, finest] = [reference - 2, reference - 1];
+    let ratio = study.step(study.runs[before]) / study.step(study.runs[finest]);
+    let order = Observable::Tip.order(study.axis, study.runs[0].scheme.order);
+    let row = |k: usize| {
+        let value = |run: usize| at_sample(ran, run, k, Sample::tip);
+        let correction = richardson::correction(value(before), value(finest), ratio, order);
+        vec![
+            format!("{:.4}", study.t_end * k as f64 / study.samples as f64),
+            format!("{:.10}", value(finest)),
+            format!("{:.10}", value(finest) + correction),
+            format!("{:.10}", value(reference)),
+            format!("{:.1e}", correction.abs()),
+            format!("{:.1e}", (value(finest) - value(reference)).abs()),
+        ]
+    };
+    let head = ["t", "u(1), finest", "extrapolated", "reference", "error estimated", "against reference"];
+    Table {
+        title: "Tip displacement: finest level, extrapolated, reference".into(),
+        head: head.map(str::to_owned).into(),
+        rows: (1..=study.samples).map(row).collect(),
+    }
+}
+
+fn contact(study: &SelfConvergence, ran: &[Run]) -> Option<Check> {
+    let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
+    let [low, high] = ran.get(study.runs.len() - 1).and_then(Ran::ok).map_or([f64::NAN; 2], |found| found.tip_range);
+    let evidence =
+        format!("u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}", obstacles.g1, obstacles.g2);
+    Some(Check::that(low < obstacles.g1 || high > obstacles.g2, "the tip meets an obstacle", evidence))
+}
+
+/// Values of the finest level but the reference.
+fn values_guarded(study: &SelfConvergence, ran: &[Run]) -> Vec<Quantity> {
+    let finest = study.runs.len() - 2;
+    let last = study.samples;
+    let tip_max = ran.get(finest).and_then(Ran::ok).map_or(f64::NAN, |found| found.tip_range[1]);
+    let values = [
+        (format!("tip {last}"), at_sample(ran, finest, last, Sample::tip)),
+        (format!("energy {last}"), at_sample(ran, finest, last, |sample| sample.energy)),
+        ("tip max".to_owned(), tip_max),
+    ];
+    let quantity =
+        |(name, value)| Quantity { name: format!("{name}, finest level"), value, tolerance: VALUE_TOLERANCE };
+    values.into_iter().map(quantity).collect()
+}
+
+impl SelfConvergence {
+    fn claim(&self, observable: Observable) -> Option<&Claim> {
+        self.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim)
+    }
+
+    /// h or dt.
+    fn step(&self, resolution: Resolution) -> f64 {
+        match self.axis {
+            Axis::Space => resampled(&self.scene.mesh, resolution.elements).map_or(f64::NAN, |mesh| mesh.size()),
+            Axis::Time | Axis::Both => self.t_end / resolution.steps as f64,
+        }
+    }
+}

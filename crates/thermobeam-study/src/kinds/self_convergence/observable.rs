@@ -1,0 +1,86 @@
+//! What is compared between two runs of different resolution.
+
+use convergence_study::study::Axis;
+use convergence_study::text::number::max_or_nan;
+use thermobeam::solve::Level;
+
+use super::{Sample, Traced};
+use crate::error::yardstick::{distance, prolong, restrict};
+
+/// A difference of two runs; each the maximum over the times compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Observable {
+    /// Of u(1).
+    Tip,
+    /// Of φ(1).
+    Rotation,
+    /// Of the energy (3.9).
+    Energy,
+    /// Of the largest u(1) over all time levels.
+    TipMax,
+    /// Of the solutions as functions, in the norm of Theorem 3.4.
+    Theorem34,
+    /// The same of their values at the nodes of the coarser mesh.
+    Superclose,
+}
+
+impl Observable {
+    /// All of them.
+    pub const ALL: [Observable; 6] = [
+        Observable::Tip,
+        Observable::Rotation,
+        Observable::Energy,
+        Observable::TipMax,
+        Observable::Theorem34,
+        Observable::Superclose,
+    ];
+
+    /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
+    /// 3.4 are the same.
+    pub(super) fn of(axis: Axis) -> impl Iterator<Item = Observable> {
+        Self::ALL.into_iter().filter(move |observable| axis == Axis::Space || *observable != Observable::Superclose)
+    }
+
+    /// The name in study files and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Observable::Tip => "tip",
+            Observable::Rotation => "rotation",
+            Observable::Energy => "energy",
+            Observable::TipMax => "tip-max",
+            Observable::Theorem34 => "theorem-3.4",
+            Observable::Superclose => "superclose",
+        }
+    }
+
+    /// The order for a smooth solution.
+    pub(super) fn order(self, axis: Axis, scheme_order: f64) -> f64 {
+        match (axis, self) {
+            (Axis::Space, Observable::Theorem34) => 1.0,
+            (Axis::Space, _) => 2.0,
+            _ => scheme_order,
+        }
+    }
+
+    /// The difference of two runs, the second on a mesh that is the first's or nested in it; NaN where the runs cannot be
+    /// compared.
+    pub(super) fn difference(self, coarse: &Traced, fine: &Traced) -> f64 {
+        let stride = fine.mesh.elements() / coarse.mesh.elements();
+        if coarse.samples.len() != fine.samples.len() || stride * coarse.mesh.elements() != fine.mesh.elements() {
+            return f64::NAN;
+        }
+        let largest = |of: &dyn Fn(&Sample, &Sample) -> f64| {
+            coarse.samples.iter().zip(&fine.samples).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
+        };
+        let [few, many] = [coarse, fine].map(|run| run.mesh.lengths().collect::<Vec<f64>>());
+        let extended = |level: &Level| prolong(level, coarse.mesh.nodes(), fine.mesh.nodes());
+        match self {
+            Observable::TipMax => (coarse.tip_range[1] - fine.tip_range[1]).abs(),
+            Observable::Tip => largest(&|a, b| (a.tip() - b.tip()).abs()),
+            Observable::Rotation => largest(&|a, b| (a.rotation() - b.rotation()).abs()),
+            Observable::Energy => largest(&|a, b| (a.energy - b.energy).abs()),
+            Observable::Theorem34 => largest(&|a, b| distance(&many, &extended(&a.level), &b.level)),
+            Observable::Superclose => largest(&|a, b| distance(&few, &a.level, &restrict(&b.level, stride))),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+use crate::typed::{Runs, changed, passes_but_not_without_each_case};
+use crate::{file, text};
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile, Kind, run_cases_here};
+use thermobeam::equilibrium::Contact;
+use thermobeam_study::kinds::equilibrium::{End, EndStates};
+
+fn study() -> EndStates {
+    EndStates::read(file("equilibria.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The verdict with the end of one case changed.
+fn verdict(study: &EndStates, sound: &Runs<EndStates>, label: &str, change: impl Fn(&mut End)) -> Verdict {
+    let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
+    let planted = changed::<EndStates>(sound, |index, end| {
+        if index == case {
+            change(end)
+        }
+    });
+    study.judge(&planted).verdict
+}
+
+#[test]
+fn the_file_passes_but_not_without_each_case() {
+    passes_but_not_without_each_case(&study());
+}
+
+#[test]
+fn every_claim_about_end_states_can_fail() {
+    let study = study();
+    let sound = run_cases_here(&study);
+    type Defect = fn(&mut End);
+    let planted: [(&str, Defect); 6] = [
+        ("paper-2-beta-5, n = 160", |end| end.error.u = 2e-6),
+        ("paper-2-beta-5, n = 160", |end| end.error.phi = 2e-6),
+        ("paper-2-beta-5, n = 160", |end| end.tip.u = 0.0141797),
+        ("paper-2-beta-5, n = 160", |end| {
+            end.contact = if end.contact == Contact::Upper { Contact::Lower } else { Contact::Upper };
+        }),
+        ("paper-2-beta-5, n = 40", |end| end.error.u = 1e-5),
+        ("paper-1-beta-0, n = 160", |end| end.error.u = 2e-6),
+    ];
+    for (k, (label, defect)) in planted.into_iter().enumerate() {
+        assert_ne!(verdict(&study, &sound, label, defect), Verdict::Pass, "defect {k}: {label}");
+    }
+}
+
+#[test]
+fn no_number_may_be_nan() {
+    let study = study();
+    let sound = run_cases_here(&study);
+    let numbers: [fn(&mut End) -> &mut f64; 7] = [
+        |end| &mut end.t,
+        |end| &mut end.tip.u,
+        |end| &mut end.tip.phi,
+        |end| &mut end.exact_tip.u,
+        |end| &mut end.exact_tip.phi,
+        |end| &mut end.error.u,
+        |end| &mut end.error.phi,
+    ];
+    for ran in &sound {
+        for (k, number) in numbers.into_iter().enumerate() {
+            let found = verdict(&study, &sound, &ran.case.label, |end| *number(end) = f64::NAN);
+            assert_eq!(found, Verdict::Fail, "number {k} of {}", ran.case.label);
+        }
+    }
+}
+
+#[test]
+fn a_file_that_makes_no_sense_is_refused() {
+    for (from, to, message) in [
+        ("[20, 40, 80, 160]", "[20, 40]", "run.elements"),
+        ("tolerance = 0.02", "tolerance = 0.6", "expect.tolerance"),
+        ("tolerance = 0.02", "tolerance = \"small\"", "expect.tolerance"),
+        ("paper-1-beta-5", "impact-5", "impact-5"),
+    ] {
+        let text = text("equilibria.toml");
+        assert!(text.contains(from), "no {from}");
+        let changed = text.replacen(from, to, 1);
+        let error = EndStates::parse(&changed, &file("equilibria.toml")).expect_err(to).to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}

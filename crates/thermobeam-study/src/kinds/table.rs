@@ -4,13 +4,13 @@ use convergence_study::study::KindRow;
 
 use super::untyped::reader;
 use super::{
-    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
-    frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
+    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, fixed_point,
+    frequencies, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
 };
 use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 15] = [
     KindRow {
         name: CONVERGENCE,
         read: reader::<convergence::Convergence>,
@@ -23,17 +23,7 @@ pub const KINDS: [KindRow; 17] = [
         failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
     },
-    KindRow {
-        name: energy::ENERGY,
-        read: reader::<energy::EnergyDecay>,
-        why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
-              Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
-              cannot rise (Proposition 3.1).",
-        judged: "Every step of every run: the energy must not rise, and the balance must close to round-off, both in units of \
-                 the initial energy. Falling can be luck; closing cannot.",
-        failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
-                  very step in which it happens.",
-    },
+    energy::ROW,
     KindRow {
         name: controls::CONTROLS,
         read: reader::<controls::Controls>,
@@ -124,21 +114,6 @@ pub const KINDS: [KindRow; 17] = [
               path, and its cost for any error.",
         judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
         failure: "A method has become dearer for the same error, or its order is not what the law says.",
-    },
-    KindRow {
-        name: "extremes",
-        read: reader::<extremes::Extremes>,
-        why: "At the edge of each range - huge steps, stiff obstacles, no viscosity, loads past buckling, a million elements, ten million \
-              steps - the laws of the scheme still hold, or a typed error says that they cannot.",
-        judged: "Each case has its claim: the energy, the balance within its derived bound, or the error that must come.",
-        failure: "The case named has left the range in which the solver can be trusted.",
-    },
-    KindRow {
-        name: "random-scenes",
-        read: reader::<random_scenes::RandomScenes>,
-        why: "Coefficients, meshes and data at random reach corners that nobody thought of.",
-        judged: "Each scene ends with an answer or a typed error; the energy never rises and its balance closes within the bound stated.",
-        failure: "The scene named, with its seed, breaks a law of the scheme: run it alone.",
     },
     KindRow {
         name: "stability",

@@ -1,16 +1,19 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
+mod energy;
 mod frequencies;
+mod refused;
 mod self_convergence;
 mod stress;
+mod typed;
 mod vibration;
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
 use thermobeam_study::kinds::Study;
+use thermobeam_study::kinds::untyped::Measured;
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 

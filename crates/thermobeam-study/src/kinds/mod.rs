@@ -17,7 +17,6 @@ pub mod frequencies;
 mod ladder;
 pub mod rigid;
 pub mod self_convergence;
-pub mod sensitivity;
 pub mod stability;
 mod steady;
 mod table;

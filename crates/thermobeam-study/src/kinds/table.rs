@@ -4,13 +4,13 @@ use convergence_study::study::KindRow;
 
 use super::untyped::reader;
 use super::{
-    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, fixed_point,
-    frequencies, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
+    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, fixed_point, frequencies, rigid,
+    self_convergence, stability, vibration, work_precision,
 };
 use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 15] = [
+pub const KINDS: [KindRow; 14] = [
     KindRow {
         name: CONVERGENCE,
         read: reader::<convergence::Convergence>,
@@ -24,15 +24,7 @@ pub const KINDS: [KindRow; 15] = [
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
     },
     energy::ROW,
-    KindRow {
-        name: controls::CONTROLS,
-        read: reader::<controls::Controls>,
-        why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
-              sources, and each mistake in turn is planted in the sources.",
-        judged: "Every fault must turn at least one of the studies to fail; without a fault, all of them must pass.",
-        failure: "A fault that no study sees: mistakes of this size in this place would go unnoticed, so that the passing \
-                  studies say less than they seem to.",
-    },
+    controls::ROW,
     KindRow {
         name: calibration::CALIBRATION,
         read: reader::<calibration::RuleCalibration>,
@@ -50,13 +42,6 @@ pub const KINDS: [KindRow; 15] = [
         judged: "The factor measured against the factor foretold, for all combinations; the results of both solvers against each \
                  other; the error of the fixed point against its tolerance.",
         failure: "The iteration is not the paper's, or the steps that it delivers are not solved to the tolerance that was asked for.",
-    },
-    KindRow {
-        name: sensitivity::SENSITIVITY,
-        read: reader::<sensitivity::Sensitivity>,
-        why: "A study that guards a coefficient sees an error in it from some size on. Bisection finds that size.",
-        judged: "For every coefficient some study must see a relative error as small as the file says.",
-        failure: "The guard has become blunter: a study has lost levels, or its tolerance has grown.",
     },
     KindRow {
         name: vibration::KIND,

@@ -1,11 +1,11 @@
 //! The studies of the paper's experiments, of steady states and of rigid obstacles: they pass, and they can fail.
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{self, Study};
 
 type Results = Vec<Result<Measured, CaseFailure>>;
@@ -131,26 +131,6 @@ fn every_claim_about_end_states_can_fail() {
 }
 
 #[test]
-fn every_claim_about_branches_can_fail() {
-    let ran = Ran::new("bifurcation.toml");
-    ran.is_sound();
-    ran.catches("branches, θ_A = 0", "ambiguous", 1.0);
-    ran.catches("branches, θ_A = 0", "event_low", -0.7);
-    ran.catches("branches, θ_A = 0", "event_high", -0.72);
-    ran.catches("branches, θ_A = 20", "event_low", 0.0);
-    ran.catches("buckling force, n = 64", "force", 0.7116);
-    ran.catches("buckling force, n = 128", "force", 0.711606);
-    ran.catches("to rest, θ_A = 0, β = -0.71", "u_tip", 0.01);
-    ran.catches("to rest, θ_A = 0, β = -0.715", "u_tip", 0.0);
-    ran.catches("to rest, θ_A = 20, β = 1", "stable", 0.0);
-    ran.catches("to rest, θ_A = 20, β = 1", "distance", 0.01);
-    let mut results = ran.results.clone();
-    let heated = results[ran.case("branches, θ_A = 20")].as_mut().unwrap();
-    heated.series.iter_mut().find(|(name, _)| name == "count").unwrap().1[5].1 = 3.0;
-    assert_eq!(ran.study.conclude(&results).verdict, Verdict::Fail, "a second steady state of the heated beam");
-}
-
-#[test]
 fn every_claim_about_rigid_obstacles_can_fail() {
     let ran = Ran::new("rigid-obstacles.toml");
     ran.is_sound();
@@ -173,7 +153,7 @@ fn every_claim_about_rigid_obstacles_can_fail() {
 
 #[test]
 fn no_claim_holds_without_numbers() {
-    for file in ["section-5.toml", "equilibria.toml", "bifurcation.toml", "rigid-obstacles.toml"] {
+    for file in ["section-5.toml", "equilibria.toml", "rigid-obstacles.toml"] {
         let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
         let outcome = study.conclude(&vec![Ok(Measured::default()); study.cases().len()]);
         // That every case has a result is true, and says nothing.
@@ -204,9 +184,7 @@ fn the_full_study_reads_like_the_quick_one() {
 
 #[test]
 fn complaints_name_the_field() {
-    use thermobeam_study::kinds::{
-        FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
-    };
+    use thermobeam_study::kinds::{FromFile, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy};
     let complaint = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(path(file)).unwrap();
         assert!(text.contains(from), "{file} has no {from}");
@@ -214,7 +192,6 @@ fn complaints_name_the_field() {
         let error = match file {
             "section-5.toml" => Experiments::parse(&text, &name).err(),
             "equilibria.toml" => EndStates::parse(&text, &name).err(),
-            "bifurcation.toml" => BifurcationStudy::parse(&text, &name).err(),
             _ => RigidStudy::parse(&text, &name).err(),
         };
         error.unwrap_or_else(|| panic!("{file} with {to} is read")).to_string()
@@ -228,8 +205,6 @@ fn complaints_name_the_field() {
         ("equilibria.toml", "[20, 40, 80, 160]", "[20, 40]", "run.elements"),
         ("equilibria.toml", "tolerance = 0.02", "tolerance = 0.6", "expect.tolerance"),
         ("equilibria.toml", "paper-1-beta-5", "impact-5", "impact-5"),
-        ("bifurcation.toml", "beta = [-1.0, 1.0]", "beta = [1.0, -1.0]", "diagram.beta"),
-        ("bifurcation.toml", "distance = 1e-3", "distance = \"far\"", "rest.distance"),
         ("rigid-obstacles.toml", "1e-1, 3.16e-2", "1e-1, 3.16e-1", "obstacles.epsilon"),
         ("rigid-obstacles.toml", "scenes/impact", "scenes/paper-1-beta-0", "impact.scene"),
     ] {

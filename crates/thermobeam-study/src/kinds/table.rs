@@ -76,14 +76,7 @@ pub const KINDS: [KindRow; 14] = [
         judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact state.",
         failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
     },
-    KindRow {
-        name: "bifurcation",
-        read: reader::<bifurcation::BifurcationStudy>,
-        why: "Below the buckling force -(pi^2/4)/(1 + pi^2/4) the straight beam is unstable and bent states appear; the branches are \
-              followed over beta, and stability is an exact count.",
-        judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
-        failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
-    },
+    bifurcation::ROW,
     KindRow {
         name: "rigid",
         read: reader::<rigid::RigidStudy>,

@@ -1,5 +1,6 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
+mod bifurcation;
 mod controls;
 mod energy;
 mod frequencies;

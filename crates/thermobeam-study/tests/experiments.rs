@@ -1,4 +1,4 @@
-//! The studies of the paper's experiments, of steady states and of rigid obstacles: they pass, and they can fail.
+//! The studies of steady states and of rigid obstacles: they pass, and they can fail.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
@@ -89,35 +89,6 @@ impl Ran {
 }
 
 #[test]
-fn every_claim_of_section_5_can_fail() {
-    let ran = Ran::new("section-5.toml");
-    ran.is_sound();
-    let straight = "paper-1-beta-0";
-    ran.catches(straight, "energy", 1e-5);
-    ran.catches(straight, "largest_field", 0.01);
-    ran.catches(straight, "largest_increase", 1e-10);
-    ran.catches(straight, "first_upper", 3.0);
-    ran.catches(straight, "first_lower", 3.0);
-    ran.catches(straight, "frequency", 0.9);
-    ran.catches(straight, "frequency", 0.1);
-    ran.catches(straight, "phi_amplitude", 0.5);
-    let resting = "paper-2-beta-minus-0.5";
-    ran.catches(resting, "contact_force", 0.0);
-    ran.catches(resting, "exact_contact", 0.0);
-    ran.catches(resting, "exact_stable", 0.0);
-    ran.catches(resting, "distance", 0.01);
-    ran.catches("paper-2-beta-5", "contact_force", 1e-3);
-    ran.catches("paper-3-beta-minus-0.8", "u_tip", 0.0);
-    ran.catches("to rest, beta = -0.45", "states", 3.0);
-    ran.catches("to rest, beta = -0.6", "states", 3.0);
-    ran.catches("to rest, beta = -0.6", "u_tip", 0.05);
-    ran.catches("to rest, beta = -0.72", "states", 1.0);
-    ran.catches("to rest, beta = -0.72", "stable", 1.0);
-    ran.catches("to rest, beta = -0.72", "u_tip", 0.0);
-    ran.catches("to rest, beta = -0.72", "nearest_stable", 0.0);
-}
-
-#[test]
 fn every_claim_about_end_states_can_fail() {
     let ran = Ran::new("equilibria.toml");
     ran.is_sound();
@@ -153,7 +124,7 @@ fn every_claim_about_rigid_obstacles_can_fail() {
 
 #[test]
 fn no_claim_holds_without_numbers() {
-    for file in ["section-5.toml", "equilibria.toml", "rigid-obstacles.toml"] {
+    for file in ["equilibria.toml", "rigid-obstacles.toml"] {
         let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
         let outcome = study.conclude(&vec![Ok(Measured::default()); study.cases().len()]);
         // That every case has a result is true, and says nothing.
@@ -175,33 +146,19 @@ fn a_case_gives_the_same_result_every_time() {
 }
 
 #[test]
-fn the_full_study_reads_like_the_quick_one() {
-    let study = study::read(&path("section-5-full.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let quick = study::read(&path("section-5.toml")).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(study.cases().len(), quick.cases().len());
-    assert!(study.cases()[0].cost > 10.0 * quick.cases()[0].cost);
-}
-
-#[test]
 fn complaints_name_the_field() {
-    use thermobeam_study::kinds::{FromFile, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy};
+    use thermobeam_study::kinds::{FromFile, equilibrium::EndStates, rigid::RigidStudy};
     let complaint = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(path(file)).unwrap();
         assert!(text.contains(from), "{file} has no {from}");
         let (text, name) = (text.replacen(from, to, 1), path(file));
         let error = match file {
-            "section-5.toml" => Experiments::parse(&text, &name).err(),
             "equilibria.toml" => EndStates::parse(&text, &name).err(),
             _ => RigidStudy::parse(&text, &name).err(),
         };
         error.unwrap_or_else(|| panic!("{file} with {to} is read")).to_string()
     };
     for (file, from, to, field) in [
-        ("section-5.toml", "rate = 1e-8", "rate = -1", "run.rate"),
-        ("section-5.toml", "\"upper\", \"free\"", "\"upper\"", "experiments.rests"),
-        ("section-5.toml", "paper-1-beta-5", "paper-1-beta-minus-0.5", "experiments.first"),
-        ("section-5.toml", "window", "windows", "run.windows"),
-        ("section-5.toml", "[-1.0, -0.9", "[-0.9, -1.0", "steady.beta"),
         ("equilibria.toml", "[20, 40, 80, 160]", "[20, 40]", "run.elements"),
         ("equilibria.toml", "tolerance = 0.02", "tolerance = 0.6", "expect.tolerance"),
         ("equilibria.toml", "paper-1-beta-5", "impact-5", "impact-5"),

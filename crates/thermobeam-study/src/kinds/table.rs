@@ -62,13 +62,7 @@ pub const KINDS: [KindRow; 14] = [
         judged: "Each quantity's rate by the rule of every rate. A wrong coefficient cannot be seen in this way; a lost order can.",
         failure: "With contact and rough data the order is lost, or the levels are too coarse for it.",
     },
-    KindRow {
-        name: "experiment",
-        read: reader::<experiment::Experiments>,
-        why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
-        judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
-        failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
-    },
+    experiment::ROW,
     KindRow {
         name: "equilibrium",
         read: reader::<equilibrium::EndStates>,

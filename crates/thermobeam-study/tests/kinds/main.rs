@@ -3,6 +3,7 @@
 mod bifurcation;
 mod controls;
 mod energy;
+mod experiment;
 mod frequencies;
 mod refused;
 mod self_convergence;

@@ -46,15 +46,14 @@ struct Log {
 
 impl Log {
     fn new(driver: &mut Driver, every: usize) -> Self {
-        let level = driver.level().clone();
-        let simulation = driver.simulation();
-        let watch = Watch::new(simulation.energy_scale(&level));
+        let (simulation, level) = driver.present();
+        let watch = Watch::new(simulation.energy_scale(level));
         let found = Found {
             end: End::Answer,
             steps: 0,
             contact_steps: 0,
             most_iterations: 0,
-            initial_energy: size(&simulation.energy(&level)),
+            initial_energy: size(&simulation.energy(level)),
             worst: watch.worst(),
             drift: 0.0,
             samples: vec![],

@@ -9,17 +9,23 @@
 //! coverage = 0.93        # least share of intervals that hold the true order
 //! ```
 
-use crate::kinds::untyped::{Case, Measured};
-use crate::kinds::{FromFile, Study};
-use convergence_study::input::{self, InputError, Section};
-use convergence_study::judge::calibration::{Calibration, calibrate};
-use convergence_study::study::CaseFailure;
-use convergence_study::study::Header;
-use convergence_study::study::outcome::{Check, Outcome, Table};
+use convergence_study::input::{InputError, Section};
+use convergence_study::judge::calibration::{Calibration, Tally, calibrate};
+use convergence_study::study::{
+    Case, CaseFailure, Check, FromFile, Header, Kind, KindRow, Outcome, Ran, Table, reader,
+};
 use std::path::Path;
 
-/// Name of the kind.
-pub const CALIBRATION: &str = "calibration";
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "calibration",
+    read: reader::<RuleCalibration>,
+    why: "The rule that turns errors into verdicts is applied to thousands of made-up sequences of errors whose order is known: \
+          pure powers, polluted by higher powers, scattered, ending in a round-off floor.",
+    judged: "Counted: how often a wrong claim passes, how often a right one fails, how often the interval holds the true order. \
+             Each share has its limit.",
+    failure: "The rule errs more often than is admitted: no verdict of any other study can be trusted as far as was said.",
+};
 
 /// Work of a sample in the runner's unit, measured: 4 µs against 25 ns for an element and step.
 const SAMPLE_COST: f64 = 160.0;
@@ -35,13 +41,7 @@ pub struct RuleCalibration {
 }
 
 impl FromFile for RuleCalibration {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, |root, _| Self::from_document(root))
-    }
-}
-
-impl RuleCalibration {
-    fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "calibration"])?;
         let allowed = "a table with samples, seed, false_pass, false_fail and coverage";
         let section = root.require("calibration", allowed)?.section()?;
@@ -51,7 +51,7 @@ impl RuleCalibration {
             section.require(key, allowed)?.number_where(allowed, |share| share > 0.0 && share < 1.0)
         };
         Ok(Self {
-            header: Header::from_document(root)?,
+            header,
             samples: section.require("samples", "a number of samples")?.count(1000..=10_000_000)?,
             seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
             false_pass: share("false_pass")?,
@@ -59,62 +59,56 @@ impl RuleCalibration {
             coverage: share("coverage")?,
         })
     }
-
-    fn calibrate(&self) -> Result<Calibration, CaseFailure> {
-        Ok(calibrate(self.samples, self.seed)?)
-    }
 }
 
-impl Study for RuleCalibration {
+impl Kind for RuleCalibration {
+    type Data = ();
+    type Found = Calibration;
+
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case> {
-        vec![Case { label: format!("{} sequences", self.samples), cost: self.samples as f64 * SAMPLE_COST }]
+    fn cases(&self) -> Vec<Case<()>> {
+        let label = format!("{} sequences", self.samples);
+        vec![Case { label, cost: self.samples as f64 * SAMPLE_COST, data: () }]
     }
 
-    fn run(&self, _: usize) -> Result<Measured, CaseFailure> {
-        let calibration = self.calibrate()?;
-        let mut measured = Measured::default();
-        // The slices by number of levels mix families: shown, and judged for wrong passes only.
-        let whole = calibration.families.iter().chain([&calibration.declared]).map(|tally| (tally, tally.declared));
-        let slices = calibration.by_levels.iter().map(|tally| (tally, false));
-        for (tally, declared) in slices.chain(whole) {
-            let mut push = |what: &str, value: f64| measured.push(format!("{} | {what}", tally.family), value);
-            push("samples", (tally.right + tally.wrong) as f64);
-            push("false pass", tally.false_pass_rate());
-            push("false fail", tally.false_fail_rate());
-            push("inconclusive", tally.inconclusive_rate());
-            push("coverage", tally.coverage());
-            push("declared", f64::from(declared));
-        }
-        Ok(measured)
+    fn run(&self, (): &()) -> Result<Calibration, CaseFailure> {
+        Ok(calibrate(self.samples, self.seed)?)
     }
 
-    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
-        let measured = match results {
-            [Ok(measured)] => measured,
-            [Err(failure)] => {
+    fn judge(&self, ran: &[Ran<(), Calibration>]) -> Outcome {
+        let calibration = match ran {
+            [Ran { found: Ok(calibration), .. }] => calibration,
+            [Ran { found: Err(failure), .. }] => {
                 let check = Check::that(false, "the calibration runs to its end", &failure.reason);
                 return Outcome::new(failure.reason.clone(), vec![], vec![check]);
             }
             _ => return Outcome::new("there is no result", vec![], vec![]),
         };
-        let mut checks = vec![];
-        let mut rows = vec![];
-        let names = measured.values.iter().filter_map(|(key, _)| key.strip_suffix(" | samples"));
-        for name in names {
-            let of = |what: &str| measured.value(&format!("{name} | {what}"));
-            let (pass, fail, coverage) = (of("false pass"), of("false fail"), of("coverage"));
-            let percent =
-                |share: f64| if share.is_nan() { "none".to_owned() } else { format!("{:.2} %", 100.0 * share) };
+        let (checks, table) = self.judge_families(calibration);
+        let summary = summary(&calibration.declared);
+        let headline = summary.clone();
+        Outcome { headline, tables: vec![table], ..Outcome::new(summary, vec![], checks) }
+    }
+}
+
+impl RuleCalibration {
+    fn judge_families(&self, calibration: &Calibration) -> (Vec<Check>, Table) {
+        let (mut checks, mut rows) = (vec![], vec![]);
+        // The slices by number of levels mix families: shown, and judged for wrong passes only.
+        let whole = calibration.families.iter().chain([&calibration.declared]).map(|tally| (tally, tally.declared));
+        let slices = calibration.by_levels.iter().map(|tally| (tally, false));
+        for (tally, declared) in slices.chain(whole) {
+            let name = tally.family;
+            let (pass, fail, coverage) = (tally.false_pass_rate(), tally.false_fail_rate(), tally.coverage());
             rows.push(vec![
                 name.to_owned(),
-                format!("{}", of("samples")),
+                (tally.right + tally.wrong).to_string(),
                 percent(pass),
                 percent(fail),
-                percent(of("inconclusive")),
+                percent(tally.inconclusive_rate()),
                 percent(coverage),
             ]);
             checks.push(Check::that(
@@ -123,34 +117,31 @@ impl Study for RuleCalibration {
                 percent(pass),
             ));
             // Families that the rule is not made for, and slices by level, are shown; only wrong passes are judged there.
-            if of("declared") == 1.0 {
+            if declared {
                 let evidence = format!("false fail {}, coverage {}", percent(fail), percent(coverage));
                 let claim = format!("{name}: right claims rarely fail, intervals hold the truth");
                 checks.push(Check::that(fail <= self.false_fail && coverage >= self.coverage, claim, evidence));
             }
         }
-        let summary = summary(measured);
-        let headline = summary.clone();
-        let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
-        outcome.tables.push(Table {
+        let table = Table {
             title: "The rule on error sequences of known order; a wrong claim is 0.1 off at a tolerance of 0.05"
                 .to_owned(),
             head: Calibration::HEAD.map(str::to_owned).to_vec(),
             rows,
-        });
-        outcome
+        };
+        (checks, table)
     }
 }
 
-fn summary(measured: &Measured) -> String {
-    let of = |what: &str| {
-        let key = measured.values.iter().rev().find(|(key, _)| key.ends_with(&format!(" | {what}")));
-        key.map_or(f64::NAN, |(_, value)| 100.0 * value)
-    };
+fn percent(share: f64) -> String {
+    if share.is_nan() { "none".to_owned() } else { format!("{:.2} %", 100.0 * share) }
+}
+
+fn summary(declared: &Tally) -> String {
     format!(
         "{:.2} % false pass, {:.2} % false fail, {:.1} % of the intervals hold the truth",
-        of("false pass"),
-        of("false fail"),
-        of("coverage")
+        100.0 * declared.false_pass_rate(),
+        100.0 * declared.false_fail_rate(),
+        100.0 * declared.coverage(),
     )
 }

@@ -25,15 +25,7 @@ pub const KINDS: [KindRow; 14] = [
     },
     energy::ROW,
     controls::ROW,
-    KindRow {
-        name: calibration::CALIBRATION,
-        read: reader::<calibration::RuleCalibration>,
-        why: "The rule that turns errors into verdicts is applied to thousands of made-up sequences of errors whose order is known: \
-              pure powers, polluted by higher powers, scattered, ending in a round-off floor.",
-        judged: "Counted: how often a wrong claim passes, how often a right one fails, how often the interval holds the true order. \
-                 Each share has its limit.",
-        failure: "The rule errs more often than is admitted: no verdict of any other study can be trusted as far as was said.",
-    },
+    calibration::ROW,
     KindRow {
         name: fixed_point::FIXED_POINT,
         read: reader::<fixed_point::FixedPoint>,

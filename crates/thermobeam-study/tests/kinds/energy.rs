@@ -12,11 +12,14 @@ fn runs(name: &str) -> Runs {
     Runs::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A change of what a case found, with its name.
+type Defect<F> = (&'static str, fn(&mut F));
+
 #[test]
 fn each_run_of_the_scenes_can_fail() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [(&str, fn(&mut Found)); 9] = [
+    let planted: [Defect<Found>; 9] = [
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
         ("a rise that is not finite", |found| found.worst.rise = f64::NAN),
@@ -43,19 +46,19 @@ fn each_run_of_the_scenes_can_fail() {
 fn each_claim_of_a_case_can_fail() {
     let study = runs("extremes.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [(&str, &str, fn(&mut Found)); 10] = [
-        ("hat", "another end", |found| found.end = End::Indefinite),
-        ("hat", "a missing step", |found| found.steps = 199),
-        ("hat", "an open balance", |found| found.worst.open = 1.1),
-        ("hat", "a rise", |found| found.worst.risen = 1.1),
-        ("hat", "a rise that is not finite", |found| found.worst.risen = f64::NAN),
-        ("hat", "a residual that is not finite", |found| found.worst.residual = f64::NAN),
-        ("buckled-too-long-a-step", "an answer", |found| found.end = End::Answer),
-        ("compliance-1e-8-fixed-point", "an answer", |found| found.end = End::Answer),
-        ("no-viscosity-midpoint", "a drift", |found| found.drift = -1.1e-11),
-        ("no-viscosity-midpoint", "a drift that is not finite", |found| found.drift = f64::NAN),
+    let planted: [(&str, Defect<Found>); 10] = [
+        ("hat", ("another end", |found| found.end = End::Indefinite)),
+        ("hat", ("a missing step", |found| found.steps = 199)),
+        ("hat", ("an open balance", |found| found.worst.open = 1.1)),
+        ("hat", ("a rise", |found| found.worst.risen = 1.1)),
+        ("hat", ("a rise that is not finite", |found| found.worst.risen = f64::NAN)),
+        ("hat", ("a residual that is not finite", |found| found.worst.residual = f64::NAN)),
+        ("buckled-too-long-a-step", ("an answer", |found| found.end = End::Answer)),
+        ("compliance-1e-8-fixed-point", ("an answer", |found| found.end = End::Answer)),
+        ("no-viscosity-midpoint", ("a drift", |found| found.drift = -1.1e-11)),
+        ("no-viscosity-midpoint", ("a drift that is not finite", |found| found.drift = f64::NAN)),
     ];
-    for (label, what, plant) in planted {
+    for (label, (what, plant)) in planted {
         let case = sound.iter().position(|ran| ran.case.label == label).expect("a case");
         let runs = changed::<Runs>(&sound, |index, found| {
             if index == case {
@@ -70,7 +73,7 @@ fn each_claim_of_a_case_can_fail() {
 fn each_claim_of_the_random_scenes_can_fail() {
     let study = RandomScenes::read(file("random-scenes-quick.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [(&str, fn(&mut Batch)); 12] = [
+    let planted: [Defect<Batch>; 12] = [
         ("a definite operator refused", |batch| batch.refused = 1),
         ("a level that is not finite", |batch| batch.not_finite_levels = 1),
         ("an iteration limit", |batch| {

@@ -7,7 +7,7 @@ use crate::{file, text};
 
 /// The complaint about a study file with `from` replaced by `to`.
 #[track_caller]
-pub fn refusal(row: &KindRow, name: &str, from: &str, to: &str) -> String {
+pub(crate) fn refusal(row: &KindRow, name: &str, from: &str, to: &str) -> String {
     let changed = text(name).replacen(from, to, 1);
     assert_ne!(changed, text(name), "{name} has no {from}");
     let read = input::parse_beside(&changed, &file(&format!("changed-{name}")), |root, folder| {

@@ -1,14 +1,14 @@
-//! What every typed kind of study is held to, and plans of its results with defects.
+//! What every typed kind of study is held to, and defects planted in its results.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
 use convergence_study::study::{CaseFailure, Kind, Outcome, Ran};
 
 /// The results of a study: every case, run on this thread.
-pub type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
+pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
 
 /// The results with what every case found changed by `change`, which is told the number of the case.
-pub fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
+pub(crate) fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
 where
     K::Data: Clone,
     K::Found: Clone,
@@ -24,7 +24,7 @@ where
 ///
 /// * Returns the results, which a test may go on with.
 #[track_caller]
-pub fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Runs<K>
+pub(crate) fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Runs<K>
 where
     K::Data: Clone,
     K::Found: Clone,
@@ -46,7 +46,7 @@ where
 
 /// Figures and tables that the report can take, and numbers that the baseline can guard.
 #[track_caller]
-pub fn check_shape(id: &str, outcome: &Outcome) {
+pub(crate) fn check_shape(id: &str, outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
     assert!(!outcome.figures.is_empty() && !outcome.quantities.is_empty());
     for figure in &outcome.figures {
@@ -64,7 +64,7 @@ pub fn check_shape(id: &str, outcome: &Outcome) {
 }
 
 /// All that was judged, with its evidence.
-pub fn report(outcome: &Outcome) -> String {
+pub(crate) fn report(outcome: &Outcome) -> String {
     let rates = outcome.rates.iter().map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
     let checks = outcome.checks.iter().map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
     rates.chain(checks).collect::<Vec<_>>().join("\n")

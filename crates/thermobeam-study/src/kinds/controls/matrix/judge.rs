@@ -10,7 +10,7 @@ use super::{Controls, Fault, LevelOf, Planted};
 type Levels = [Ran<LevelOf, Vec<Planted>>];
 
 pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
-    let mut checks = vec![completion(ran, not_finite)];
+    let mut checks = vec![completion(ran, |found| not_finite(found))];
     let (mut rows, mut detected, mut faults) = (vec![], 0, 0);
     for fault in Fault::all() {
         let verdicts: Vec<_> = (0..study.studies.len()).map(|k| verdict(study, k, fault, ran)).collect();
@@ -41,7 +41,7 @@ pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
 }
 
 /// An honest run has finite errors; of a wrong one a number that is not finite is a detection.
-fn not_finite(found: &Vec<Planted>) -> Vec<String> {
+fn not_finite(found: &[Planted]) -> Vec<String> {
     let honest = found.iter().find(|planted| planted.fault == Fault::None);
     let finite = honest.is_some_and(|planted| planted.errors.iter().all(|error| error.is_finite()));
     if finite { vec![] } else { vec!["an error without a fault".to_owned()] }

@@ -5,11 +5,13 @@ use std::path::Path;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here, run_here};
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
-use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::energy::EnergyDecay;
 use thermobeam_study::kinds::fixed_point::FixedPoint;
 use thermobeam_study::kinds::tables::{Norm, Norms};
+use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
+use thermobeam_study::kinds::fixed_point::FixedPoint;
+use thermobeam_study::kinds::tables::Norm;
 use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{FromFile, Study};
 
@@ -125,69 +127,6 @@ fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
         let mut ran = sound.clone();
         ran[1].found.as_mut().unwrap()[norm] = f64::NAN;
         assert_eq!(study.judge(&ran).verdict, Verdict::Fail, "{}", norm.name());
-    }
-}
-
-#[test]
-fn an_unseen_control_fails_the_controls_and_so_does_a_study_that_fails_without_one() {
-    let study = Controls::read(file("negative-controls.toml")).unwrap();
-    let honest = results(&study);
-    assert_eq!(study.conclude(&honest).verdict, Verdict::Pass);
-    // What the run with a wrong rho measures is replaced by what the honest run measures: nobody sees rho then.
-    let replaced = |from: &'static str, to: &'static str| -> Vec<Result<Measured, CaseFailure>> {
-        honest
-            .iter()
-            .map(|result| {
-                let mut measured = result.as_ref().unwrap().clone();
-                for index in 0..measured.values.len() {
-                    if let Some(norm) = measured.values[index].0.strip_prefix(to).filter(|rest| rest.starts_with(" | "))
-                    {
-                        measured.values[index].1 = measured.value(&format!("{from}{norm}"));
-                    }
-                }
-                Ok(measured)
-            })
-            .collect()
-    };
-    let blind = study.conclude(&replaced("none", "rho"));
-    assert_eq!(blind.verdict, Verdict::Fail);
-    let unseen: Vec<_> = blind.checks.iter().filter(|check| check.verdict == Verdict::Fail).collect();
-    assert_eq!(unseen.len(), 1);
-    assert!(unseen[0].claim.contains("rho"));
-    assert_eq!(study.conclude(&replaced("rho", "none")).verdict, Verdict::Fail);
-}
-
-/// Every number of every case in turn is replaced by NaN; no outcome may pass.
-fn no_nan_passes(study: &dyn Study, judged: impl Fn(&str) -> bool) {
-    let honest = results(study);
-    assert_eq!(study.conclude(&honest).verdict, Verdict::Pass, "{}", study.conclude(&honest).summary);
-    for case in 0..honest.len() {
-        let names: Vec<String> = honest[case].as_ref().unwrap().values.iter().map(|(name, _)| name.clone()).collect();
-        for (index, name) in names.iter().enumerate().filter(|(_, name)| judged(name)) {
-            let mut planted = honest.clone();
-            planted[case].as_mut().unwrap().values[index].1 = f64::NAN;
-            assert_ne!(study.conclude(&planted).verdict, Verdict::Pass, "case {case}, {name}");
-        }
-        let mut planted = honest.clone();
-        planted[case] = Err(CaseFailure { reason: "broken".to_owned() });
-        assert_eq!(study.conclude(&planted).verdict, Verdict::Fail, "case {case}");
-    }
-}
-
-#[test]
-fn no_nan_passes_for_a_fall_of_the_energy() {
-    let study = EnergyDecay::read(file("energy-decay.toml")).unwrap();
-    no_nan_passes(&study, |name| name.starts_with("largest"));
-}
-
-#[test]
-fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
-    let study = EnergyDecay::read(file("energy-decay.toml")).unwrap();
-    for name in ["largest increase", "largest residual"] {
-        let mut planted = results(&study);
-        let value = planted[2].as_mut().unwrap().values.iter_mut().find(|(key, _)| key == name).unwrap();
-        value.1 = 2e-14;
-        assert_eq!(study.conclude(&planted).verdict, Verdict::Fail, "{name}");
     }
 }
 

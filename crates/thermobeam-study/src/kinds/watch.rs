@@ -1,4 +1,4 @@
-//! The laws of the energy, watched over the steps of a run.
+//! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
 use crate::kinds::untyped::Measured;
 use convergence_study::text::number::max_or_nan;
@@ -9,6 +9,34 @@ pub(super) const SOLVED: f64 = 1e-14;
 
 /// Share of the energy within which the balance of a step closes, but for what rounding errors explain.
 pub(super) const CLOSED: f64 = 1e-12;
+
+/// Largest rise of the energy and largest residual of its balance, over the steps of one run or of several; NaN stays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worst {
+    /// Residual of a step, in units of the energy's size.
+    pub residual: f64,
+    /// Change of the energy in a step, in the same units; negative where it falls in every step, -∞ without a step.
+    pub rise: f64,
+    /// Residual in units of its bound: at most 1 where every balance closes.
+    pub open: f64,
+    /// Rise in units of its bound: at most 1 where the energy never rises.
+    pub risen: f64,
+}
+
+impl Worst {
+    /// Of no step.
+    pub const NONE: Self = Self { residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0 };
+
+    /// The worse of the two in each number.
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            residual: max_or_nan(self.residual, other.residual),
+            rise: max_or_nan(self.rise, other.rise),
+            open: max_or_nan(self.open, other.open),
+            risen: max_or_nan(self.risen, other.risen),
+        }
+    }
+}
 
 /// The worst of a run so far; NaN stays.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +68,7 @@ impl Watch {
     /// Takes in a step; `rounding` is asked for only where it matters.
     pub(super) fn step(&mut self, balance: &Balance, scale: f64, rounding: impl FnOnce() -> Rounding) {
         self.scale = max_or_nan(self.scale, scale);
-        let scale = self.scale.max(f64::MIN_POSITIVE);
+        let scale = max_or_nan(self.scale, f64::MIN_POSITIVE);
         let (residual, change) = (balance.residual.abs(), balance.change);
         self.residual = max_or_nan(self.residual, residual / scale);
         self.rise = max_or_nan(self.rise, change / scale);
@@ -53,10 +81,16 @@ impl Watch {
         if !(closed && falls) {
             let bound = rounding().total();
             if !closed {
-                self.open = max_or_nan(self.open, residual / bound.max(CLOSED * scale));
+                self.open = max_or_nan(self.open, residual / max_or_nan(bound, CLOSED * scale));
             }
-            self.risen = max_or_nan(self.risen, change / bound.max(f64::MIN_POSITIVE));
+            self.risen = max_or_nan(self.risen, change / max_or_nan(bound, f64::MIN_POSITIVE));
         }
+    }
+
+    /// The worst so far.
+    pub(super) fn worst(&self) -> Worst {
+        let Self { residual, rise, open, risen, .. } = *self;
+        Worst { residual, rise, open, risen }
     }
 
     /// Takes the worst of a run into those of the runs before; what a run without a step knows nothing of is left out.

@@ -80,6 +80,12 @@ impl Driver {
         &self.old
     }
 
+    /// The simulation and its present level.
+    pub(crate) fn present(&mut self) -> (&Simulation, &Level) {
+        self.simulation.observe(&mut self.old);
+        (&self.simulation, &self.old)
+    }
+
     /// Time that the solver has taken, if [`Driver::timed`].
     pub(crate) fn wall(&self) -> Duration {
         self.wall

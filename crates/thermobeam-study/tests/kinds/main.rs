@@ -1,7 +1,13 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
 mod equilibrium;
+mod bifurcation;
+mod calibration;
+mod controls;
+mod energy;
+mod experiment;
 mod frequencies;
+mod refused;
 mod self_convergence;
 mod stress;
 mod typed;

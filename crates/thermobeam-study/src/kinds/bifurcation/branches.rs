@@ -1,4 +1,4 @@
-//! Families of exact steady states over β.
+//! Branches of exact steady states over β.
 
 use thermobeam::equilibrium::{Contact, Equilibrium};
 
@@ -7,13 +7,15 @@ use crate::scene::Scene;
 use convergence_study::run::time_limit::Patience;
 use convergence_study::study::CaseFailure;
 
-/// Steady states that belong together, at consecutive β.
+/// Steady states of one branch, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Family {
-    pub(super) contact: Contact,
-    pub(super) stable: bool,
+pub struct Branch {
+    /// State of contact of all of them.
+    pub contact: Contact,
+    /// Whether they are stable.
+    pub stable: bool,
     /// `(β, u(1))`.
-    pub(super) points: Vec<(f64, f64)>,
+    pub points: Vec<(f64, f64)>,
     key: Key,
 }
 
@@ -108,37 +110,41 @@ fn refine(
 }
 
 /// All branches, continued from each β to the next.
-pub(super) struct Diagram {
-    pub(super) families: Vec<Family>,
-    /// `(β, number of steady states)`.
-    pub(super) counts: Vec<(f64, f64)>,
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagram {
+    /// The branches.
+    pub branches: Vec<Branch>,
+    /// β with the number of steady states.
+    pub counts: Vec<(f64, usize)>,
     /// Steady states that could belong to either of two branches: none, or the diagram means nothing.
-    pub(super) ambiguous: usize,
+    pub ambiguous: usize,
+    /// Bracket of the β at which the beam buckles or lifts off; NaN where it does not, or more than once.
+    pub event: [f64; 2],
 }
 
 /// Traces all branches.
-pub(super) fn trace(samples: &[Sample]) -> Diagram {
-    let mut diagram = Diagram { families: vec![], counts: vec![], ambiguous: 0 };
-    let mut open: Vec<Family> = Vec::new();
+pub(super) fn trace(samples: &[Sample], event: [f64; 2]) -> Diagram {
+    let mut diagram = Diagram { branches: vec![], counts: vec![], ambiguous: 0, event };
+    let mut open: Vec<Branch> = Vec::new();
     for Sample { beta, states } in samples {
-        diagram.counts.push((*beta, states.len() as f64));
-        let mut continued: Vec<Family> = Vec::new();
+        diagram.counts.push((*beta, states.len()));
+        let mut continued: Vec<Branch> = Vec::new();
         for state in states {
             let key = Key::of(state);
-            diagram.ambiguous += usize::from(continued.iter().any(|family| family.key == key));
-            let before = open.iter().position(|family| family.key == key);
-            let mut family = before.map_or_else(|| Family::new(key), |k| open.swap_remove(k));
-            family.points.push((*beta, state.u_tip));
-            continued.push(family);
+            diagram.ambiguous += usize::from(continued.iter().any(|branch| branch.key == key));
+            let before = open.iter().position(|branch| branch.key == key);
+            let mut branch = before.map_or_else(|| Branch::new(key), |k| open.swap_remove(k));
+            branch.points.push((*beta, state.u_tip));
+            continued.push(branch);
         }
-        diagram.families.append(&mut open);
+        diagram.branches.append(&mut open);
         open = continued;
     }
-    diagram.families.append(&mut open);
+    diagram.branches.append(&mut open);
     diagram
 }
 
-impl Family {
+impl Branch {
     fn new(key: Key) -> Self {
         Self { contact: key.contact, stable: key.stable, points: vec![], key }
     }

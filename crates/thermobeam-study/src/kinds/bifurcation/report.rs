@@ -1,49 +1,51 @@
 //! Tables, figures and guarded numbers.
 
+use convergence_study::plots::{Guide, Series};
+use convergence_study::study::levels::Levels;
+use convergence_study::study::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::text::number::decimals;
 use thermobeam::equilibrium::Contact;
 use thermobeam::kirchhoff::BUCKLING;
 
 use super::branches::Event;
-use super::{BifurcationStudy, CLOSE, family_name};
-use crate::figures::{Bifurcation, Branch, bifurcation};
-use crate::kinds::untyped::Measured;
+use super::judge::{Results, extrapolated};
+use super::{BifurcationStudy, CLOSE, Diagram, Rest};
+use crate::figures;
 use crate::scene::Scene;
-use convergence_study::judge::verdict::RateVerdict;
-use convergence_study::plots::{Guide, Series};
-use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
-use convergence_study::text::number::decimals;
 
-pub(super) fn outcome(
-    study: &BifurcationStudy,
-    diagrams: &[Measured],
-    forces: &[f64],
-    rests: &[Measured],
-    rates: Vec<(String, RateVerdict)>,
-    checks: Vec<Check>,
-) -> Outcome {
-    let rests: Vec<&[Measured]> = rests.chunks(study.betas.len()).collect();
-    let each = || study.scenes.iter().zip(diagrams).zip(&rests);
-    let events: Vec<String> = diagrams.iter().map(|diagram| format!("{:.6}", diagram.value("event_low"))).collect();
+pub(super) fn outcome(study: &BifurcationStudy, results: &Results<'_>, levels: &Levels, checks: Vec<Check>) -> Outcome {
+    let rates = levels.judge();
+    let events: Vec<String> = results.diagrams.iter().map(|diagram| format!("{:.6}", event(*diagram))).collect();
+    let headline = format!("buckling and lift-off at β = {}", events.join(", "));
     let summary = format!(
-        "{} diagrams, {} runs to rest; buckling and lift-off at β = {}",
-        diagrams.len(),
-        rests.len() * study.betas.len(),
-        events.join(", ")
+        "{} diagrams, {} runs to rest; {headline}",
+        study.scenes.len(),
+        study.scenes.len() * study.betas.len(),
     );
+    let each = study.scenes.iter().zip(&results.diagrams).zip(&results.rests);
     Outcome {
-        tables: vec![force_table(study, forces), rest_table(study, &rests)],
-        figures: each().flat_map(|((scene, diagram), rests)| figures(study, scene, diagram, rests)).collect(),
-        quantities: quantities(study, diagrams, forces),
-        headline: format!("buckling and lift-off at β = {}", events.join(", ")),
+        tables: vec![force_table(study, &results.forces), rest_table(study, &results.rests)],
+        figures: each
+            .flat_map(|((scene, diagram), rests)| diagram.map(|diagram| figures(study, scene, diagram, rests)))
+            .flatten()
+            .collect(),
+        quantities: quantities(study, results).into_iter().chain(levels.quantities(&rates)).collect(),
+        levels: levels.errors(),
+        headline,
         ..Outcome::new(summary, rates, checks)
     }
+}
+
+/// The lower end of the bracket of buckling or lift-off; NaN where the case failed.
+fn event(diagram: Option<&Diagram>) -> f64 {
+    diagram.map_or(f64::NAN, |diagram| diagram.event[0])
 }
 
 fn force_table(study: &BifurcationStudy, forces: &[f64]) -> Table {
     let row =
         |(n, force): (&usize, &f64)| vec![format!("{n}"), format!("-{force:.10}"), format!("{:.3e}", force - BUCKLING)];
     let mut rows: Vec<Vec<String>> = study.meshes.iter().zip(forces).map(row).collect();
-    let limit = study.extrapolated(forces);
+    let limit = extrapolated(study, forces);
     rows.push(vec!["extrapolated".into(), format!("-{limit:.10}"), format!("{:.3e}", limit - BUCKLING)]);
     Table {
         title: "Buckling point of P1 elements".into(),
@@ -52,12 +54,18 @@ fn force_table(study: &BifurcationStudy, forces: &[f64]) -> Table {
     }
 }
 
-fn rest_table(study: &BifurcationStudy, rests: &[&[Measured]]) -> Table {
+/// u(1) at rest; NaN where the case failed.
+fn u_tip(rest: Option<&Rest>) -> f64 {
+    rest.map_or(f64::NAN, |rest| rest.u_tip)
+}
+
+fn rest_table(study: &BifurcationStudy, rests: &[Vec<Option<&Rest>>]) -> Table {
     let row = |k: usize| {
         let mut row = vec![format!("{}", study.betas[k])];
         row.extend(rests.iter().flat_map(|rests| {
-            let m = &rests[k];
-            [decimals(m.value("u_tip"), 8), decimals(m.value("exact_u_tip"), 8)]
+            let rest = rests[k];
+            let exact = rest.and_then(|rest| rest.state).map_or(f64::NAN, |state| state.u_tip);
+            [decimals(u_tip(rest), 8), decimals(exact, 8)]
         }));
         row
     };
@@ -69,7 +77,7 @@ fn rest_table(study: &BifurcationStudy, rests: &[&[Measured]]) -> Table {
 }
 
 /// The whole diagram, and the fork from close by where there is one.
-fn figures(study: &BifurcationStudy, scene: &Scene, diagram: &Measured, rests: &[Measured]) -> Vec<Figure> {
+fn figures(study: &BifurcationStudy, scene: &Scene, diagram: &Diagram, rests: &[Option<&Rest>]) -> Vec<Figure> {
     let theta_a = scene.beam.theta_a;
     let mut figures = vec![Figure {
         file: format!("{}-theta-a-{theta_a}.svg", study.header.id),
@@ -80,7 +88,7 @@ fn figures(study: &BifurcationStudy, scene: &Scene, diagram: &Measured, rests: &
         svg: drawing(study, scene, diagram, rests, [f64::NEG_INFINITY, f64::INFINITY]),
     }];
     if Event::of(scene) == Event::Buckling {
-        let fork = diagram.value("event_low");
+        let fork = diagram.event[0];
         figures.push(Figure {
             file: format!("{}-theta-a-{theta_a}-fork.svg", study.header.id),
             caption: "The same near the buckling point: the fork opens until the free end meets an obstacle.".into(),
@@ -90,23 +98,30 @@ fn figures(study: &BifurcationStudy, scene: &Scene, diagram: &Measured, rests: &
     figures
 }
 
-fn drawing(study: &BifurcationStudy, scene: &Scene, diagram: &Measured, rests: &[Measured], range: [f64; 2]) -> String {
+fn drawing(
+    study: &BifurcationStudy,
+    scene: &Scene,
+    diagram: &Diagram,
+    rests: &[Option<&Rest>],
+    range: [f64; 2],
+) -> String {
     let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
         points.iter().copied().filter(|(beta, _)| (range[0]..=range[1]).contains(beta)).collect()
     };
     let mut branches = Vec::new();
-    for contact in [Contact::Free, Contact::Upper, Contact::Lower] {
+    for (contact, label) in
+        [(Contact::Free, "free"), (Contact::Upper, "upper obstacle"), (Contact::Lower, "lower obstacle")]
+    {
         for stable in [true, false] {
-            let name = family_name(contact, stable);
-            let curves = diagram.series.iter().filter(|(found, _)| *found == name).map(|(_, points)| shown(points));
-            let label = name.split(',').next().unwrap_or_default().to_owned();
+            let found = diagram.branches.iter().filter(|branch| branch.contact == contact && branch.stable == stable);
+            let curves = found.map(|branch| shown(&branch.points));
             // A branch that is met at one β only is a corner of the diagram, not a line.
             let curves = curves.filter(|points| points.len() > 1);
-            branches.extend(curves.map(|points| Branch { label: label.clone(), points, stable }));
+            branches.extend(curves.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
         }
     }
-    let ends: Vec<(f64, f64)> = study.betas.iter().zip(rests).map(|(beta, m)| (*beta, m.value("u_tip"))).collect();
-    bifurcation(&Bifurcation {
+    let ends: Vec<(f64, f64)> = study.betas.iter().zip(rests).map(|(beta, rest)| (*beta, u_tip(*rest))).collect();
+    figures::bifurcation(&figures::Bifurcation {
         title: None,
         x_label: "axial force at rest β (dimensionless)".into(),
         y_label: "tip displacement u(1) (dimensionless)".into(),
@@ -118,21 +133,16 @@ fn drawing(study: &BifurcationStudy, scene: &Scene, diagram: &Measured, rests: &
     })
 }
 
-fn quantities(study: &BifurcationStudy, diagrams: &[Measured], forces: &[f64]) -> Vec<Quantity> {
-    let mut quantities: Vec<Quantity> = study
-        .scenes
-        .iter()
-        .zip(diagrams)
-        .map(|(scene, diagram)| Quantity {
-            name: format!("event at θ_A = {}", scene.beam.theta_a),
-            value: diagram.value("event_low"),
-            tolerance: 1e-8,
-        })
-        .collect();
-    quantities.extend(study.meshes.iter().zip(forces).map(|(n, force)| Quantity {
+fn quantities(study: &BifurcationStudy, results: &Results<'_>) -> Vec<Quantity> {
+    let events = study.scenes.iter().zip(&results.diagrams).map(|(scene, diagram)| Quantity {
+        name: format!("event at θ_A = {}", scene.beam.theta_a),
+        value: event(*diagram),
+        tolerance: 1e-8,
+    });
+    let forces = study.meshes.iter().zip(&results.forces).map(|(n, force)| Quantity {
         name: format!("buckling force, n = {n}"),
         value: *force,
         tolerance: 1e-11,
-    }));
-    quantities
+    });
+    events.chain(forces).collect()
 }

@@ -1,11 +1,11 @@
-//! The paper's Section 5, sentence by sentence: seven experiments run until nothing changes any more, the claims of the
-//! text judged, its figures redrawn.
+//! The paper's Section 5, sentence by sentence: seven experiments run until they are steady, the claims of the text judged,
+//! its figures redrawn.
 //!
 //! # What is measured, and how
 //!
 //! | quantity | measured as |
 //! | --- | --- |
-//! | steady | the energy has fallen by less than `rate` per unit of time over the last `window` |
+//! | steady | the energy has fallen by at most `rate` per unit of time over the last `window` |
 //! | frequency of u(1) | upward crossings of zero on [0, t_end]: (their number - 1) / (last - first), each interpolated |
 //! | amplitude of φ(1) | largest minus smallest value on [0, t_end] |
 //! | first contact | when the tip first passes the obstacle, interpolated |
@@ -25,22 +25,39 @@
 //! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so that the straight beam is the only one.
 //! The study shows it twice: in the list of all exact steady states, and by where moving beams come to rest.
 
-mod claims;
-mod log;
+mod cases;
+mod file;
+mod judge;
 mod motion;
 mod report;
-mod resting;
-mod spec;
+mod rest;
+mod run;
 
-use thermobeam::equilibrium::Contact;
+use std::path::Path;
 
-use super::Study;
-use super::complete::{all_ran, or_nothing};
-use crate::kinds::untyped::{Case, Measured};
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use thermobeam::equilibrium::{Contact, Equilibrium};
+use thermobeam::mesh::Mesh;
+use thermobeam::solve::Level;
+
+use super::steady;
 use crate::scene::Scene;
-use convergence_study::study::CaseFailure;
-use convergence_study::study::Header;
-use convergence_study::study::outcome::{Check, Outcome};
+use convergence_study::text::number::max_or_nan;
+
+pub use cases::{Found, Task};
+pub use motion::Frame;
+pub use rest::Rest;
+pub use run::{Point, Run};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "experiment",
+    read: reader::<Experiments>,
+    why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
+    judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
+    failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
+};
 
 /// Which of the section's experiments, and so what is claimed of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +91,7 @@ pub struct Until {
     pub rate: f64,
 }
 
-/// How the runs are done that only have to come to rest.
+/// How beams are run that only have to come to rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToRest {
     /// Elements of a uniform mesh.
@@ -97,68 +114,45 @@ pub struct Experiments {
     rest: ToRest,
 }
 
-impl Experiments {
-    /// The experiments, in the order of the cases.
-    pub fn experiments(&self) -> &[Experiment] {
-        &self.experiments
-    }
+/// The exact steady state nearest to the end of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The state.
+    pub state: Equilibrium,
+    /// Largest difference over all nodes, in u and φ.
+    pub distance: f64,
+}
 
-    /// The axial forces at which steady states are counted, in the order of the cases that follow.
-    pub fn betas(&self) -> &[f64] {
-        &self.betas
+impl Nearest {
+    fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
+        let (state, (in_u, in_phi)) = steady::nearest(mesh, level, states)?;
+        Some(Self { state, distance: max_or_nan(in_u, in_phi) })
     }
 }
 
-impl Study for Experiments {
+impl FromFile for Experiments {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        file::read(header, root, folder)
+    }
+}
+
+impl Kind for Experiments {
+    type Data = Task;
+    type Found = Found;
+
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case> {
-        let runs = self.experiments.iter().map(|experiment| {
-            let Scene { name, mesh, dt, .. } = &experiment.scene;
-            // Steady states come at t = 50 to 100.
-            Case { label: name.clone(), cost: 80.0 / dt * (mesh.nodes().len() - 1) as f64 }
-        });
-        let rest_cost = 200.0 / self.rest.dt * self.rest.elements as f64;
-        let rests = self.betas.iter().map(|beta| Case { label: format!("to rest, beta = {beta}"), cost: rest_cost });
-        runs.chain(rests).collect()
+    fn cases(&self) -> Vec<Case<Task>> {
+        cases::cases(self)
     }
 
-    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
-        match index.checked_sub(self.experiments.len()) {
-            None => log::run(&self.experiments[index].scene, &self.until),
-            Some(rest) => {
-                let third = self.experiments.iter().find(|experiment| experiment.group == Group::Third);
-                let third = third.ok_or_else(|| CaseFailure { reason: "no third experiment".to_owned() })?;
-                resting::run(&third.scene, self.betas[rest], &self.rest)
-            }
-        }
+    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
+        cases::run(self, *task)
     }
 
-    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
-        let labels = self.cases();
-        let mut checks = vec![all_ran(&labels, results)];
-        let measured = or_nothing(labels.len(), results);
-        let (runs, rests) = measured.split_at(self.experiments.len());
-        checks.extend(claims::judge(self, runs));
-        checks.extend(resting::judge(&self.betas, rests));
-        report::outcome(self, runs, rests, checks)
+    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+        judge::judge(self, ran)
     }
-}
-
-/// The runs of a group, each with its scene.
-fn of_group<'a>(
-    study: &'a Experiments,
-    runs: &'a [Measured],
-    belongs: impl Fn(Group) -> bool + 'a,
-) -> impl Iterator<Item = (&'a Experiment, &'a Measured)> {
-    study.experiments.iter().zip(runs).filter(move |(experiment, _)| belongs(experiment.group))
-}
-
-/// How many of the checks passed, in a sentence.
-fn summary(checks: &[Check]) -> String {
-    let passed =
-        checks.iter().filter(|check| check.verdict == convergence_study::judge::verdict::Verdict::Pass).count();
-    format!("{passed} of {} statements about the experiments hold", checks.len())
 }

@@ -2,9 +2,8 @@
 
 use thermobeam::solve::Level;
 
-use super::Experiment;
 use crate::figures::{Animation, animation};
-use crate::kinds::untyped::Measured;
+use crate::scene::Scene;
 
 /// The time that is shown: both obstacles are hit several times.
 pub(super) const SPAN: f64 = 6.0;
@@ -13,50 +12,44 @@ const PARTS: usize = 100;
 /// Seconds that one run of the animation takes: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
 
-/// Shapes of the beam, kept while it moves: for each node the curve of its displacement.
+/// The shape of the beam at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// The time.
+    pub t: f64,
+    /// u at each node.
+    pub u: Vec<f64>,
+}
+
+/// Shapes of the beam, kept while it moves.
 pub(super) struct Shapes {
     steps: usize,
     stride: usize,
-    nodes: Vec<Vec<(f64, f64)>>,
+    pub(super) frames: Vec<Frame>,
 }
 
 impl Shapes {
-    /// For a beam with so many nodes and a time step.
-    pub(super) fn new(nodes: usize, dt: f64) -> Self {
+    /// For a beam with that time step.
+    pub(super) fn new(dt: f64) -> Self {
         let steps = (SPAN / dt).round() as usize;
-        Self { steps, stride: (steps / PARTS).max(1), nodes: vec![vec![]; nodes] }
+        Self { steps, stride: (steps / PARTS).max(1), frames: vec![] }
     }
 
     /// Keeps the level after so many steps, if it is one of the frames.
     pub(super) fn add(&mut self, step: usize, t: f64, level: &Level) {
         if step <= self.steps && step.is_multiple_of(self.stride) {
-            self.nodes.iter_mut().zip(&level.u).for_each(|(curve, u)| curve.push((t, *u)));
+            self.frames.push(Frame { t, u: level.u.clone() });
         }
     }
-
-    /// Puts the curves into what was measured.
-    pub(super) fn hand_over(self, measured: &mut Measured) {
-        let named = self.nodes.into_iter().enumerate().map(|(i, curve)| (name(i), curve));
-        measured.series.extend(named);
-    }
 }
 
-fn name(node: usize) -> String {
-    format!("u at node {node}")
-}
-
-/// The animation of an experiment.
-pub(super) fn draw(experiment: &Experiment, run: &Measured) -> String {
-    let scene = &experiment.scene;
-    let nodes = scene.mesh.nodes();
-    let curves: Vec<_> = (0..nodes.len()).map(|i| run.curve(&name(i))).collect();
-    let times: Vec<f64> = curves.first().map_or(vec![], |curve| curve.iter().map(|(t, _)| *t).collect());
-    let at = |frame: usize| curves.iter().filter_map(|curve| Some(curve.get(frame)?.1)).collect();
+/// The animation of a run of this scene.
+pub(super) fn draw(scene: &Scene, frames: &[Frame]) -> String {
     animation(&Animation {
         title: Some("The beam between its obstacles".to_owned()),
-        frames: (0..times.len()).map(at).collect(),
-        times,
-        nodes: nodes.to_vec(),
+        frames: frames.iter().map(|frame| frame.u.clone()).collect(),
+        times: frames.iter().map(|frame| frame.t).collect(),
+        nodes: scene.mesh.nodes().to_vec(),
         obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
         seconds: SECONDS,
     })

@@ -1,10 +1,12 @@
 //! Tables, figures and guarded numbers.
 
-use super::log::straight_energy;
-use super::{Experiment, Experiments, Group, motion, of_group, resting, summary};
-use crate::kinds::untyped::Measured;
 use convergence_study::plots::{Axis, Guide, History, Series, history};
-use convergence_study::study::outcome::{Check, Figure, Outcome, Quantity, Table};
+use convergence_study::study::{Check, Figure, Outcome, Quantity, Ran, Table};
+
+use super::judge::{Runs, summary};
+use super::rest::Rests;
+use super::run::straight_energy;
+use super::{Experiment, Experiments, Found, Group, Point, Run, Task, motion, rest};
 
 /// Relative change of a number that depends smoothly on the data: far above round-off, far below a change of the method.
 const SMOOTH: f64 = 1e-6;
@@ -12,17 +14,25 @@ const SMOOTH: f64 = 1e-6;
 /// The same where many bounces lie between the data and the number: each magnifies a perturbation.
 const AFTER_BOUNCES: f64 = 1e-4;
 
-pub(super) fn outcome(study: &Experiments, runs: &[Measured], rests: &[Measured], checks: Vec<Check>) -> Outcome {
+pub(super) fn outcome(study: &Experiments, ran: &[Ran<Task, Found>], rests: &Rests<'_>, checks: Vec<Check>) -> Outcome {
+    let all = Runs::of(study, ran, |_| true).runs;
     Outcome {
-        tables: vec![table(study, runs), resting::table(&study.betas, rests)],
-        figures: figures(study, runs),
-        quantities: quantities(study, runs),
+        tables: vec![table(&all), rest::table(rests)],
+        figures: figures(study, ran),
+        quantities: quantities(&all),
         headline: summary(&checks),
         ..Outcome::new(summary(&checks), vec![], checks)
     }
 }
 
-fn table(study: &Experiments, runs: &[Measured]) -> Table {
+type Each<'r> = [(&'r Experiment, &'r Run)];
+
+/// A time that need not be.
+pub(super) fn time(t: Option<f64>) -> String {
+    t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
+}
+
+fn table(runs: &Each<'_>) -> Table {
     let head = [
         "θ_A",
         "β",
@@ -35,52 +45,52 @@ fn table(study: &Experiments, runs: &[Measured]) -> Table {
         "u(1)",
         "φ(1)",
     ];
-    let row = |(experiment, m): (&Experiment, &Measured)| {
-        let number = |name: &str| m.value(name);
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
+    let row = |(experiment, run): &(&Experiment, &Run)| {
         vec![
             format!("{}", experiment.scene.beam.theta_a),
             format!("{}", experiment.scene.beam.beta),
-            format!("{:.4}", number("first_upper")),
-            format!("{:.4}", number("first_lower")),
-            format!("{:.4}", number("frequency")),
-            format!("{:.4}", number("phi_amplitude")),
-            format!("{:.0}", number("t_steady")),
-            format!("{:.8}", number("energy")),
-            format!("{:.3e}", number("u_tip")),
-            format!("{:.3e}", number("phi_tip")),
+            number(run.first_upper),
+            number(run.first_lower),
+            number(run.frequency),
+            format!("{:.4}", run.phi_amplitude),
+            format!("{:.0}", run.t_steady),
+            format!("{:.8}", run.energy),
+            format!("{:.3e}", run.u_tip),
+            format!("{:.3e}", run.phi_tip),
         ]
     };
     Table {
         title: "The seven experiments".into(),
         head: head.map(String::from).to_vec(),
-        rows: study.experiments.iter().zip(runs).map(row).collect(),
+        rows: runs.iter().map(row).collect(),
     }
 }
 
-fn quantities(study: &Experiments, runs: &[Measured]) -> Vec<Quantity> {
+fn quantities(runs: &Each<'_>) -> Vec<Quantity> {
     let mut quantities = Vec::new();
-    for (experiment, m) in study.experiments.iter().zip(runs) {
-        let mut guard = |name: &str, tolerance: f64| {
-            let full = format!("{}: {name}", experiment.scene.name);
-            quantities.push(Quantity { name: full, value: m.value(name), tolerance });
+    for (experiment, run) in runs {
+        let mut guard = |name: &str, value: Option<f64>, tolerance: f64| {
+            let name = format!("{}: {name}", experiment.scene.name);
+            quantities.push(Quantity { name, value: value.unwrap_or(f64::NAN), tolerance });
         };
-        guard("first_upper", SMOOTH);
-        guard("first_lower", AFTER_BOUNCES);
-        guard("frequency", AFTER_BOUNCES);
-        guard("phi_amplitude", AFTER_BOUNCES);
+        guard("first_upper", run.first_upper, SMOOTH);
+        guard("first_lower", run.first_lower, AFTER_BOUNCES);
+        guard("frequency", run.frequency, AFTER_BOUNCES);
+        guard("phi_amplitude", Some(run.phi_amplitude), AFTER_BOUNCES);
         // Where the end is zero its digits are those of the last of the motion.
         if experiment.group != Group::First {
-            guard("energy", SMOOTH);
-            guard("exact_u_tip", SMOOTH);
+            guard("energy", Some(run.energy), SMOOTH);
+            guard("exact_u_tip", run.nearest.map(|nearest| nearest.state.u_tip), SMOOTH);
         }
     }
     quantities
 }
 
-fn figures(study: &Experiments, runs: &[Measured]) -> Vec<Figure> {
-    let first: Vec<_> = of_group(study, runs, |group| group == Group::First).collect();
-    let second: Vec<_> = of_group(study, runs, |group| matches!(group, Group::Second(_))).collect();
-    let third: Vec<_> = of_group(study, runs, |group| group == Group::Third).collect();
+fn figures(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Figure> {
+    let first = Runs::of(study, ran, |group| group == Group::First).runs;
+    let second = Runs::of(study, ran, |group| matches!(group, Group::Second(_))).runs;
+    let third = Runs::of(study, ran, |group| group == Group::Third).runs;
     let figure = |what: &str, caption: &str, svg: String| Figure {
         file: format!("{}-{what}.svg", study.header.id),
         caption: caption.into(),
@@ -90,7 +100,7 @@ fn figures(study: &Experiments, runs: &[Measured]) -> Vec<Figure> {
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
         let caption =
             format!("The experiment at {}, θ_A = 0, in motion up to t = {}.", beta_label(experiment), motion::SPAN);
-        figure("beam", &caption, motion::draw(experiment, run))
+        figure("beam", &caption, motion::draw(&experiment.scene, &run.frames))
     });
     let drawn = vec![
         figure(
@@ -126,75 +136,77 @@ enum Span {
     UntilSteady,
 }
 
-type Runs<'a> = [(&'a Experiment, &'a Measured)];
-
 fn beta_label(experiment: &Experiment) -> String {
     // A minus sign, not a hyphen.
     format!("β = {}", experiment.scene.beam.beta).replace('-', "−")
 }
 
-/// The curves of that name, over the figures' span or until the runs are steady.
-fn series(runs: &Runs<'_>, name: &str, span: Span) -> Vec<Series> {
-    let curve = |(e, m): &(&Experiment, &Measured)| {
-        let end = if span == Span::Figure { e.scene.t_end + 0.5 * e.scene.dt } else { f64::INFINITY };
-        let points = m.curve(name).iter().copied().filter(|(t, _)| *t <= end).collect();
-        Series { label: beta_label(e), points }
+/// One curve for each run, over the figures' span or until the runs are steady.
+fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> Vec<Series> {
+    let curve = |(experiment, run): &(&Experiment, &Run)| {
+        let scene = &experiment.scene;
+        let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt } else { f64::INFINITY };
+        let shown = run.points.iter().filter(|point| point.t <= end);
+        Series {
+            label: beta_label(experiment),
+            points: shown.map(|point| (point.t, value(experiment, point))).collect(),
+        }
     };
     runs.iter().map(curve).collect()
 }
 
-fn obstacles(runs: &Runs<'_>) -> Vec<Guide> {
+fn obstacles(runs: &Each<'_>) -> Vec<Guide> {
     let obstacles = runs.first().and_then(|(e, _)| e.scene.obstacles);
     obstacles
         .map_or(vec![], |o| vec![Guide { label: "g₁".into(), value: o.g1 }, Guide { label: "g₂".into(), value: o.g2 }])
 }
 
-fn energy(runs: &Runs<'_>, span: Span) -> String {
-    let limit = |(e, _): &(&Experiment, &Measured)| {
+fn energy(runs: &Each<'_>, span: Span) -> String {
+    let limit = |(e, _): &(&Experiment, &Run)| {
         let value = straight_energy(&e.scene);
         Guide { label: format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(), value }
     };
     history(&History {
         y: Axis::linear("energy E (dimensionless)"),
-        series: series(runs, "energy", span),
+        series: series(runs, span, |_, point| point.energy),
         guides: runs.iter().map(limit).collect(),
         ..History::default()
     })
 }
 
-fn decay(runs: &Runs<'_>) -> String {
-    let mut series = series(runs, "energy", Span::UntilSteady);
-    for (series, (e, _)) in series.iter_mut().zip(runs) {
-        series.points.iter_mut().for_each(|(_, energy)| *energy -= straight_energy(&e.scene));
-    }
+fn decay(runs: &Each<'_>) -> String {
+    let series = series(runs, Span::UntilSteady, |experiment, point| point.energy - straight_energy(&experiment.scene));
     history(&History { y: Axis::log("E − β²/(4ρ) (dimensionless)"), series, ..History::default() })
 }
 
-fn displacement(runs: &Runs<'_>) -> String {
+fn displacement(runs: &Each<'_>) -> String {
     history(&History {
         y: Axis::linear("tip displacement u(1, t) (dimensionless)"),
-        series: series(runs, "u_tip", Span::Figure),
+        series: series(runs, Span::Figure, |_, point| point.u_tip),
         guides: obstacles(runs),
         ..History::default()
     })
 }
 
-fn rotation(runs: &Runs<'_>) -> String {
+fn rotation(runs: &Each<'_>) -> String {
     history(&History {
         y: Axis::linear("tip rotation φ(1, t) (dimensionless)"),
-        series: series(runs, "phi_tip", Span::Figure),
+        series: series(runs, Span::Figure, |_, point| point.phi_tip),
         ..History::default()
     })
 }
 
-fn tip(runs: &Runs<'_>) -> String {
-    let curve = |label: &str, name: &str| {
-        let points = runs.first().map_or(vec![], |(_, m)| m.curve(name).to_vec());
-        Series { label: label.into(), points }
+fn tip(runs: &Each<'_>) -> String {
+    let curve = |label: &str, value: fn(&Point) -> f64| {
+        let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
+        Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
     };
     history(&History {
         y: Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
-        series: vec![curve("displacement u(1, t)", "u_tip"), curve("rotation φ(1, t)", "phi_tip")],
+        series: vec![
+            curve("displacement u(1, t)", |point| point.u_tip),
+            curve("rotation φ(1, t)", |point| point.phi_tip),
+        ],
         guides: obstacles(runs),
         ..History::default()
     })

@@ -1,29 +1,21 @@
-//! Reading the file of an experiment study.
+//! The study file: the scenes of the three groups, when a run ends, and the runs to rest.
 
 use std::path::Path;
 
 use thermobeam::equilibrium::Contact;
 
-use super::{Experiment, Experiments, Group, Until};
-use crate::kinds::FromFile;
+use super::{Experiment, Experiments, Group, ToRest, Until};
 use crate::kinds::steady::{at_resolution, listed_scene, listed_scenes, positive};
 use crate::scene::Scene;
 use crate::scene::limits;
 use crate::scene::tables;
-use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::Header;
 
 /// A positive number, in words.
 const POSITIVE: &str = "a finite number > 0";
 
-impl FromFile for Experiments {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, from_document)
-    }
-}
-
-fn from_document(root: &Section<'_>, folder: &Path) -> Result<Experiments, InputError> {
-    let header = Header::from_document(root)?;
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Experiments, InputError> {
     root.allow(&["study", "experiments", "run", "steady"])?;
     let run = root.require("run", "a table with t_max, window and rate")?.section()?;
     run.allow(&["elements", "dt", "t_max", "window", "rate"])?;
@@ -85,7 +77,7 @@ fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
 }
 
 /// The table `[steady]`: the axial forces at which steady states are counted, and how the runs to rest are done.
-fn steady(root: &Section<'_>) -> Result<(Vec<f64>, super::ToRest), InputError> {
+fn steady(root: &Section<'_>) -> Result<(Vec<f64>, ToRest), InputError> {
     let section = root.require("steady", "a table with beta, elements, dt, speed and t_max")?.section()?;
     section.allow(&["beta", "elements", "dt", "speed", "t_max"])?;
     let allowed = "a list of numbers, ascending";
@@ -94,7 +86,7 @@ fn steady(root: &Section<'_>) -> Result<(Vec<f64>, super::ToRest), InputError> {
     if betas.is_empty() || betas.windows(2).any(|pair| pair[0] >= pair[1]) {
         return Err(field.refuse_as_written(allowed));
     }
-    let rest = super::ToRest {
+    let rest = ToRest {
         elements: tables::elements(&section.require("elements", "a whole number >= 1")?)?,
         dt: positive(&section, "dt")?,
         speed: positive(&section, "speed")?,

@@ -1,4 +1,6 @@
 //! Beams with random coefficients and random initial data: moderate and smooth, or anything that is allowed.
+//!
+//! The same seed gives the same beam on every machine.
 
 use convergence_study::judge::random::SplitMix;
 use std::f64::consts::PI;
@@ -9,8 +11,8 @@ use thermobeam::simulation::{Initial, Problem};
 /// Modes of the initial data.
 const MODES: usize = 4;
 
-/// The smooth beam of that seed: the same on every machine.
-pub(super) fn problem(mesh: &Mesh, seed: u64) -> Problem {
+/// A beam with moderate coefficients and smooth initial data.
+pub(super) fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     let mut random = SplitMix::new(seed);
     let mut between = |low: f64, high: f64| random.within([low, high]);
     let beam = Beam {
@@ -22,13 +24,13 @@ pub(super) fn problem(mesh: &Mesh, seed: u64) -> Problem {
     };
     let obstacles =
         Obstacles { epsilon: 10f64.powf(between(-5.0, -1.0)), g1: -between(0.0, 0.1), g2: between(0.0, 0.1) };
-    let initial = initial(mesh, beam.theta_a, |size, wave| smooth(&mut random, mesh, size, wave));
+    let initial = initial(mesh, beam.theta_a, |size, wave| modes(&mut random, mesh, size, wave));
     Problem { beam, obstacles: Some(obstacles), mesh: mesh.clone(), initial }
 }
 
-/// The wild beam of that seed, and its time step: every coefficient over its whole range, zeros included, elements whose
-/// lengths differ by up to a factor of 1000, data that are smooth or as rough as the mesh can carry.
-pub(in crate::kinds) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
+/// A beam and its time step: every coefficient over its whole range, zeros included, elements whose lengths differ by up
+/// to a factor of 1000, initial data that are smooth or independent from node to node.
+pub(super) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
     let mut random = SplitMix::new(seed);
     let mesh = wild_mesh(&mut random, elements)?;
     let beam = wild_beam(&mut random);
@@ -39,17 +41,17 @@ pub(in crate::kinds) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64
     let dt = power(&mut random, -6.0, 1.0);
     let rough = random.uniform() < 0.3;
     let initial = initial(&mesh, beam.theta_a, |size, wave| {
-        if rough { noise(&mut random, &mesh, size) } else { smooth(&mut random, &mesh, size, wave) }
+        if rough { noise(&mut random, &mesh, size) } else { modes(&mut random, &mesh, size, wave) }
     });
     Ok((Problem { beam, obstacles: (!without).then_some(obstacles), mesh, initial }, dt))
 }
 
-/// Ten to a power between the two.
+/// Ten to a random power between the two.
 fn power(random: &mut SplitMix, low: f64, high: f64) -> f64 {
     10f64.powf(random.within([low, high]))
 }
 
-/// Zero in one of ten cases.
+/// Zero in one case of ten.
 fn or_zero(random: &mut SplitMix, value: impl FnOnce(&mut SplitMix) -> f64) -> f64 {
     let value = value(random);
     if random.uniform() < 0.1 { 0.0 } else { value }
@@ -97,13 +99,14 @@ fn initial(mesh: &Mesh, theta_a: f64, mut field: impl FnMut(f64, fn(f64) -> f64)
     }
 }
 
-fn smooth(random: &mut SplitMix, mesh: &Mesh, size: f64, wave: fn(f64) -> f64) -> Vec<f64> {
+/// A sum of sines with random factors.
+fn modes(random: &mut SplitMix, mesh: &Mesh, size: f64, wave: fn(f64) -> f64) -> Vec<f64> {
     let factors: [f64; MODES] = std::array::from_fn(|k| random.within([-size, size]) / (1.0 + k as f64));
     let value = |x: f64| factors.iter().enumerate().map(|(k, c)| c * (wave(k as f64) * PI * x).sin()).sum::<f64>();
     mesh.nodes().iter().map(|&x| value(x)).collect()
 }
 
-/// A value for each node by itself, zero at the clamped end.
+/// Independent values at the nodes, zero at the clamped end.
 fn noise(random: &mut SplitMix, mesh: &Mesh, size: f64) -> Vec<f64> {
     mesh.nodes().iter().map(|&x| if x == 0.0 { 0.0 } else { random.within([-size, size]) }).collect()
 }

@@ -1,28 +1,20 @@
-//! Reading the file of a bifurcation study.
+//! The study file: the diagrams, the meshes of the buckling force, the runs to rest.
 
 use std::path::Path;
 
 use super::BifurcationStudy;
-use crate::kinds::FromFile;
 use crate::kinds::steady::{listed_scenes, positive};
 use crate::scene::limits;
 use crate::scene::tables;
-use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
 use convergence_study::study::Header;
 
-impl FromFile for BifurcationStudy {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, from_document)
-    }
-}
-
-fn from_document(root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
-    let header = Header::from_document(root)?;
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
     root.allow(&["study", "diagram", "buckling", "rest"])?;
     let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
     diagram.allow(&["scenes", "beta", "points"])?;
-    let (meshes, judge) = buckling(root)?;
+    let (meshes, tolerance) = buckling(root)?;
     let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
     rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
     let t_max = rest.require("t_max", "a number")?;
@@ -32,7 +24,7 @@ fn from_document(root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, 
         scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
         grid: grid(&diagram)?,
         meshes,
-        judge,
+        tolerance,
         betas: ascending(&rest, "beta", 1)?,
         elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
         dt: positive(&rest, "dt")?,
@@ -56,7 +48,7 @@ fn grid(diagram: &Section<'_>) -> Result<Vec<f64>, InputError> {
     Ok((0..points).map(|k| low + (high - low) * (k as f64 / last)).collect())
 }
 
-fn buckling(root: &Section<'_>) -> Result<(Vec<usize>, Judge), InputError> {
+fn buckling(root: &Section<'_>) -> Result<(Vec<usize>, f64), InputError> {
     let section = root.require("buckling", "a table with elements and tolerance")?.section()?;
     section.allow(&["elements", "tolerance"])?;
     let allowed = "a list of at least three numbers of elements, ascending";
@@ -66,8 +58,8 @@ fn buckling(root: &Section<'_>) -> Result<(Vec<usize>, Judge), InputError> {
         return Err(field.refuse_as_written(allowed));
     }
     let tolerance = section.require("tolerance", "a number > 0 and < 0.5")?;
-    let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
-    Ok((meshes, judge))
+    Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
+    Ok((meshes, tolerance.number()?))
 }
 
 fn ascending(section: &Section<'_>, key: &str, least: usize) -> Result<Vec<f64>, InputError> {

@@ -1,0 +1,49 @@
+//! Whether a study detects an error in a coefficient, and the smallest that it detects.
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::CaseFailure;
+
+use super::super::fault::{BROKEN, Fault, verdicts};
+use crate::error::design::Prepared;
+use crate::kinds::convergence::file::ConvergenceSpec;
+
+/// Bisections of the logarithm: seven decades to within 4 percent.
+pub(super) const BISECTIONS: usize = 9;
+
+/// The levels of one study, prepared once for all runs.
+pub(super) struct Detector<'a> {
+    spec: &'a ConvergenceSpec,
+    prepared: Vec<(Prepared<'a>, usize, usize)>,
+}
+
+impl<'a> Detector<'a> {
+    pub(super) fn new(spec: &'a ConvergenceSpec) -> Result<Self, CaseFailure> {
+        let prepare = |(n, steps)| Ok((Prepared::new(spec, n)?, n, steps));
+        Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
+    }
+
+    /// Whether the study fails when the solver's coefficient is off by that much.
+    fn detects(&mut self, key: &'static str, relative: f64) -> bool {
+        let spec = self.spec;
+        let Some(disagreement) = Fault::Coefficient(key).plant(spec, relative) else { return false };
+        // A fault that breaks a run down is detected.
+        let level = |(prepared, n, steps): &mut (Prepared<'_>, usize, usize)| {
+            ((*n, *steps), prepared.run(*steps, disagreement).unwrap_or(BROKEN))
+        };
+        let levels: Vec<_> = self.prepared.iter_mut().map(level).collect();
+        verdicts(spec, &levels).any(|verdict| verdict == Verdict::Fail)
+    }
+
+    /// The smallest relative error detected, by bisection of its logarithm; `None` where the range does not bracket it.
+    pub(super) fn smallest(&mut self, key: &'static str, range: [f64; 2]) -> Option<f64> {
+        if self.detects(key, range[0]) || !self.detects(key, range[1]) {
+            return None;
+        }
+        let [mut missed, mut detected] = range.map(f64::log10);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (missed + detected);
+            if self.detects(key, 10f64.powf(middle)) { detected = middle } else { missed = middle }
+        }
+        Some(10f64.powf(detected))
+    }
+}

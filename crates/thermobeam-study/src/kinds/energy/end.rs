@@ -1,0 +1,45 @@
+//! How a run ends.
+
+use thermobeam::error::StepFailure;
+
+/// How a run ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// After its last step.
+    Answer,
+    /// At a step whose operator is not definite.
+    Indefinite,
+    /// At a step whose iteration diverges or needs too many iterations.
+    IterationLimit,
+    /// At a step with numbers that are not finite.
+    NotFinite,
+}
+
+impl End {
+    /// All ends, with their names in study files and reports.
+    pub const ALL: [(&str, End); 4] = [
+        ("answer", End::Answer),
+        ("indefinite", End::Indefinite),
+        ("iteration-limit", End::IterationLimit),
+        ("not-finite", End::NotFinite),
+    ];
+
+    /// The end of a run at a step that failed.
+    pub fn of(failure: &StepFailure) -> Self {
+        match failure {
+            StepFailure::Indefinite { .. } => End::Indefinite,
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => End::IterationLimit,
+            StepFailure::NonFinite { .. } => End::NotFinite,
+        }
+    }
+
+    /// Its name in study files and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            End::Answer => "answer",
+            End::Indefinite => "indefinite",
+            End::IterationLimit => "iteration-limit",
+            End::NotFinite => "not-finite",
+        }
+    }
+}

@@ -1,0 +1,78 @@
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile, Kind};
+use thermobeam_study::kinds::bifurcation::{BifurcationStudy, Diagram, Found, ROW, Rest};
+
+use crate::file;
+use crate::refused::refusal;
+use crate::typed::{changed, passes_but_not_without_each_case};
+
+fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut Found)> {
+    Box::new(move |found| match found {
+        Found::Diagram(diagram) => change(diagram),
+        _ => panic!("no diagram"),
+    })
+}
+
+fn force(value: f64) -> Box<dyn Fn(&mut Found)> {
+    Box::new(move |found| *found = Found::Force(value))
+}
+
+fn rest(change: fn(&mut Rest)) -> Box<dyn Fn(&mut Found)> {
+    Box::new(move |found| match found {
+        Found::Rest(rest) => change(rest),
+        _ => panic!("no run to rest"),
+    })
+}
+
+#[test]
+fn each_claim_can_fail() {
+    let study = BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let sound = passes_but_not_without_each_case(&study);
+    let unstable = |rest: &mut Rest| rest.state.as_mut().expect("a steady state").stable = false;
+    for (number, (label, plant)) in [
+        ("branches, θ_A = 0", diagram(|diagram| diagram.ambiguous = 1)),
+        ("branches, θ_A = 0", diagram(|diagram| diagram.branches.clear())),
+        ("branches, θ_A = 0", diagram(|diagram| diagram.event[0] = -0.7)),
+        ("branches, θ_A = 0", diagram(|diagram| diagram.event[1] = -0.72)),
+        ("branches, θ_A = 0", diagram(|diagram| diagram.event[1] = f64::NAN)),
+        ("branches, θ_A = 20", diagram(|diagram| diagram.event[0] = 0.0)),
+        ("branches, θ_A = 20", diagram(|diagram| diagram.event = [f64::NAN; 2])),
+        ("branches, θ_A = 20", diagram(|diagram| diagram.counts[5].1 = 3)),
+        ("branches, θ_A = 20", diagram(|diagram| diagram.counts.clear())),
+        ("buckling force, n = 64", force(0.7116)),
+        ("buckling force, n = 128", force(0.711606)),
+        ("buckling force, n = 8", force(f64::NAN)),
+        ("to rest, θ_A = 0, β = -0.71", rest(|rest| rest.u_tip = 0.01)),
+        ("to rest, θ_A = 0, β = -0.715", rest(|rest| rest.u_tip = 0.0)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.u_tip = f64::NAN)),
+        ("to rest, θ_A = 20, β = 1", rest(unstable)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.state = None)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.distance = 0.01)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.distance = f64::NAN)),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
+        let runs = changed::<BifurcationStudy>(&sound, |index, found| {
+            if index == case {
+                plant(found);
+            }
+        });
+        assert_ne!(study.judge(&runs).verdict, Verdict::Pass, "defect {number}, in {label}");
+    }
+}
+
+#[test]
+fn files_with_errors_are_refused() {
+    for (from, to, message) in [
+        ("beta = [-1.0, 1.0]", "beta = [1.0, -1.0]", "diagram.beta"),
+        ("points = 201", "points = 1", "diagram.points"),
+        ("[8, 16, 32, 64, 128]", "[8, 16]", "buckling.elements"),
+        ("tolerance = 0.02", "tolerance = 0.5", "buckling.tolerance"),
+        ("distance = 1e-3", "distance = \"far\"", "rest.distance"),
+    ] {
+        let error = refusal(&ROW, "bifurcation.toml", from, to);
+        assert!(error.contains(message), "{error}");
+    }
+}

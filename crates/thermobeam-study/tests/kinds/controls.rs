@@ -1,0 +1,110 @@
+use std::sync::LazyLock;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
+use thermobeam_study::kinds::controls::matrix::{Controls, Planted};
+use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
+use thermobeam_study::kinds::controls::{Fault, ROW};
+
+use crate::refused::refusal;
+use crate::typed::{Runs, changed, report};
+use crate::{file, text};
+
+fn controls() -> Controls {
+    Controls::read(file("negative-controls.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+static SOUND: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&controls()));
+
+/// The errors under one fault replaced by those under another.
+fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
+    changed::<Controls>(&SOUND, |_, found| {
+        let errors = found.iter().find(|planted| planted.fault == from).map(|planted| planted.errors);
+        let target = found.iter_mut().find(|planted| planted.fault == to);
+        if let (Some(errors), Some(planted)) = (errors, target) {
+            planted.errors = errors;
+        }
+    })
+}
+
+#[test]
+fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_one() {
+    let study = controls();
+    assert_eq!(study.judge(&SOUND).verdict, Verdict::Pass, "{}", report(&study.judge(&SOUND)));
+    // The wrong rho is given the errors of the honest run.
+    let rho = Fault::Coefficient("rho");
+    let blind = study.judge(&replaced(Fault::None, rho));
+    assert_eq!(blind.verdict, Verdict::Fail);
+    let undetected: Vec<_> = blind.checks.iter().filter(|check| check.verdict == Verdict::Fail).collect();
+    assert_eq!(undetected.len(), 1);
+    assert!(undetected[0].claim.contains("rho"));
+    assert_eq!(study.judge(&replaced(rho, Fault::None)).verdict, Verdict::Fail);
+}
+
+#[test]
+fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
+    let study = controls();
+    for case in 0..SOUND.len() {
+        let mut failed = SOUND.clone();
+        failed[case].found = Err(CaseFailure { reason: "planted".into() });
+        let outcome = study.judge(&failed);
+        assert_eq!(outcome.verdict, Verdict::Fail, "case {case}");
+        assert!(report(&outcome).contains("planted"));
+        let broken = changed::<Controls>(&SOUND, |index, found: &mut Vec<Planted>| {
+            if index == case {
+                found
+                    .iter_mut()
+                    .filter(|planted| planted.fault == Fault::None)
+                    .for_each(|planted| planted.errors[5] = f64::NAN);
+            }
+        });
+        assert_eq!(study.judge(&broken).verdict, Verdict::Fail, "case {case}");
+    }
+    assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+}
+
+/// Two studies on coarse levels: the full study takes seconds.
+fn sensitivity() -> Sensitivity {
+    let small = text("sensitivity.toml")
+        .replace("[64, 128, 256, 512, 1024]", "[32, 64, 128, 256]")
+        .replace(", \"midpoint-space.toml\"", "")
+        .replace("at_most = 1e-5", "at_most = 1e-3");
+    Sensitivity::parse(&small, &file("sensitivity-small.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn each_coefficient_must_be_detected() {
+    let study = sensitivity();
+    let sound = run_cases_here(&study);
+    assert_eq!(study.judge(&sound).verdict, Verdict::Pass, "{}", report(&study.judge(&sound)));
+    for key in sound.iter().map(|ran| ran.case.data.key) {
+        for planted in [Some(2e-3), Some(f64::NAN), None] {
+            let runs = changed::<Sensitivity>(&sound, |index, found| {
+                if sound[index].case.data.key == key {
+                    *found = planted;
+                }
+            });
+            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{planted:?} for {key}");
+        }
+    }
+    for case in 0..sound.len() {
+        let mut failed = sound.clone();
+        failed[case].found = Err(CaseFailure { reason: "planted".into() });
+        assert_eq!(study.judge(&failed).verdict, Verdict::Fail);
+    }
+}
+
+#[test]
+fn files_with_errors_are_refused() {
+    for (name, from, to, message) in [
+        ("negative-controls.toml", "relative = 1e-4", "relative = 1.0", "controls.relative"),
+        ("negative-controls.toml", "\"theorem-3.4-space.toml\"", "\"frequencies.toml\"", "kind"),
+        ("negative-controls.toml", "[controls]", "[control]", "control"),
+        ("negative-controls.toml", "[controls]", "[sensitivity]\n[controls]", "one of the tables"),
+        ("sensitivity.toml", "range = [1e-9, 1e-2]", "range = [1e-2, 1e-9]", "sensitivity.range"),
+        ("sensitivity.toml", "at_most = 1e-5", "at_most = 2.0", "sensitivity.at_most"),
+    ] {
+        let error = refusal(&ROW, name, from, to);
+        assert!(error.contains(message), "{error}");
+    }
+}

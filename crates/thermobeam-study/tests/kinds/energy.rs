@@ -1,0 +1,124 @@
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile, Kind};
+use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
+use thermobeam_study::kinds::energy::runs::{Found, Runs};
+use thermobeam_study::kinds::energy::{End, ROW};
+
+use crate::file;
+use crate::refused::refusal;
+use crate::typed::{changed, passes_but_not_without_each_case};
+
+fn runs(name: &str) -> Runs {
+    Runs::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A change of what a case found, with its name.
+type Defect<F> = (&'static str, fn(&mut F));
+
+#[test]
+fn each_run_of_the_scenes_can_fail() {
+    let study = runs("energy-decay.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    let planted: [Defect<Found>; 9] = [
+        ("a rise", |found| found.worst.rise = 2e-14),
+        ("a residual", |found| found.worst.residual = 2e-14),
+        ("a rise that is not finite", |found| found.worst.rise = f64::NAN),
+        ("a residual that is not finite", |found| found.worst.residual = f64::NAN),
+        ("a bound that is not finite", |found| found.worst.open = f64::NAN),
+        ("a sum that is not finite", |found| found.drift = f64::NAN),
+        ("an energy that is not finite", |found| found.initial_energy = f64::INFINITY),
+        ("a missing step", |found| found.steps -= 1),
+        ("another end", |found| found.end = End::NotFinite),
+    ];
+    for case in 0..sound.len() {
+        for (what, plant) in planted {
+            let runs = changed::<Runs>(&sound, |index, found| {
+                if index == case {
+                    plant(found);
+                }
+            });
+            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in {}", sound[case].case.label);
+        }
+    }
+}
+
+#[test]
+fn each_claim_of_a_case_can_fail() {
+    let study = runs("extremes.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    let planted: [(&str, Defect<Found>); 10] = [
+        ("hat", ("another end", |found| found.end = End::Indefinite)),
+        ("hat", ("a missing step", |found| found.steps = 199)),
+        ("hat", ("an open balance", |found| found.worst.open = 1.1)),
+        ("hat", ("a rise", |found| found.worst.risen = 1.1)),
+        ("hat", ("a rise that is not finite", |found| found.worst.risen = f64::NAN)),
+        ("hat", ("a residual that is not finite", |found| found.worst.residual = f64::NAN)),
+        ("buckled-too-long-a-step", ("an answer", |found| found.end = End::Answer)),
+        ("compliance-1e-8-fixed-point", ("an answer", |found| found.end = End::Answer)),
+        ("no-viscosity-midpoint", ("a drift", |found| found.drift = -1.1e-11)),
+        ("no-viscosity-midpoint", ("a drift that is not finite", |found| found.drift = f64::NAN)),
+    ];
+    for (label, (what, plant)) in planted {
+        let case = sound.iter().position(|ran| ran.case.label == label).expect("a case");
+        let runs = changed::<Runs>(&sound, |index, found| {
+            if index == case {
+                plant(found);
+            }
+        });
+        assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in {label}");
+    }
+}
+
+#[test]
+fn each_claim_of_the_random_scenes_can_fail() {
+    let study = RandomScenes::read(file("random-scenes-quick.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let sound = passes_but_not_without_each_case(&study);
+    let planted: [Defect<Batch>; 12] = [
+        ("a definite operator refused", |batch| batch.refused = 1),
+        ("a level that is not finite", |batch| batch.not_finite_levels = 1),
+        ("an iteration limit", |batch| {
+            batch.ends.answers -= 1;
+            batch.ends.iteration_limit += 1;
+        }),
+        ("an end that is not finite", |batch| {
+            batch.ends.answers -= 1;
+            batch.ends.not_finite += 1;
+        }),
+        ("a scene without an end", |batch| batch.ends.answers -= 1),
+        ("exceptions", |batch| batch.exceptions = 2),
+        ("an open balance", |batch| batch.worst.open = 1.1),
+        ("a rise", |batch| batch.worst.risen = 1.1),
+        ("an open balance that is not finite", |batch| batch.worst.open = f64::NAN),
+        ("a risen energy that is not finite", |batch| batch.worst.risen = f64::NAN),
+        ("a rise that is not finite", |batch| batch.worst.rise = f64::NAN),
+        ("a residual that is not finite", |batch| batch.worst.residual = f64::NAN),
+    ];
+    for case in 0..sound.len() {
+        for (what, plant) in planted {
+            let runs = changed::<RandomScenes>(&sound, |index, batch| {
+                if index == case {
+                    plant(batch);
+                }
+            });
+            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in batch {case}");
+        }
+    }
+}
+
+#[test]
+fn files_with_errors_are_refused() {
+    for (name, from, to, message) in [
+        ("extremes.toml", "name = \"hat\"", "name = \"velocity-step\"", "a name that no other case has"),
+        ("extremes.toml", "ends = \"indefinite\"", "ends = \"well\"", "ends"),
+        ("extremes.toml", "drift = 1e-11", "drift = 0", "drift"),
+        ("extremes.toml", "zeta = 0.0", "zeta = -1.0", "beam.zeta"),
+        ("random-scenes-quick.toml", "batches = 2", "batches = 0", "random.batches"),
+        ("random-scenes-quick.toml", "[random]", "[[random-scenes]]", "random-scenes"),
+        ("random-scenes-quick.toml", "[random]", "[energy]\n[random]", "one of the tables"),
+        ("energy-decay.toml", "tolerance = 1e-14", "tolerance = 0.0", "energy.tolerance"),
+        ("energy-decay.toml", "schemes = [\"euler-crank-nicolson\", \"midpoint\"]", "schemes = []", "energy.schemes"),
+    ] {
+        let error = refusal(&ROW, name, from, to);
+        assert!(error.contains(message), "{error}");
+    }
+}

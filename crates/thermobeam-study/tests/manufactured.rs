@@ -10,7 +10,6 @@ use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 use thermobeam_study::kinds::energy::EnergyDecay;
-use thermobeam_study::kinds::fixed_point::FixedPoint;
 use thermobeam_study::kinds::tables::Norm;
 use thermobeam_study::kinds::{FromFile, Study};
 
@@ -175,27 +174,4 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
         value.1 = 2e-14;
         assert_eq!(study.conclude(&planted).verdict, Verdict::Fail, "{name}");
     }
-}
-
-#[test]
-fn no_nan_and_no_wrong_contraction_passes_for_the_fixed_point() {
-    let study = FixedPoint::read(file("fixed-point.toml")).unwrap();
-    let honest = results(&study);
-    assert_eq!(study.conclude(&honest).verdict, Verdict::Pass);
-    let mut judged = 0;
-    for case in 0..honest.len() {
-        for name in ["contraction", "distance", "converged"] {
-            for wrong in [f64::NAN, 1.04, 0.5] {
-                let mut planted = honest.clone();
-                let values = &mut planted[case].as_mut().unwrap().values;
-                let Some(value) = values.iter_mut().find(|(key, _)| key == name) else { continue };
-                value.1 *= wrong;
-                let fails = study.conclude(&planted).verdict != Verdict::Pass;
-                judged += usize::from(fails);
-                // Every distance is judged; a factor only where contact dominates and α is not within 3 % of 1.
-                assert!(fails || name != "distance" || !wrong.is_nan(), "case {case}, {name} times {wrong}");
-            }
-        }
-    }
-    assert!(judged > 60, "{judged} of the planted mistakes were seen");
 }

@@ -4,13 +4,13 @@ use convergence_study::study::KindRow;
 
 use super::untyped::reader;
 use super::{
-    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, fixed_point,
-    frequencies, random_scenes, rigid, self_convergence, sensitivity, stability, vibration, work_precision,
+    bifurcation, calibration, controls, convergence, energy, equilibrium, experiment, extremes, frequencies,
+    random_scenes, rigid, self_convergence, sensitivity, solvers, vibration, work_precision,
 };
 use crate::kinds::convergence::file::CONVERGENCE;
 
 /// One row for each kind.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 16] = [
     KindRow {
         name: CONVERGENCE,
         read: reader::<convergence::Convergence>,
@@ -52,15 +52,7 @@ pub const KINDS: [KindRow; 17] = [
                  Each share has its limit.",
         failure: "The rule errs more often than is admitted: no verdict of any other study can be trusted as far as was said.",
     },
-    KindRow {
-        name: fixed_point::FIXED_POINT,
-        read: reader::<fixed_point::FixedPoint>,
-        why: "In contact, the paper's fixed point (4.1)-(4.5) shrinks its error by a factor per iteration that is known beforehand \
-              from dt, epsilon, zeta and the mesh; past 1 it diverges. Newton's method solves the same step.",
-        judged: "The factor measured against the factor foretold, for all combinations; the results of both solvers against each \
-                 other; the error of the fixed point against its tolerance.",
-        failure: "The iteration is not the paper's, or the steps that it delivers are not solved to the tolerance that was asked for.",
-    },
+    solvers::ROW,
     KindRow {
         name: sensitivity::SENSITIVITY,
         read: reader::<sensitivity::Sensitivity>,
@@ -139,13 +131,5 @@ pub const KINDS: [KindRow; 17] = [
         why: "Coefficients, meshes and data at random reach corners that nobody thought of.",
         judged: "Each scene ends with an answer or a typed error; the energy never rises and its balance closes within the bound stated.",
         failure: "The scene named, with its seed, breaks a law of the scheme: run it alone.",
-    },
-    KindRow {
-        name: "stability",
-        read: reader::<stability::Stability>,
-        why: "Over two parameters at a time: where the fixed point converges, alpha = 1 being the boundary foretold, and that Newton's \
-              method and the fall of the energy hold everywhere.",
-        judged: "The measured boundary against the one foretold; the energy and its balance at every point.",
-        failure: "The scheme or a solver is not as stable as theory says.",
     },
 ];

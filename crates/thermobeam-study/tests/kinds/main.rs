@@ -2,15 +2,17 @@
 
 mod frequencies;
 mod self_convergence;
+mod solvers;
 mod stress;
+mod typed;
 mod vibration;
 
-use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;
 use convergence_study::study::outcome::Outcome;
 use std::path::{Path, PathBuf};
 use thermobeam_study::kinds::Study;
+use thermobeam_study::kinds::untyped::Measured;
 
 type Results = Vec<Result<Measured, CaseFailure>>;
 

@@ -1,4 +1,4 @@
-//! The studies of the paper's experiments, of steady states and of rigid obstacles: they pass, and they can fail.
+//! The studies of the paper's experiments and of steady states: they pass, and they can fail.
 
 use crate::study::untyped::Measured;
 use convergence_study::judge::verdict::Verdict;
@@ -151,29 +151,8 @@ fn every_claim_about_branches_can_fail() {
 }
 
 #[test]
-fn every_claim_about_rigid_obstacles_can_fail() {
-    let ran = Ran::new("rigid-obstacles.toml");
-    ran.is_sound();
-    // An error at a softer obstacle would be taken for a stage before the asymptotic one, and rightly so.
-    ran.catches("bouncing, ε = 1.0e-8", "penetration", 2e-7);
-    ran.catches("bouncing, ε = 1.0e-7", "penetration", 2e-6);
-    ran.catches("bouncing, ε = 1.0e-8", "iterations", 3.0);
-    ran.catches("bouncing, ε = 1.0e-8", "most_iterations", 9.0);
-    ran.catches("at rest, ε = 1.0e-8", "penetration", 1e-9);
-    ran.catches("at rest, ε = 1.0e-8", "force", f64::NAN);
-    ran.catches("impact, ε = 1.0e-8", "penetration", 2e-6);
-    ran.catches("impact, ε = 1.0e-8", "velocity", 1.02);
-    ran.catches("fixed point, ε = 1.0e-3", "converged", 0.0);
-    ran.catches("fixed point, ε = 1.0e-6", "converged", 1.0);
-    ran.catches("fixed point, ε = 1.0e-3", "contraction", 0.1);
-    let mut results = ran.results.clone();
-    results[ran.case("bouncing, ε = 1.0e-7")].as_mut().unwrap().series.clear();
-    assert_ne!(ran.study.conclude(&results).verdict, Verdict::Pass, "without a motion there is no distance");
-}
-
-#[test]
 fn no_claim_holds_without_numbers() {
-    for file in ["section-5.toml", "equilibria.toml", "bifurcation.toml", "rigid-obstacles.toml"] {
+    for file in ["section-5.toml", "equilibria.toml", "bifurcation.toml"] {
         let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
         let outcome = study.conclude(&vec![Ok(Measured::default()); study.cases().len()]);
         // That every case has a result is true, and says nothing.
@@ -185,13 +164,9 @@ fn no_claim_holds_without_numbers() {
 
 #[test]
 fn a_case_gives_the_same_result_every_time() {
-    for (file, label) in
-        [("equilibria.toml", "paper-3-beta-minus-0.8, n = 20"), ("rigid-obstacles.toml", "impact, ε = 1.0e-4")]
-    {
-        let study = study::read(&path(file)).unwrap_or_else(|error| panic!("{error}"));
-        let index = study.cases().iter().position(|case| case.label == label).unwrap();
-        assert_eq!(study.run(index), study.run(index));
-    }
+    let study = study::read(&path("equilibria.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let index = study.cases().iter().position(|case| case.label == "paper-3-beta-minus-0.8, n = 20").unwrap();
+    assert_eq!(study.run(index), study.run(index));
 }
 
 #[test]
@@ -205,7 +180,7 @@ fn the_full_study_reads_like_the_quick_one() {
 #[test]
 fn complaints_name_the_field() {
     use thermobeam_study::kinds::{
-        FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments, rigid::RigidStudy,
+        FromFile, bifurcation::BifurcationStudy, equilibrium::EndStates, experiment::Experiments,
     };
     let complaint = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(path(file)).unwrap();
@@ -214,8 +189,7 @@ fn complaints_name_the_field() {
         let error = match file {
             "section-5.toml" => Experiments::parse(&text, &name).err(),
             "equilibria.toml" => EndStates::parse(&text, &name).err(),
-            "bifurcation.toml" => BifurcationStudy::parse(&text, &name).err(),
-            _ => RigidStudy::parse(&text, &name).err(),
+            _ => BifurcationStudy::parse(&text, &name).err(),
         };
         error.unwrap_or_else(|| panic!("{file} with {to} is read")).to_string()
     };
@@ -230,8 +204,6 @@ fn complaints_name_the_field() {
         ("equilibria.toml", "paper-1-beta-5", "impact-5", "impact-5"),
         ("bifurcation.toml", "beta = [-1.0, 1.0]", "beta = [1.0, -1.0]", "diagram.beta"),
         ("bifurcation.toml", "distance = 1e-3", "distance = \"far\"", "rest.distance"),
-        ("rigid-obstacles.toml", "1e-1, 3.16e-2", "1e-1, 3.16e-1", "obstacles.epsilon"),
-        ("rigid-obstacles.toml", "scenes/impact", "scenes/paper-1-beta-0", "impact.scene"),
     ] {
         let found = complaint(file, from, to);
         assert!(found.contains(field), "{found}");

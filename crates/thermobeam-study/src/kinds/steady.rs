@@ -1,6 +1,6 @@
 //! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
 
-use crate::run::patience::StepPatience;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
@@ -9,10 +9,10 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::{Simulation, Stepping};
 use thermobeam::solve::Level;
 
+use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::input::{Field, InputError, Section};
-use convergence_study::run::time_limit::Patience;
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
 
@@ -41,6 +41,12 @@ pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<S
     Ok(Scene { mesh: Mesh::uniform(elements)?, dt, steps, ..scene.clone() })
 }
 
+/// The scene at t = 0, to be stepped.
+pub(super) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
+    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
+    Driver::new(simulate::problem(scene), stepping)
+}
+
 /// The scene at t = 0.
 pub(super) fn start(scene: &Scene) -> Result<Simulation, SetupError> {
     let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
@@ -65,21 +71,20 @@ const QUIET: f64 = 5.0;
 /// # Errors
 /// A step that cannot be done, or motion that lasts longer than `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, CaseFailure> {
-    let mut simulation = start(scene)?;
-    let mut level = simulation.level();
     let mut moved = 0.0;
-    let mut patience = Patience::of(&simulation);
-    while simulation.t() < t_max {
-        patience.before_step_of(&simulation)?;
-        simulation.advance()?;
-        simulation.observe(&mut level);
-        if !level.is_slow(speed) {
-            moved = simulation.t();
-        } else if simulation.t() - moved >= QUIET {
-            return Ok(Rest { level, t: simulation.t() });
+    let rest = driver(scene)?.run(usize::MAX, |step| {
+        let t = step.simulation.t();
+        if !step.new.is_slow(speed) {
+            moved = t;
+        } else if t - moved >= QUIET {
+            return ControlFlow::Break(Some(Rest { level: step.new.clone(), t }));
         }
-    }
-    Err(CaseFailure { reason: format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name) })
+        if t < t_max { ControlFlow::Continue(()) } else { ControlFlow::Break(None) }
+    })?;
+    rest.flatten().ok_or_else(|| {
+        let reason = format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name);
+        CaseFailure { reason }
+    })
 }
 
 /// All exact steady states of the scene.

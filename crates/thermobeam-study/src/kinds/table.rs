@@ -101,14 +101,7 @@ pub const KINDS: [KindRow; 16] = [
         judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
         failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
     },
-    KindRow {
-        name: "rigid",
-        read: reader::<rigid::RigidStudy>,
-        why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
-              epsilon^(2/3) in an impact that the grid resolves.",
-        judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
-        failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
-    },
+    rigid::ROW,
     KindRow {
         name: work_precision::WORK_PRECISION,
         read: reader::<work_precision::WorkPrecision>,

@@ -98,9 +98,8 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             continue;
         }
         let Contraction { alpha, gamma, .. } = *contraction(found);
-        let with = |change: &dyn Fn(&mut Contraction)| {
-            verdict_with(&study, &sound, index, |found| change(contraction(found)))
-        };
+        let with =
+            |change: &dyn Fn(&mut Contraction)| verdict_with(&study, &sound, index, |found| change(contraction(found)));
         assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
         assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
         // A factor is judged only where contact dominates, and not where α is within 3 % of 1.

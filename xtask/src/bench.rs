@@ -7,18 +7,15 @@ use std::time::Instant;
 use crate::project::PROJECT;
 use convergence_study::store::atomic;
 use convergence_study::store::provenance::Provenance;
-use convergence_study::study::Tier;
-use convergence_study::study::outcome::Table;
+use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
 use convergence_study::{report, run as runner};
 use thermobeam_study::error::yardstick::Quantity;
-use thermobeam_study::kinds::work_precision::{WORK_PRECISION, WorkPrecision};
-use thermobeam_study::kinds::{FromFile, Study};
+use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
 use thermobeam_study::predict::pace;
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::{output, screen, selection, workspace};
-use convergence_study::study::StudyFile;
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -48,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     page.add(&pace::ways(&scene, 1000)?)?;
     page.add(&pace::scenes(&scene, 100)?)?;
     page.add(&pace::scaling(&scene, &ELEMENTS)?)?;
-    for file in studies.iter().filter(|file| file.study.header().kind == WORK_PRECISION) {
+    for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
         accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }
     threads(studies, arguments.tier, &mut page)?;

@@ -102,14 +102,7 @@ pub const KINDS: [KindRow; 16] = [
         failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
     },
     rigid::ROW,
-    KindRow {
-        name: work_precision::WORK_PRECISION,
-        read: reader::<work_precision::WorkPrecision>,
-        why: "Every method pays for a smaller error with more node-steps. The law e = C_h h^p + C_t dt^q of each gives its cheapest \
-              path, and its cost for any error.",
-        judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
-        failure: "A method has become dearer for the same error, or its order is not what the law says.",
-    },
+    work_precision::ROW,
     KindRow {
         name: "extremes",
         read: reader::<extremes::Extremes>,

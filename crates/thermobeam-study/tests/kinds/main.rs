@@ -7,6 +7,7 @@ mod solvers;
 mod stress;
 mod typed;
 mod vibration;
+mod work_precision;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;

@@ -15,6 +15,7 @@ use crate::exact::factors::Factors;
 use crate::kinds::work_precision::method::Measurement;
 use crate::run::march::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use std::time::Instant;
@@ -141,7 +142,7 @@ impl WorkPrecision {
             y = integrator.y_out().last().cloned().ok_or_else(|| CaseFailure { reason: "no result".to_owned() })?;
             let found = yardstick.measure(&system.level(&y), index, from + pause);
             for (worst, error) in errors.iter_mut().zip(found) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+                *worst = max_or_nan(*worst, error);
             }
         }
         spent.node_solves = spent.node_steps;
@@ -152,6 +153,7 @@ impl WorkPrecision {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use convergence_study::study::FromFile;
     use std::path::Path;
 
     #[test]

@@ -3,6 +3,7 @@
 use crate::error::yardstick::{Yardstick, combine};
 use crate::run::march::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};
 
@@ -72,7 +73,7 @@ impl Method {
                 None => yardstick.measure(march.level(), index, t),
             };
             for (worst, error) in errors.iter_mut().zip(found) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+                *worst = max_or_nan(*worst, error);
             }
         }
         let mut spent = march.spent();

@@ -5,7 +5,8 @@ use std::time::Duration;
 use convergence_study::run::time_limit::within;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
-use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, RunFailure, Simulator, figures};
+use thermobeam_study::run::driver::RunError;
+use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures};
 use thermobeam_study::scene::Scene;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
@@ -83,7 +84,7 @@ fn what_could_be_done_before_a_failure_is_kept() {
     let scene = thrown("1e-2", "solver = \"fixed-point\"");
     let run = run(&scene, Recording::History);
     let failure = run.failure.as_ref().expect("the contact force lags too far behind");
-    let RunFailure::Step(failure) = failure else { panic!("{failure}") };
+    let RunError::Step(failure) = failure else { panic!("{failure}") };
     assert!(matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0), "{failure}");
     assert!(run.steps > 0 && run.steps + 1 == failure.step);
     assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
@@ -103,7 +104,7 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
         // Each step hears that it is done, and this one dawdles.
         simulator.run(Recording::Summary, &mut |_| std::thread::sleep(limit))
     });
-    let Some(RunFailure::Time(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
+    let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
     assert_eq!(Some(told), up);
     assert_eq!((told.step, told.t, told.limit), (stopped.steps, stopped.last.t, limit));
     assert!(0 < stopped.steps && stopped.steps < scene.steps);

@@ -13,15 +13,14 @@ use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::run::patience::StepPatience;
-use convergence_study::run::time_limit::Patience;
+use crate::run::driver::Driver;
 use convergence_study::study::Axis;
 use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::Level;
+use thermobeam::simulation::{Initial, Problem, Stepping};
 
 /// A mistake made on purpose in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,12 +108,9 @@ impl<'a> Prepared<'a> {
         self.meter.lift(&self.mesh, disagreement.beam.theta_a);
         let mut case = DesignCase::new(self, steps, disagreement)?;
         let mut worst = [0.0_f64; 8];
-        let mut patience = Patience::of(&case.simulation);
         for n in 1..=steps {
-            patience.before_step_of(&case.simulation)?;
-            let errors = case.step(n)?;
-            for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+            for (worst, error) in worst.iter_mut().zip(case.step(n)?) {
+                *worst = max_or_nan(*worst, error);
             }
         }
         Ok(worst)
@@ -127,8 +123,7 @@ struct DesignCase<'a> {
     defect: Option<Defect>,
     sources: &'a Sources,
     meter: &'a mut ErrorMeter,
-    simulation: Simulation,
-    level: Level,
+    driver: Driver,
     /// Factors at t_{n-1} and t_n, and those of the sources.
     old: Factors,
     new: Factors,
@@ -144,10 +139,9 @@ impl<'a> DesignCase<'a> {
         let initial = initial(nodal, &spec.beam, mesh, &old, beam.theta_a);
         let dt = spec.refine.dt(steps);
         let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
-        let level = Level::new(mesh.nodes().len());
-        let simulation = Simulation::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
+        let driver = Driver::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
         let (new, source) = (old.clone(), old.clone());
-        Ok(Self { spec, dt, defect, sources, meter, simulation, level, old, new, source })
+        Ok(Self { spec, dt, defect, sources, meter, driver, old, new, source })
     }
 
     /// Step n and its errors.
@@ -159,17 +153,14 @@ impl<'a> DesignCase<'a> {
         } else {
             self.exact_factors(n)
         };
-        if let Some(load) = self.simulation.load_mut() {
-            let loads = match self.defect {
-                Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
-                Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
-                _ => BoundaryLoads::Both,
-            };
-            self.sources.fill(&self.source, n_value, force, loads, load);
-        }
-        self.simulation.advance()?;
-        self.simulation.observe(&mut self.level);
-        let errors = self.meter.measure(&self.level, &self.new);
+        let loads = match self.defect {
+            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
+            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
+            _ => BoundaryLoads::Both,
+        };
+        let (sources, source) = (self.sources, &self.source);
+        self.driver.advance(|_, load| sources.fill(source, n_value, force, loads, load))?;
+        let errors = self.meter.measure(self.driver.level(), &self.new);
         std::mem::swap(&mut self.old, &mut self.new);
         Ok(errors)
     }

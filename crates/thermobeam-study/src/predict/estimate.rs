@@ -17,13 +17,13 @@
 mod report;
 mod runs;
 
-use crate::run::rerun::RunError;
+use crate::run::driver::RunError;
 use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
 use thiserror::Error;
 
-/// The budget could not be made up: one of the runs did not come to its end.
+/// The budget could not be computed: one of the runs did not complete.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("the run with {run}: {failure}")]
 pub struct EstimateError {
@@ -57,6 +57,14 @@ impl Source {
             Source::Time => "time",
             Source::Iteration => "iteration",
             Source::RoundOff => "round-off",
+        }
+    }
+
+    /// The key in JSON.
+    fn key(self) -> &'static str {
+        match self {
+            Source::RoundOff => "round_off",
+            other => other.name(),
         }
     }
 }

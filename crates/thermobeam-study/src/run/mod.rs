@@ -2,7 +2,8 @@
 
 pub mod driver;
 pub(crate) mod ensemble;
-pub mod march;
+pub mod family;
 pub(crate) mod patience;
 pub mod rerun;
 pub mod simulate;
+pub mod step_time;

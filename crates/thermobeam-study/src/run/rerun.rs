@@ -1,35 +1,16 @@
 //! A scene run again: on another mesh, with other time steps, by another scheme or solver.
 
-use crate::expression::Expression;
-use crate::run::patience::StepPatience;
-use crate::scene::Scene;
-use convergence_study::run::time_limit::{Patience, TimeUp};
-use thermobeam::error::{SetupError, StepError};
+use std::ops::ControlFlow;
+
+use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
-use thiserror::Error;
 
-/// Why a scene could not be run to its end.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum RunError {
-    /// It could not be set up.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A step could not be done.
-    #[error(transparent)]
-    Step(#[from] StepError),
-    /// The limit on the time of a case was reached.
-    #[error(transparent)]
-    TimeUp(#[from] TimeUp),
-}
-
-impl From<MeshError> for RunError {
-    fn from(error: MeshError) -> Self {
-        Self::Setup(error.into())
-    }
-}
+use crate::expression::Expression;
+use crate::run::driver::{Driver, RunError, Step};
+use crate::scene::Scene;
 
 /// What a scene is run with.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +29,7 @@ pub(crate) struct Rerun<'s> {
     pub(crate) settings: Settings,
 }
 
-/// What was seen on the way.
+/// What was observed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trace<S> {
     /// Smallest and largest u(1) over all time levels, the start included; NaN once a level was.
@@ -74,22 +55,19 @@ impl<'s> Rerun<'s> {
     ) -> Result<Trace<S>, RunError> {
         let Self { scheme, settings, .. } = *self;
         let dt = self.t_end / self.steps as f64;
-        let mut simulation = Simulation::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
-        let mut level = simulation.level();
-        let mut patience = Patience::of(&simulation);
-        let last = level.u.len() - 1;
-        let mut trace = Trace { tip: [level.u[last]; 2], samples: Vec::with_capacity(samples) };
+        let stepping = Stepping { scheme, settings, dt, loaded: false };
+        let mut driver = Driver::new(self.problem(), stepping)?;
+        let last = self.mesh.elements();
+        let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
         let stride = self.steps / samples;
-        for n in 1..=self.steps {
-            patience.before_step_of(&simulation)?;
-            simulation.advance()?;
-            simulation.observe(&mut level);
-            let tip = level.u[last];
-            trace.tip = [low(trace.tip[0], tip), -low(-trace.tip[1], -tip)];
-            if n % stride == 0 {
-                trace.samples.push(sample(&simulation, &level));
+        driver.run::<()>(self.steps, |Step { new, simulation, .. }| {
+            let tip = new.u[last];
+            trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
+            if simulation.step() % stride == 0 {
+                trace.samples.push(sample(simulation, new));
             }
-        }
+            ControlFlow::Continue(())
+        })?;
         Ok(trace)
     }
 
@@ -108,11 +86,6 @@ impl<'s> Rerun<'s> {
         };
         Problem { beam: self.scene.beam, obstacles: self.scene.obstacles, mesh: self.mesh.clone(), initial }
     }
-}
-
-/// The smaller of both; NaN once one of them was.
-fn low(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a <= b { a } else { b }
 }
 
 /// `elements` elements laid out as those of `mesh`: its nodes x_i as a function of i/n, linear in between, taken at j/m.

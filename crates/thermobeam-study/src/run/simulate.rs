@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
-//! use thermobeam_study::simulate::{Recording, Simulator};
+//! use thermobeam_study::run::simulate::{Recording, Simulator};
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
 //! let scene = Scene::parse(text, "swing.toml")?;
@@ -19,27 +19,26 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod budget;
 mod figures;
 mod object;
 mod record;
 mod together;
 
-use crate::run::patience::StepPatience;
-use std::time::{Duration, Instant};
+use std::ops::ControlFlow;
+use std::time::Duration;
 
+use convergence_study::text::number::max_or_nan;
+use serde::Serialize;
 use thermobeam::energy::Balance;
-use thermobeam::error::{SetupError, StepError};
+use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
-use thiserror::Error;
 
 use crate::expression::Expression;
+use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
-use convergence_study::run::time_limit::{Patience, TimeUp};
-use convergence_study::text::number::max_or_nan;
 
 pub use figures::{energy_at_rest, figures};
 pub use object::Object;
@@ -68,8 +67,8 @@ impl Middle {
     }
 }
 
-/// What is worth reading off a time level.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Observed quantities of a time level; the JSON object of a run has them, except the contact force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sample {
     /// Time.
     pub t: f64,
@@ -84,13 +83,14 @@ pub struct Sample {
     /// The physical temperature at x = 1/2.
     pub theta_mid: f64,
     /// The contact force of the step that led here, positive on the upper obstacle; g(u(1)) at the start.
+    #[serde(skip)]
     pub contact_force: f64,
     /// E^n, with the term of θ_A.
     pub energy: f64,
 }
 
 /// Iterations of all steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Iterations {
     /// Their sum.
     pub total: usize,
@@ -99,7 +99,7 @@ pub struct Iterations {
 }
 
 /// The free end's range over all time levels, the start included.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extremes {
     /// Smallest u(1).
     pub u_tip_min: f64,
@@ -107,12 +107,13 @@ pub struct Extremes {
     pub u_tip_max: f64,
 }
 
-/// What became of the energy.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The energy over a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct EnergySummary {
     /// E^0.
     pub initial: f64,
     /// E^n of the last level.
+    #[serde(rename = "final")]
     pub last: f64,
     /// Largest `E^n - E^{n-1}`; negative where the energy always falls, NaN where no step was done.
     pub largest_increase: f64,
@@ -154,20 +155,9 @@ pub struct Run {
     /// Whether the temperature was computed: it is left out where nothing heats the beam.
     pub is_heated: bool,
     /// Why the run ended early, if it did.
-    pub failure: Option<RunFailure>,
+    pub failure: Option<RunError>,
     /// History and frames, if they were asked for.
     pub record: Option<Record>,
-}
-
-/// Why a run ended before the scene's end.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum RunFailure {
-    /// A step that could not be done.
-    #[error(transparent)]
-    Step(#[from] StepError),
-    /// The limit on its time was reached.
-    #[error(transparent)]
-    Time(#[from] TimeUp),
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -206,9 +196,8 @@ pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
 
 /// A scene, ready to run.
 pub struct Simulator {
-    simulation: Simulation,
+    driver: Driver,
     middle: Middle,
-    dt: f64,
     steps: usize,
 }
 
@@ -219,77 +208,47 @@ impl Simulator {
     /// [`SetupError`] where the solver cannot work with the scene's numbers.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-        let simulation = Simulation::new(problem(scene), stepping)?;
-        Ok(Self { simulation, middle: Middle::of(&scene.mesh), dt: scene.dt, steps: scene.steps })
+        let driver = Driver::new(problem(scene), stepping)?.timed();
+        Ok(Self { driver, middle: Middle::of(&scene.mesh), steps: scene.steps })
     }
 
-    /// Steps to the end; `progress` hears the number of steps done after each of them.
+    /// Steps to the end; `progress` is called with the number of steps done after each of them.
     pub fn run(mut self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
-        let mut old = self.simulation.level();
-        let mut new = old.clone();
-        let first = self.first_sample(&old);
-        let mut record = (recording == Recording::History)
-            .then(|| Record::new(self.simulation.problem().mesh.nodes(), self.steps, first, &old.u));
+        let (middle, steps) = (self.middle, self.steps);
+        let start = self.driver.level().clone();
+        let problem = self.driver.simulation().problem();
+        // No step has led to the start, so that its contact force is that of the law.
+        let first = Sample::observe(self.driver.simulation(), &start, middle).at_the_start(problem.obstacles);
+        let mut record =
+            (recording == Recording::History).then(|| Record::new(problem.mesh.nodes(), steps, first, &start.u));
         let mut tally = Tally::new(first.u_tip);
-        let mut wall = Duration::ZERO;
-        let mut failure = None;
-        let mut patience = Patience::of(&self.simulation);
-        while self.simulation.step() < self.steps {
-            if let Err(up) = patience.before_step_of(&self.simulation) {
-                failure = Some(up.into());
-                break;
-            }
-            let start = Instant::now();
-            let outcome = self.simulation.advance();
-            wall += start.elapsed();
-            let report = match outcome {
-                Ok(report) => report,
-                Err(error) => {
-                    failure = Some(error.into());
-                    break;
-                }
-            };
-            self.simulation.observe(&mut new);
-            let balance = self.simulation.balance(&old, &new);
+        let outcome = self.driver.run::<()>(steps, |Step { report, old, new, simulation }| {
+            let balance = simulation.balance(old, new);
             tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
             if let Some(record) = &mut record {
-                record.add(self.simulation.step(), &balance, &new.u, || self.sample(&new));
+                let sample = || Sample::observe(simulation, new, middle);
+                record.add(simulation.step(), &balance, &new.u, sample);
             }
-            std::mem::swap(&mut old, &mut new);
-            progress(self.simulation.step());
-        }
-        let last = if self.simulation.step() == 0 { first } else { self.sample(&old) };
+            progress(simulation.step());
+            ControlFlow::Continue(())
+        });
+        let end = self.driver.level().clone();
+        let simulation = self.driver.simulation();
+        let last = if simulation.step() == 0 { first } else { Sample::observe(simulation, &end, middle) };
         if let Some(record) = &mut record {
-            record.finish(last, &old.u);
+            record.finish(last, &end.u);
         }
-        self.summary(tally, wall, [first, last], failure, record)
-    }
-
-    fn summary(
-        self,
-        tally: Tally,
-        wall: Duration,
-        ends: [Sample; 2],
-        failure: Option<RunFailure>,
-        record: Option<Record>,
-    ) -> Run {
-        let (work, is_heated) = (self.simulation.work(), self.simulation.is_heated());
-        Run { failure, record, ..tally.run(self.simulation.step(), ends, wall, work, is_heated) }
-    }
-
-    /// No step has led to the start, so that its contact force is that of the law.
-    fn first_sample(&self, level: &Level) -> Sample {
-        self.sample(level).at_the_start(self.simulation.problem().obstacles)
-    }
-
-    fn sample(&self, level: &Level) -> Sample {
-        let theta_a = self.simulation.problem().beam.theta_a;
-        let t = self.simulation.step() as f64 * self.dt;
-        Sample::of(level, t, self.middle, theta_a, self.simulation.energy(level).total())
+        let (work, is_heated, wall) = (simulation.work(), simulation.is_heated(), self.driver.wall());
+        Run { failure: outcome.err(), record, ..tally.run(simulation.step(), [first, last], wall, work, is_heated) }
     }
 }
 
 impl Sample {
+    fn observe(simulation: &Simulation, level: &Level, middle: Middle) -> Self {
+        let (t, theta_a) = (simulation.step() as f64 * simulation.dt(), simulation.problem().beam.theta_a);
+        Self::of(level, t, middle, theta_a, simulation.energy(level).total())
+    }
+
     fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
         Self {

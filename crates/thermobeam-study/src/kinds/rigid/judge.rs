@@ -196,7 +196,7 @@ fn fixed_point_fails_at_one(results: &Results<'_>) -> Check {
         // Between the two it may do either; NaN is neither.
         alpha => alpha.is_finite(),
     };
-    let last = runs().filter(|(_, run)| run.failed_at.is_none()).last();
+    let last = runs().rfind(|(_, run)| run.failed_at.is_none());
     let first = runs().find(|(_, run)| run.failed_at.is_some());
     let name = |run: Option<(f64, &FixedPointRun)>| {
         run.map_or("none".to_owned(), |(epsilon, run)| format!("ε = {epsilon:.1e} (α = {:.3})", run.alpha))

@@ -8,7 +8,7 @@ use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 
 use super::{Part, Task};
-use crate::error::yardstick;
+use crate::error::evaluator;
 use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::scene::Scene;
@@ -72,7 +72,7 @@ impl Comparison {
             let report = fixed.advance(|_, _| ())?;
             let t = fixed.simulation().t();
             let level = fixed.level();
-            distance = max_or_nan(distance, yardstick::distance(&lengths, level, newton.level()));
+            distance = max_or_nan(distance, evaluator::distance(&lengths, level, newton.level()));
             total += report.iterations;
             most_iterations = most_iterations.max(report.iterations);
             iterations.push((t, report.iterations as f64));

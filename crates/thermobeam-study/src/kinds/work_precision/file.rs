@@ -8,10 +8,10 @@ use convergence_study::study::Header;
 
 use super::method::{METHODS, Method};
 use super::{Advantage, ROW, WorkPrecision};
+use crate::error::evaluator::ErrorMeasure;
 use crate::error::free_vibration;
-use crate::error::yardstick::Quantity;
 use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::run::march::Family;
+use crate::run::family::Family;
 use crate::scene::{Scene, limits};
 
 /// Tolerance of the solver that leaves no trace in the errors measured.
@@ -128,7 +128,7 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
 fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
     let Some(field) = root.get("advantage") else { return Ok(vec![]) };
     let methods = METHODS.map(|method| (method.name, method));
-    let quantities = Quantity::ALL.map(|quantity| (quantity.name(), quantity));
+    let quantities = ErrorMeasure::ALL.map(|quantity| (quantity.name(), quantity));
     let items = field.items("a list of tables [[advantage]]")?;
     let advantage = |section: Section<'_>| {
         section.allow(&["norm", "error", "of", "over", "times"])?;

@@ -9,7 +9,7 @@ use convergence_study::study::outcome::{self, Check, Figure, Outcome, Table};
 use super::law::{GridPoint, Law, front};
 use super::method::{METHODS, Measurement, Method};
 use super::{Advantage, MethodOnMesh, WorkPrecision};
-use crate::error::yardstick::Quantity;
+use crate::error::evaluator::ErrorMeasure;
 
 /// Results of all cases.
 type Results = [Ran<MethodOnMesh, Vec<Measurement>>];
@@ -27,7 +27,7 @@ const CONFIDENCE: f64 = 0.95;
 /// One method in one quantity.
 struct Row {
     method: Method,
-    quantity: Quantity,
+    quantity: ErrorMeasure,
     points: Vec<GridPoint>,
     law: Result<Law, String>,
 }
@@ -55,23 +55,23 @@ impl Row {
 
 pub(super) fn judge(study: &WorkPrecision, ran: &Results) -> Outcome {
     let rows = rows(study, ran);
-    let mut checks = vec![completion(ran, not_finite)];
+    let mut checks = vec![completion(ran, |runs| not_finite(runs))];
     checks.extend(rows.iter().flat_map(|row| check_law(row, study.misfit)));
     let advantages: Vec<Check> = study.advantages.iter().map(|claim| check_advantage(claim, &rows)).collect();
     let summary = summary(&rows, &advantages);
     let headline = advantages.first().map_or_else(|| summary.clone(), |check| check.evidence.clone());
     checks.extend(advantages);
     let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
-    outcome.tables = Quantity::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
+    outcome.tables = ErrorMeasure::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
     outcome.tables.push(laws(&rows));
-    outcome.figures = Quantity::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
+    outcome.figures = ErrorMeasure::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
     outcome.quantities = quantities(&rows);
     outcome
 }
 
-fn not_finite(runs: &Vec<Measurement>) -> Vec<String> {
+fn not_finite(runs: &[Measurement]) -> Vec<String> {
     let of_run = |run: &Measurement| {
-        let errors = Quantity::ALL.into_iter().zip(run.errors).map(|(quantity, error)| (quantity.name(), error));
+        let errors = ErrorMeasure::ALL.into_iter().zip(run.errors).map(|(quantity, error)| (quantity.name(), error));
         let cost = [("node-steps", run.spent.node_steps), ("node-solves", run.spent.node_solves)];
         let named = errors.chain(cost).filter(|(_, value)| !value.is_finite());
         named.map(|(name, _)| name.to_owned()).collect::<Vec<_>>()
@@ -110,12 +110,12 @@ fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
             Err(reason) => Err(reason.clone()),
         };
         let row = |quantity, points, law| Row { method, quantity, points, law };
-        rows.push(row(Quantity::Theorem34, full, law));
-        rows.push(row(Quantity::Superclose, superclose, close));
+        rows.push(row(ErrorMeasure::Theorem34, full, law));
+        rows.push(row(ErrorMeasure::Superclose, superclose, close));
         let law = fit(&tip);
-        rows.push(row(Quantity::Tip, tip, law));
+        rows.push(row(ErrorMeasure::Tip, tip, law));
     }
-    rows.sort_by_key(|row| Quantity::ALL.iter().position(|quantity| *quantity == row.quantity));
+    rows.sort_by_key(|row| ErrorMeasure::ALL.iter().position(|quantity| *quantity == row.quantity));
     rows
 }
 
@@ -133,12 +133,12 @@ fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
         Check::that(
             undercut <= allowed,
             format!("{}: no run is cheaper than the best path", row.name()),
-            format!("the cheapest of the grid costs {undercut:.2} times less, at most {allowed:.2} times"),
+            format!("cost on the best path over cost of a run with that error: {undercut:.2}, at most {allowed:.2}"),
         ),
     ]
 }
 
-fn find<'r>(rows: &'r [Row], quantity: Quantity, method: &Method) -> Option<&'r Row> {
+fn find<'r>(rows: &'r [Row], quantity: ErrorMeasure, method: &Method) -> Option<&'r Row> {
     rows.iter().find(|row| row.quantity == quantity && row.method == *method)
 }
 
@@ -163,17 +163,17 @@ fn summary(rows: &[Row], advantages: &[Check]) -> String {
         return format!("{}: {}", check.claim, check.evidence);
     }
     let winner = |quantity| cheapest(rows, quantity, 1e-4).map_or("none", |row| row.method.name);
-    let list = Quantity::ALL.map(|quantity| format!("{} {}", quantity.name(), winner(quantity)));
+    let list = ErrorMeasure::ALL.map(|quantity| format!("{} {}", quantity.name(), winner(quantity)));
     format!("cheapest at an error of 1e-4: {}", list.join(", "))
 }
 
 /// The method with the fewest node-steps; none where a cost is not known.
-fn cheapest(rows: &[Row], quantity: Quantity, error: f64) -> Option<&Row> {
+fn cheapest(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Option<&Row> {
     let known = rows.iter().filter(|row| row.quantity == quantity && row.cost(error).is_finite());
     known.min_by(|a, b| (a.cost(error) * a.solves_per_step()).total_cmp(&(b.cost(error) * b.solves_per_step())))
 }
 
-fn winners(quantity: Quantity, rows: &[Row]) -> Table {
+fn winners(quantity: ErrorMeasure, rows: &[Row]) -> Table {
     let mut head = vec!["error".to_owned()];
     head.extend(METHODS.iter().map(|method| method.name.to_owned()));
     head.extend(["cheapest", "ahead of the next"].map(str::to_owned));
@@ -230,7 +230,7 @@ fn laws(rows: &[Row]) -> Table {
     }
 }
 
-fn figure(study: &WorkPrecision, quantity: Quantity, rows: &[Row]) -> Figure {
+fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
     let series = of_quantity
         .map(|row| plots::Series {

@@ -1,7 +1,7 @@
 //! The methods compared, and one run of each.
 
-use crate::error::yardstick::{Yardstick, combine};
-use crate::run::march::{OnMesh, Spent};
+use crate::error::evaluator::{Evaluator, combine};
+use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
@@ -31,7 +31,7 @@ pub const METHODS: [Method; 4] = [
 /// A run: largest errors over the times of observation, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// In the order of [`crate::error::yardstick::Quantity::ALL`].
+    /// In the order of [`crate::error::evaluator::ErrorMeasure::ALL`].
     pub errors: [f64; 3],
     /// The cost, without the measuring.
     pub spent: Spent,
@@ -50,33 +50,33 @@ impl Method {
     pub fn run(
         &self,
         on: &OnMesh<'_>,
-        yardstick: &mut Yardstick<'_>,
+        evaluator: &mut Evaluator<'_>,
         [steps, observations]: [usize; 2],
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
         let settings = Settings { solver: self.solver, tolerance, max_iterations: 1000, ..Settings::default() };
-        let mut march = on.march(self.scheme, settings, steps)?;
-        let mut half = if self.extrapolated { Some(on.march(self.scheme, settings, 2 * steps)?) } else { None };
+        let mut run = on.start(self.scheme, settings, steps)?;
+        let mut half = if self.extrapolated { Some(on.start(self.scheme, settings, 2 * steps)?) } else { None };
         let mut errors = [0.0_f64; 3];
         for index in 0..observations {
-            march.advance(steps / observations)?;
+            run.advance(steps / observations)?;
             let extrapolated: Option<Level> = match &mut half {
                 None => None,
                 Some(half) => {
                     half.advance(2 * steps / observations)?;
-                    Some(combine(half.level(), march.level(), 2.0))
+                    Some(combine(half.level(), run.level(), 2.0))
                 }
             };
-            let t = march.t();
+            let t = run.t();
             let found = match &extrapolated {
-                Some(level) => yardstick.measure(level, index, t),
-                None => yardstick.measure(march.level(), index, t),
+                Some(level) => evaluator.measure(level, index, t),
+                None => evaluator.measure(run.level(), index, t),
             };
             for (worst, error) in errors.iter_mut().zip(found) {
                 *worst = max_or_nan(*worst, error);
             }
         }
-        let mut spent = march.spent();
+        let mut spent = run.spent();
         if let Some(half) = half {
             spent += half.spent();
         }

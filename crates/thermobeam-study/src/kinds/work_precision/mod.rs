@@ -1,6 +1,6 @@
 //! What an error costs, by method: error over node-steps and solves.
 //!
-//! Every method runs over the same grid of elements and steps; its errors are those of the [`yardstick`](crate::error::yardstick),
+//! Every method runs over the same grid of elements and steps; its errors are those of the [`evaluator`](crate::error::evaluator),
 //! the largest over equidistant times of observation that all runs share. From the grid follow the fitted [`law::Law`],
 //! the best path dt(h), the cost of an error E, and who is cheapest at 1e-2 ... 1e-8. Costs are counted, not timed, so
 //! that a report is the same on every machine and at every time; [`WorkPrecision::timed`] measures the seconds.
@@ -37,8 +37,8 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::solve::Solver;
 
-use crate::error::yardstick::{Quantity, Reference, Yardstick};
-use crate::run::march::Family;
+use crate::error::evaluator::{ErrorMeasure, Evaluator, Reference};
+use crate::run::family::Family;
 use method::{METHODS, Measurement, Method};
 pub use timed::Timed;
 
@@ -56,7 +56,7 @@ pub const ROW: KindRow = KindRow {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advantage {
     /// The error is measured in this quantity.
-    pub quantity: Quantity,
+    pub quantity: ErrorMeasure,
     /// The error.
     pub error: f64,
     /// The cheaper method.
@@ -111,8 +111,8 @@ impl WorkPrecision {
     /// All runs of a method on a mesh, one for each number of steps.
     fn measure(&self, MethodOnMesh { method, elements }: MethodOnMesh) -> Result<Vec<Measurement>, CaseFailure> {
         let on = self.family.on(elements)?;
-        let mut yardstick = Yardstick::new(&self.family, &on, self.reference()?)?;
-        let mut run = |&steps: &usize| method.run(&on, &mut yardstick, [steps, self.observations()], self.tolerance);
+        let mut evaluator = Evaluator::new(&self.family, &on, self.reference()?)?;
+        let mut run = |&steps: &usize| method.run(&on, &mut evaluator, [steps, self.observations()], self.tolerance);
         self.steps.iter().map(&mut run).collect()
     }
 }

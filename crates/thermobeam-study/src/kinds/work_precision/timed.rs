@@ -3,7 +3,7 @@
 use super::law::front;
 use super::method::Measurement;
 use super::{MethodOnMesh, WorkPrecision};
-use crate::error::yardstick::Quantity;
+use crate::error::evaluator::ErrorMeasure;
 use convergence_study::plots;
 use convergence_study::study::{CaseFailure, Table};
 
@@ -26,8 +26,8 @@ pub struct Timed {
 }
 
 impl Timed {
-    fn error(&self, quantity: Quantity) -> f64 {
-        let errors = Quantity::ALL.into_iter().zip(self.measurement.errors);
+    fn error(&self, quantity: ErrorMeasure) -> f64 {
+        let errors = ErrorMeasure::ALL.into_iter().zip(self.measurement.errors);
         errors.into_iter().find(|(other, _)| *other == quantity).map_or(f64::NAN, |(_, error)| error)
     }
 
@@ -67,7 +67,7 @@ impl WorkPrecision {
     }
 
     /// What each error costs in milliseconds: for each method the fastest of the runs whose error is at most that.
-    pub fn seconds(&self, quantity: Quantity, timed: &[Timed]) -> Table {
+    pub fn seconds(&self, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
         let methods = methods(timed);
         let fastest = |method: &str, error: f64| -> Option<&Timed> {
             let good = timed.iter().filter(|run| run.method == method && run.error(quantity) <= error);
@@ -94,7 +94,7 @@ impl WorkPrecision {
     }
 
     /// Error over seconds: for each method the runs that no other run of it beats.
-    pub fn seconds_figure(&self, quantity: Quantity, timed: &[Timed]) -> String {
+    pub fn seconds_figure(&self, quantity: ErrorMeasure, timed: &[Timed]) -> String {
         let series = methods(timed).into_iter().map(|method| {
             let own = timed.iter().filter(|run| run.method == method);
             let points = front(own.map(|run| (run.seconds(), run.error(quantity))));

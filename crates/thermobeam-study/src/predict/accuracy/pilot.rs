@@ -7,8 +7,8 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
-use crate::error::yardstick::{Quantity, distance, prolong};
-use crate::run::march::{Family, Spent};
+use crate::error::evaluator::{ErrorMeasure, distance, prolong};
+use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::Scheme;
@@ -23,7 +23,7 @@ const LOOSE: [f64; 2] = [0.3, 1.5];
 #[derive(Debug, Clone)]
 pub(super) struct Pilots {
     pub(super) scheme: Scheme,
-    quantity: Quantity,
+    quantity: ErrorMeasure,
     /// Elements and steps of the last pilot.
     at: [usize; 2],
     /// Differences of the last pilot to the one on half the mesh and to the one with half the steps, over time.
@@ -45,7 +45,7 @@ pub(super) struct Forecast<'a> {
 }
 
 impl Pilots {
-    pub(super) fn new(scheme: Scheme, quantity: Quantity) -> Self {
+    pub(super) fn new(scheme: Scheme, quantity: ErrorMeasure) -> Self {
         let spent = Spent::default();
         Self { scheme, quantity, at: [0; 2], differences: vec![], space: vec![], time: vec![], touched: false, spent }
     }
@@ -55,9 +55,9 @@ impl Pilots {
         let [elements, steps] = at;
         let settings = Settings { tolerance: request.tolerance(), ..Settings::default() };
         let (fine, coarse) = (family.on(elements)?, family.on(elements / 2)?);
-        let mut pilot = fine.march(self.scheme, settings, steps)?;
-        let mut wide = coarse.march(self.scheme, settings, steps)?;
-        let mut slow = fine.march(self.scheme, settings, steps / 2)?;
+        let mut pilot = fine.start(self.scheme, settings, steps)?;
+        let mut wide = coarse.start(self.scheme, settings, steps)?;
+        let mut slow = fine.start(self.scheme, settings, steps / 2)?;
         self.differences.clear();
         for _ in 0..steps / 2 {
             pilot.advance(2)?;
@@ -66,7 +66,7 @@ impl Pilots {
             let level = pilot.level();
             self.touched |= level.contact_force != 0.0;
             let pair = match self.quantity {
-                Quantity::Tip => {
+                ErrorMeasure::Tip => {
                     let tip = level.u[elements];
                     [tip - wide.level().u[elements / 2], tip - slow.level().u[elements]]
                 }
@@ -78,8 +78,8 @@ impl Pilots {
             };
             self.differences.push(pair);
         }
-        for march in [&pilot, &wide, &slow] {
-            self.spent += march.spent();
+        for run in [&pilot, &wide, &slow] {
+            self.spent += run.spent();
         }
         self.at = at;
         let largest = [0, 1].map(|axis| largest(self.differences.iter().map(|pair| pair[axis].abs())));
@@ -90,7 +90,7 @@ impl Pilots {
 
     /// Orders in space and time that theory gives.
     fn orders(&self) -> [f64; 2] {
-        [if self.quantity == Quantity::Tip { 2.0 } else { 1.0 }, self.scheme.order]
+        [if self.quantity == ErrorMeasure::Tip { 2.0 } else { 1.0 }, self.scheme.order]
     }
 
     pub(super) fn forecast(&self, quantiles: &Quantiles) -> Forecast<'_> {
@@ -149,7 +149,7 @@ impl Forecast<'_> {
     fn parts(&self, shrink: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let [p, q] = self.rates;
         let space =
-            if self.pilots.quantity == Quantity::Tip { 2_f64.powf(p) - 1.0 } else { (4_f64.powf(p) - 1.0).sqrt() };
+            if self.pilots.quantity == ErrorMeasure::Tip { 2_f64.powf(p) - 1.0 } else { (4_f64.powf(p) - 1.0).sqrt() };
         let factors = [shrink[0] / space, shrink[1] / (2_f64.powf(q) - 1.0)];
         self.pilots.differences.iter().map(move |pair| [pair[0] * factors[0], pair[1] * factors[1]])
     }
@@ -158,7 +158,7 @@ impl Forecast<'_> {
     pub(super) fn error(&self, [elements, steps]: [f64; 2]) -> (f64, [f64; 2]) {
         let [n, s] = self.pilots.at.map(|count| count as f64);
         let shrink = [(n / elements).powf(self.rates[0]), (s / steps).powf(self.rates[1])];
-        let adds = self.pilots.quantity == Quantity::Tip;
+        let adds = self.pilots.quantity == ErrorMeasure::Tip;
         let (mut total, mut space, mut time) = (0.0_f64, 0.0_f64, 0.0_f64);
         for [a, b] in self.parts(shrink) {
             let here = match (adds, self.trust) {

@@ -1,7 +1,8 @@
 //! The runs that a budget is made of.
 
 use super::EstimateError;
-use crate::run::rerun::{Rerun, RunError, resampled};
+use crate::run::driver::RunError;
+use crate::run::rerun::{Rerun, resampled};
 use crate::scene::Scene;
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::{Settings, Solver};

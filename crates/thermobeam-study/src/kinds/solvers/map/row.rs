@@ -75,7 +75,7 @@ impl Point {
         let mut names = vec![];
         let mut require = |holds: bool, name| {
             if !holds {
-                names.push(name)
+                names.push(name);
             }
         };
         require(!self.alpha.is_nan(), "alpha");

@@ -1,25 +1,24 @@
-//! One problem on any mesh and with any step: what everything that trades cost against error runs.
+//! One problem on any mesh and with any step: what a study that trades cost against error runs.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::march`] gives it a scheme and a step. A [`March`] is advanced
-//! from outside, so that several can go side by side and be compared at the times they share. It counts its cost as it
-//! goes: [`Spent`].
+//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`FamilyRun`] is advanced
+//! from outside, so that several can go side by side and be compared at the times they share. It counts its cost:
+//! [`Spent`].
+
+use convergence_study::study::CaseFailure;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::Scheme;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Level, Settings};
 
 use crate::error::design;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::tables::Manufactured;
-use crate::run::patience::StepPatience;
+use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::run::time_limit::Patience;
-use convergence_study::study::CaseFailure;
-use std::time::{Duration, Instant};
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Simulation, Stepping};
-use thermobeam::solve::{Level, Settings};
 
 /// What a computation has cost. The first two are the same on every machine, the third never is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -166,70 +165,57 @@ impl OnMesh<'_> {
     ///
     /// # Errors
     /// [`CaseFailure`] where the solver refuses the numbers.
-    pub fn march(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<March<'_>, CaseFailure> {
+    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<FamilyRun<'_>, CaseFailure> {
         let dt = self.family.t_end / steps as f64;
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
-        let simulation = Simulation::new(self.problem.clone(), stepping)?;
-        let level = Level::new(self.problem.mesh.nodes().len());
-        let patience = Patience::of(&simulation);
-        Ok(March { on: self, simulation, level, dt, factors: Factors::default(), wall: Duration::ZERO, patience })
+        let driver = Driver::new(self.problem.clone(), stepping)?.timed();
+        Ok(FamilyRun { on: self, driver, factors: Factors::default() })
     }
 }
 
-/// A simulation on its way.
-pub struct March<'a> {
+/// A run under way.
+pub struct FamilyRun<'a> {
     on: &'a OnMesh<'a>,
-    simulation: Simulation,
-    level: Level,
-    dt: f64,
+    driver: Driver,
     factors: Factors,
-    wall: Duration,
-    patience: Patience,
 }
 
-impl March<'_> {
+impl FamilyRun<'_> {
     /// Does `steps` steps. The clock runs while the solver does.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own words.
+    /// [`CaseFailure`] with the solver's own message.
     pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
+        let Self { on, driver, factors } = self;
         for _ in 0..steps {
-            self.patience.before_step_of(&self.simulation)?;
-            let middle = (self.simulation.step() as f64 + 0.5) * self.dt;
-            if let Some(load) = self.simulation.load_mut() {
-                self.on.fill(middle, &mut self.factors, load);
-            }
-            let start = Instant::now();
-            let outcome = self.simulation.advance();
-            self.wall += start.elapsed();
-            outcome?;
+            driver.advance(|middle, load| on.fill(middle, factors, load))?;
         }
         Ok(())
     }
 
     /// The present level.
     pub fn level(&mut self) -> &Level {
-        self.simulation.observe(&mut self.level);
-        &self.level
+        self.driver.level()
     }
 
     /// The present time.
     pub fn t(&self) -> f64 {
-        self.simulation.t()
+        self.driver.simulation().t()
     }
 
     /// Length of each element.
     pub fn lengths(&self) -> &[f64] {
-        self.simulation.lengths()
+        self.driver.simulation().lengths()
     }
 
     /// What it has cost so far.
     pub fn spent(&self) -> Spent {
-        let elements = self.simulation.lengths().len() as f64;
+        let simulation = self.driver.simulation();
+        let elements = simulation.lengths().len() as f64;
         Spent {
-            node_steps: elements * self.simulation.step() as f64,
-            node_solves: elements * self.simulation.work().passes as f64,
-            seconds: self.wall.as_secs_f64(),
+            node_steps: elements * simulation.step() as f64,
+            node_solves: elements * simulation.work().passes as f64,
+            seconds: self.driver.wall().as_secs_f64(),
         }
     }
 }

@@ -116,7 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 
 /// Writes the history and the pictures; returns their paths.
 fn write_files(folder: &Path, scene: &Scene, run: &Run) -> io::Result<Vec<PathBuf>> {
-    let history = run.record.iter().map(|record| ("history.csv", record.csv()));
+    let history = run.history.iter().map(|history| ("history.csv", history.csv()));
     let mut written = Vec::new();
     for (name, content) in history.chain(figures(scene, run)) {
         let path = folder.join(name);

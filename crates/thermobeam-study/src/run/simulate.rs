@@ -20,8 +20,8 @@
 //! ```
 
 mod figures;
+mod history;
 mod object;
-mod record;
 mod together;
 
 use std::ops::ControlFlow;
@@ -41,8 +41,8 @@ use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
 
 pub use figures::{energy_at_rest, figures};
+pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
 pub use object::Object;
-pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
 pub use together::{Together, run_together};
 
 /// Where x = 1/2 lies in a mesh.
@@ -127,7 +127,7 @@ pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// The history and frames for pictures, see [`Record`].
+    /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
 
@@ -157,7 +157,7 @@ pub struct Run {
     /// Why the run ended early, if it did.
     pub failure: Option<RunError>,
     /// History and frames, if they were asked for.
-    pub record: Option<Record>,
+    pub history: Option<RunHistory>,
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -219,15 +219,15 @@ impl Simulator {
         let problem = self.driver.simulation().problem();
         // No step has led to the start, so that its contact force is that of the law.
         let first = Sample::observe(self.driver.simulation(), &start, middle).at_the_start(problem.obstacles);
-        let mut record =
-            (recording == Recording::History).then(|| Record::new(problem.mesh.nodes(), steps, first, &start.u));
+        let mut history =
+            (recording == Recording::History).then(|| RunHistory::new(problem.mesh.nodes(), steps, first, &start.u));
         let mut tally = Tally::new(first.u_tip);
         let outcome = self.driver.run::<()>(steps, |Step { report, old, new, simulation }| {
             let balance = simulation.balance(old, new);
             tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
-            if let Some(record) = &mut record {
+            if let Some(history) = &mut history {
                 let sample = || Sample::observe(simulation, new, middle);
-                record.add(simulation.step(), &balance, &new.u, sample);
+                history.add(simulation.step(), &balance, &new.u, sample);
             }
             progress(simulation.step());
             ControlFlow::Continue(())
@@ -235,11 +235,11 @@ impl Simulator {
         let end = self.driver.level().clone();
         let simulation = self.driver.simulation();
         let last = if simulation.step() == 0 { first } else { Sample::observe(simulation, &end, middle) };
-        if let Some(record) = &mut record {
-            record.finish(last, &end.u);
+        if let Some(history) = &mut history {
+            history.finish(last, &end.u);
         }
         let (work, is_heated, wall) = (simulation.work(), simulation.is_heated(), self.driver.wall());
-        Run { failure: outcome.err(), record, ..tally.run(simulation.step(), [first, last], wall, work, is_heated) }
+        Run { failure: outcome.err(), history, ..tally.run(simulation.step(), [first, last], wall, work, is_heated) }
     }
 }
 
@@ -304,7 +304,7 @@ impl Tally {
         self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
     }
 
-    /// The run that it is of, without failure and record.
+    /// The run that it is of, without failure and history.
     fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
         let energy = EnergySummary {
             initial: first.energy,
@@ -324,7 +324,7 @@ impl Tally {
             work,
             is_heated,
             failure: None,
-            record: None,
+            history: None,
         }
     }
 }

@@ -7,7 +7,7 @@ pub struct Key {
     pub table: &'static str,
     /// The key in it, such as `beta`.
     pub name: &'static str,
-    /// Only whole numbers make sense.
+    /// Whether its values are whole numbers.
     pub is_whole: bool,
 }
 
@@ -64,8 +64,8 @@ mod tests {
     #[test]
     fn every_coefficient_can_be_varied() {
         let names = |table| KEYS.iter().filter(|key| key.table == table).map(|key| key.name).collect::<Vec<_>>();
-        assert_eq!(names("beam"), shared_tables::BEAM_KEYS);
-        assert_eq!(names("obstacles"), shared_tables::OBSTACLE_KEYS);
+        assert_eq!(names("beam"), tables::BEAM_KEYS);
+        assert_eq!(names("obstacles"), tables::OBSTACLE_KEYS);
         assert!(KEYS.iter().all(|key| TABLES.contains(&key.table)));
     }
 }

@@ -13,14 +13,15 @@ use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::run::driver::Driver;
+use crate::run::patience::StepPatience;
+use convergence_study::run::time_limit::Patience;
 use convergence_study::study::Axis;
 use convergence_study::study::CaseFailure;
-use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::ContactRule;
-use thermobeam::simulation::{Initial, Problem, Stepping};
+use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::solve::Level;
 
 /// A mistake made on purpose in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,9 +109,12 @@ impl<'a> Prepared<'a> {
         self.meter.lift(&self.mesh, disagreement.beam.theta_a);
         let mut case = DesignCase::new(self, steps, disagreement)?;
         let mut worst = [0.0_f64; 8];
+        let mut patience = Patience::of(&case.simulation);
         for n in 1..=steps {
-            for (worst, error) in worst.iter_mut().zip(case.step(n)?) {
-                *worst = max_or_nan(*worst, error);
+            patience.before_step_of(&case.simulation)?;
+            let errors = case.step(n)?;
+            for (worst, error) in worst.iter_mut().zip(errors) {
+                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
             }
         }
         Ok(worst)
@@ -123,7 +127,8 @@ struct DesignCase<'a> {
     defect: Option<Defect>,
     sources: &'a Sources,
     meter: &'a mut ErrorMeter,
-    driver: Driver,
+    simulation: Simulation,
+    level: Level,
     /// Factors at t_{n-1} and t_n, and those of the sources.
     old: Factors,
     new: Factors,
@@ -139,9 +144,10 @@ impl<'a> DesignCase<'a> {
         let initial = initial(nodal, &spec.beam, mesh, &old, beam.theta_a);
         let dt = spec.refine.dt(steps);
         let stepping = Stepping { scheme: spec.refine.scheme, settings: spec.refine.settings, dt, loaded: true };
-        let driver = Driver::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
+        let level = Level::new(mesh.nodes().len());
+        let simulation = Simulation::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
         let (new, source) = (old.clone(), old.clone());
-        Ok(Self { spec, dt, defect, sources, meter, driver, old, new, source })
+        Ok(Self { spec, dt, defect, sources, meter, simulation, level, old, new, source })
     }
 
     /// Step n and its errors.
@@ -153,14 +159,17 @@ impl<'a> DesignCase<'a> {
         } else {
             self.exact_factors(n)
         };
-        let loads = match self.defect {
-            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
-            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
-            _ => BoundaryLoads::Both,
-        };
-        let (sources, source) = (self.sources, &self.source);
-        self.driver.advance(|_, load| sources.fill(source, n_value, force, loads, load))?;
-        let errors = self.meter.measure(self.driver.level(), &self.new);
+        if let Some(load) = self.simulation.load_mut() {
+            let loads = match self.defect {
+                Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
+                Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
+                _ => BoundaryLoads::Both,
+            };
+            self.sources.fill(&self.source, n_value, force, loads, load);
+        }
+        self.simulation.advance()?;
+        self.simulation.observe(&mut self.level);
+        let errors = self.meter.measure(&self.level, &self.new);
         std::mem::swap(&mut self.old, &mut self.new);
         Ok(errors)
     }

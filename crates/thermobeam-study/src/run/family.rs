@@ -1,24 +1,24 @@
-//! One problem on any mesh and with any step: what a study that trades cost against error runs.
+//! One problem on any mesh and with any step: what everything that trades cost against error runs.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`FamilyRun`] is advanced
-//! from outside, so that several can go side by side and be compared at the times they share. It counts its cost:
-//! [`Spent`].
-
-use convergence_study::study::CaseFailure;
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings};
+//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`FamilyRun`] is
+//! advanced from outside, so that several can go side by side and be compared at the times they share. It counts its cost
+//! as it goes: [`Spent`].
 
 use crate::error::design;
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::tables::Manufactured;
 use crate::run::driver::Driver;
+use crate::run::rerun::resampled;
 use crate::run::simulate;
 use crate::scene::Scene;
+use convergence_study::study::CaseFailure;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::Scheme;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Level, Settings};
 
 /// What a computation has cost. The first two are the same on every machine, the third never is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,8 +58,8 @@ pub struct Family {
     start: Start,
     /// Whether the exact solution needs loads; a free vibration needs none.
     loaded: bool,
-    /// Nodes whose piecewise linear map gives the nodes of any other number of elements; empty for uniform meshes.
-    grading: Vec<f64>,
+    /// The mesh after which all others are laid out; `None` where they are uniform.
+    grading: Option<Mesh>,
 }
 
 impl Family {
@@ -74,13 +74,13 @@ impl Family {
             t_end: scene.t_end,
             start: Start::Scene(Box::new(scene.clone())),
             loaded: false,
-            grading: if is_uniform { vec![] } else { nodes.to_vec() },
+            grading: (!is_uniform).then(|| scene.mesh.clone()),
         }
     }
 
     /// The problem that `exact` solves with the loads derived from it.
     pub fn of_solution(exact: Manufactured, beam: Beam, obstacles: Option<Obstacles>, t_end: f64) -> Self {
-        Self { beam, obstacles, t_end, start: Start::Exact(exact), loaded: true, grading: vec![] }
+        Self { beam, obstacles, t_end, start: Start::Exact(exact), loaded: true, grading: None }
     }
 
     /// The problem that `exact` solves without any load.
@@ -96,21 +96,15 @@ impl Family {
         }
     }
 
-    /// The mesh of so many elements, graded as the family is.
+    /// The mesh of so many elements, graded as the scene's.
     ///
     /// # Errors
     /// [`MeshError`] for no elements.
     pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        if self.grading.is_empty() {
-            return Mesh::uniform(elements);
+        match &self.grading {
+            None => Mesh::uniform(elements),
+            Some(grading) => resampled(grading, elements),
         }
-        let last = self.grading.len() - 1;
-        Mesh::mapped(elements, |s| {
-            let place = s * last as f64;
-            let left = (place as usize).min(last - 1);
-            let fraction = place - left as f64;
-            (1.0 - fraction) * self.grading[left] + fraction * self.grading[left + 1]
-        })
     }
 
     /// The problem on a mesh.
@@ -130,13 +124,13 @@ impl Family {
             }
         };
         let problem = Problem { beam: self.beam, obstacles: self.obstacles, mesh, initial };
-        Ok(OnMesh { family: self, problem, sources })
+        Ok(OnMesh { of: self, problem, sources })
     }
 }
 
-/// A family on a mesh: what runs with different steps share.
+/// A problem on a mesh: what runs with different steps share.
 pub struct OnMesh<'a> {
-    family: &'a Family,
+    of: &'a Family,
     problem: Problem,
     sources: Option<Sources>,
 }
@@ -154,10 +148,10 @@ impl OnMesh<'_> {
 
     /// Writes the loads at time t; does nothing where there are none.
     pub fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
-        let (Some(sources), Some(exact)) = (&self.sources, self.family.exact()) else { return };
+        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return };
         factors.at(exact, t);
         let u = &factors.u.value;
-        let force = self.family.obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
+        let force = self.of.obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
         sources.fill(factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
     }
 
@@ -166,14 +160,14 @@ impl OnMesh<'_> {
     /// # Errors
     /// [`CaseFailure`] where the solver refuses the numbers.
     pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<FamilyRun<'_>, CaseFailure> {
-        let dt = self.family.t_end / steps as f64;
+        let dt = self.of.t_end / steps as f64;
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
         let driver = Driver::new(self.problem.clone(), stepping)?.timed();
         Ok(FamilyRun { on: self, driver, factors: Factors::default() })
     }
 }
 
-/// A run under way.
+/// A simulation under way that counts what it costs.
 pub struct FamilyRun<'a> {
     on: &'a OnMesh<'a>,
     driver: Driver,
@@ -184,11 +178,11 @@ impl FamilyRun<'_> {
     /// Does `steps` steps. The clock runs while the solver does.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own message.
+    /// [`CaseFailure`] with the solver's own words.
     pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
         let Self { on, driver, factors } = self;
         for _ in 0..steps {
-            driver.advance(|middle, load| on.fill(middle, factors, load))?;
+            driver.advance(|t, load| on.fill(t, factors, load))?;
         }
         Ok(())
     }

@@ -2,15 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use crate::run::driver::{Driver, RunError};
+use crate::run::simulate;
+use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
-
-use crate::expression::Expression;
-use crate::run::driver::{Driver, RunError, Step};
-use crate::scene::Scene;
 
 /// What a scene is run with.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +28,7 @@ pub(crate) struct Rerun<'s> {
     pub(crate) settings: Settings,
 }
 
-/// What was observed.
+/// What was seen on the way.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trace<S> {
     /// Smallest and largest u(1) over all time levels, the start included; NaN once a level was.
@@ -45,9 +44,12 @@ impl<'s> Rerun<'s> {
         Self { scene, mesh: mesh.clone(), steps: *steps, t_end: *t_end, scheme: *scheme, settings: *settings }
     }
 
-    /// Runs it.
+    /// Runs it to its end.
     ///
     /// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
+    ///
+    /// # Errors
+    /// [`RunError`] where the solver refuses the problem, or a step fails.
     pub(crate) fn run<S>(
         &self,
         samples: usize,
@@ -55,35 +57,23 @@ impl<'s> Rerun<'s> {
     ) -> Result<Trace<S>, RunError> {
         let Self { scheme, settings, .. } = *self;
         let dt = self.t_end / self.steps as f64;
-        let stepping = Stepping { scheme, settings, dt, loaded: false };
-        let mut driver = Driver::new(self.problem(), stepping)?;
+        let mut driver = Driver::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
         let last = self.mesh.elements();
         let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
         let stride = self.steps / samples;
-        driver.run::<()>(self.steps, |Step { new, simulation, .. }| {
-            let tip = new.u[last];
+        driver.run(self.steps, |step| {
+            let tip = step.new.u[last];
             trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
-            if simulation.step() % stride == 0 {
-                trace.samples.push(sample(simulation, new));
+            if step.simulation.step() % stride == 0 {
+                trace.samples.push(sample(step.simulation, step.new));
             }
-            ControlFlow::Continue(())
+            ControlFlow::<()>::Continue(())
         })?;
         Ok(trace)
     }
 
     fn problem(&self) -> Problem {
-        let at_nodes = |function: &Option<Expression>| {
-            let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
-            self.mesh.nodes().iter().map(value).collect()
-        };
-        let data = &self.scene.initial;
-        let initial = Initial {
-            u: at_nodes(&data.u),
-            u_t: at_nodes(&data.u_t),
-            phi: at_nodes(&data.phi),
-            phi_t: at_nodes(&data.phi_t),
-            theta: at_nodes(&data.theta),
-        };
+        let initial = simulate::initial(self.scene, &self.mesh);
         Problem { beam: self.scene.beam, obstacles: self.scene.obstacles, mesh: self.mesh.clone(), initial }
     }
 }
@@ -92,6 +82,10 @@ impl<'s> Rerun<'s> {
 ///
 /// Where m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
 pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
+    if elements == 0 {
+        // The error that every mesh without elements is refused with.
+        return Mesh::uniform(0);
+    }
     let (nodes, n) = (mesh.nodes(), mesh.elements());
     let node = |j: usize| {
         // In whole numbers: a rounded j/m would put nested nodes a bit beside each other.
@@ -112,6 +106,7 @@ mod tests {
     fn resampled_meshes_are_nested_to_the_last_bit() {
         let mesh = Mesh::mapped(12, |s| 0.3 * s + 0.7 * s * s).expect("a mesh");
         assert_eq!(resampled(&mesh, 12).expect("a mesh"), mesh);
+        assert!(resampled(&mesh, 0).is_err());
         for (coarse, fine) in [(3, 6), (4, 12), (12, 36), (24, 48), (5, 35)] {
             let [coarse, fine] = [coarse, fine].map(|n| resampled(&mesh, n).expect("a mesh"));
             let ratio = fine.elements() / coarse.elements();

@@ -27,7 +27,6 @@ mod together;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
@@ -39,6 +38,7 @@ use thermobeam::solve::{Level, StepReport, Work};
 use crate::expression::Expression;
 use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
+use convergence_study::text::number::max_or_nan;
 
 pub use figures::{energy_at_rest, figures};
 pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
@@ -197,7 +197,7 @@ pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
 /// A scene, ready to run.
 pub struct Simulator {
     driver: Driver,
-    middle: Middle,
+    sampler: Sampler,
     steps: usize,
 }
 
@@ -209,46 +209,61 @@ impl Simulator {
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
         let driver = Driver::new(problem(scene), stepping)?.timed();
-        Ok(Self { driver, middle: Middle::of(&scene.mesh), steps: scene.steps })
+        let sampler = Sampler { middle: Middle::of(&scene.mesh), dt: scene.dt };
+        Ok(Self { driver, sampler, steps: scene.steps })
     }
 
-    /// Steps to the end; `progress` is called with the number of steps done after each of them.
-    pub fn run(mut self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
-        let (middle, steps) = (self.middle, self.steps);
-        let start = self.driver.level().clone();
-        let problem = self.driver.simulation().problem();
+    /// Steps to the end; `progress` hears the number of steps done after each of them.
+    pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
+        let Self { mut driver, sampler, steps } = self;
+        let start = driver.level().clone();
         // No step has led to the start, so that its contact force is that of the law.
-        let first = Sample::observe(self.driver.simulation(), &start, middle).at_the_start(problem.obstacles);
-        let mut history =
-            (recording == Recording::History).then(|| RunHistory::new(problem.mesh.nodes(), steps, first, &start.u));
+        let obstacles = driver.simulation().problem().obstacles;
+        let first = sampler.sample(driver.simulation(), &start).at_the_start(obstacles);
+        let nodes = driver.simulation().problem().mesh.nodes();
+        let mut history = (recording == Recording::History).then(|| RunHistory::new(nodes, steps, first, &start.u));
         let mut tally = Tally::new(first.u_tip);
-        let outcome = self.driver.run::<()>(steps, |Step { report, old, new, simulation }| {
+        let ended = driver.run(steps, |step| {
+            let Step { report, old, new, simulation } = step;
             let balance = simulation.balance(old, new);
             tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
             if let Some(history) = &mut history {
-                let sample = || Sample::observe(simulation, new, middle);
-                history.add(simulation.step(), &balance, &new.u, sample);
+                history.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
             }
             progress(simulation.step());
-            ControlFlow::Continue(())
+            ControlFlow::<()>::Continue(())
         });
-        let end = self.driver.level().clone();
-        let simulation = self.driver.simulation();
-        let last = if simulation.step() == 0 { first } else { Sample::observe(simulation, &end, middle) };
+        let end = driver.level().clone();
+        let simulation = driver.simulation();
+        let last = if simulation.step() == 0 { first } else { sampler.sample(simulation, &end) };
         if let Some(history) = &mut history {
             history.finish(last, &end.u);
         }
-        let (work, is_heated, wall) = (simulation.work(), simulation.is_heated(), self.driver.wall());
-        Run { failure: outcome.err(), history, ..tally.run(simulation.step(), [first, last], wall, work, is_heated) }
+        let (work, is_heated) = (simulation.work(), simulation.is_heated());
+        Run {
+            failure: ended.err(),
+            history,
+            ..tally.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
+        }
+    }
+}
+
+/// Reads samples off the levels of a simulation.
+#[derive(Debug, Clone, Copy)]
+struct Sampler {
+    middle: Middle,
+    dt: f64,
+}
+
+impl Sampler {
+    fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
+        let theta_a = simulation.problem().beam.theta_a;
+        let t = simulation.step() as f64 * self.dt;
+        Sample::of(level, t, self.middle, theta_a, simulation.energy(level).total())
     }
 }
 
 impl Sample {
-    fn observe(simulation: &Simulation, level: &Level, middle: Middle) -> Self {
-        let (t, theta_a) = (simulation.step() as f64 * simulation.dt(), simulation.problem().beam.theta_a);
-        Self::of(level, t, middle, theta_a, simulation.energy(level).total())
-    }
-
     fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
         Self {

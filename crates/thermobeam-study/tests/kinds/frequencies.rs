@@ -1,7 +1,9 @@
-use crate::{changed, file, passes_but_not_without_each_case, results, text};
+use crate::typed::{changed, passes_but_not_without_each_case};
+use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::kind::run_cases_here;
+use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::frequencies::Frequencies;
-use thermobeam_study::kinds::{FromFile, Study};
 
 fn study() -> Frequencies {
     Frequencies::read(file("frequencies.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -17,17 +19,20 @@ fn the_file_passes_but_not_without_each_case() {
 #[test]
 fn each_frequency_can_fail() {
     let study = study();
-    let sound = results(&study);
-    for mode in 1..=8 {
+    let sound = run_cases_here(&study);
+    for mode in 0..8 {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
-            study.conclude(&changed(&sound, &format!("omega-{mode}"), change)).verdict
+            let planted = changed::<Frequencies>(&sound, |case, found| found[mode] = change(case, found[mode]));
+            study.judge(&planted).verdict
         };
         assert_eq!(verdict(&|_, omega| omega), Verdict::Pass);
         assert_eq!(verdict(&|case, omega| if case == 0 { f64::NAN } else { omega }), Verdict::Fail);
         assert_eq!(verdict(&|case, omega| if case == 4 { omega - 1e-2 } else { omega }), Verdict::Fail, "from below");
         // The wrong frequency to converge to.
-        assert_ne!(verdict(&|_, omega| omega + 1e-3), Verdict::Pass, "{mode}");
+        assert_ne!(verdict(&|_, omega| omega + 1e-3), Verdict::Pass, "mode {}", mode + 1);
     }
+    let short = changed::<Frequencies>(&sound, |case, found| found.truncate(if case == 2 { 7 } else { 8 }));
+    assert_eq!(study.judge(&short).verdict, Verdict::Fail, "a frequency is missing");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
 mod frequencies;
+mod planted;
 mod rigid;
 mod self_convergence;
 mod solvers;

@@ -1,7 +1,8 @@
 //! Obstacles becoming rigid: the study passes, and fails on each of its claims.
 
 use crate::file;
-use crate::typed::{passes_but_not_without_each_case, verdict_with};
+use crate::planted::verdict_with;
+use crate::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::rigid::{Found, RigidStudy, RunOf};

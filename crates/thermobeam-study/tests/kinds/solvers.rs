@@ -1,9 +1,10 @@
 //! The two solvers: each part's own studies pass, and fail on each of their claims.
 
-use crate::typed::{Results, passes_but_not_without_each_case, run, verdict_with};
+use crate::planted::verdict_with;
+use crate::typed::{Runs, passes_but_not_without_each_case};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind};
+use convergence_study::study::{FromFile, Kind, run_here};
 use thermobeam_study::kinds::solvers::{Agreement, Boundary, Contraction, Crossing, Found, Point, Row, Solvers};
 
 fn map() -> Solvers {
@@ -68,7 +69,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
 }
 
 /// Each boundary must be where α = 1; the results from `first` on are lines.
-fn lines_fail(study: &Solvers, sound: &Results<Solvers>, first: usize) {
+fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
     for index in first..sound.len() {
         let with = |change: &dyn Fn(&mut Boundary)| verdict_with(study, sound, index, |found| change(boundary(found)));
         let with_crossing = |change: &dyn Fn(&mut Crossing)| with(&|line| change(line.found.as_mut().expect("found")));
@@ -122,7 +123,7 @@ fn a_study_may_have_several_parts() {
     let parts = text("stability-coarse.toml").replace("points = 12", "points = 3").replace("[1e-6, 1e-3]", "[1e-3]")
         + "\n[contraction]\nelements = 20\ndt = [1e-3]\nepsilon = [1e-3]\nzeta = [0.1]\n";
     let study = Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
-    let outcome = study.judge(&run(&study));
+    let outcome = run_here(&study);
     assert_eq!((study.cases().len(), outcome.tables.len(), outcome.figures.len()), (5, 2, 5));
     assert!(outcome.summary.contains("of alpha; 9 points"), "{}", outcome.summary);
 }

@@ -1,41 +1,35 @@
-//! What every kind with typed results must keep.
+//! What every typed kind of study is held to, and defects planted in its results.
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::outcome::Outcome;
-use convergence_study::study::{CaseFailure, Kind, Ran};
+use convergence_study::study::kind::run_cases_here;
+use convergence_study::study::{CaseFailure, Kind, Outcome, Ran};
 
-/// The results of all cases, computed on this thread.
-pub(crate) type Results<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
+/// The results of a study: every case, run on this thread.
+pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
 
-/// Runs all cases.
-pub(crate) fn run<K: Kind>(study: &K) -> Results<K> {
-    convergence_study::study::run_cases_here(study)
-}
-
-/// The verdict with one result changed.
-pub(crate) fn verdict_with<K: Kind>(
-    study: &K,
-    sound: &Results<K>,
-    index: usize,
-    change: impl FnOnce(&mut K::Found),
-) -> Verdict
+/// The results with what every case found changed by `change`, which is told the number of the case.
+pub(crate) fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
 where
     K::Data: Clone,
     K::Found: Clone,
 {
-    let mut planted = sound.clone();
-    change(planted[index].found.as_mut().expect("a result"));
-    study.judge(&planted).verdict
+    let mut runs = sound.clone();
+    for (index, ran) in runs.iter_mut().enumerate() {
+        change(index, ran.found.as_mut().unwrap_or_else(|failure| panic!("{}: {}", ran.case.label, failure.reason)));
+    }
+    runs
 }
 
-/// The study passes as it is, and fails once a case has failed or nothing was run.
+/// The study passes as it is, and fails once a case has failed or is missing.
+///
+/// * Returns the results, which a test may go on with.
 #[track_caller]
-pub(crate) fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Results<K>
+pub(crate) fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Runs<K>
 where
     K::Data: Clone,
     K::Found: Clone,
 {
-    let sound = run(study);
+    let sound = run_cases_here(study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}: {}", outcome.summary, report(&outcome));
     check_shape(&study.header().id, &outcome);
@@ -43,16 +37,18 @@ where
         let mut failed = sound.clone();
         failed[index].found = Err(CaseFailure { reason: "planted".into() });
         let outcome = study.judge(&failed);
-        assert_eq!(outcome.verdict, Verdict::Fail, "case {index}: {}", sound[index].case.label);
-        assert!(report(&outcome).contains("planted"));
+        assert_eq!(outcome.verdict, Verdict::Fail, "case {index} failed");
+        assert!(report(&outcome).contains("planted"), "{}", report(&outcome));
     }
-    assert_eq!(study.judge(&[]).verdict, Verdict::Fail);
+    assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
     sound
 }
 
-/// Figures named after the study, tables without ragged rows, finite guarded numbers with names of their own.
-fn check_shape(id: &str, outcome: &Outcome) {
-    assert!(!outcome.figures.is_empty() && !outcome.tables.is_empty() && !outcome.quantities.is_empty());
+/// Figures and tables that the report can take, and numbers that the baseline can guard.
+#[track_caller]
+pub(crate) fn check_shape(id: &str, outcome: &Outcome) {
+    assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
+    assert!(!outcome.figures.is_empty() && !outcome.quantities.is_empty());
     for figure in &outcome.figures {
         assert!(figure.file.starts_with(&format!("{id}-")) && figure.file.ends_with(".svg"), "{}", figure.file);
         assert!(figure.svg.starts_with("<svg") && !figure.caption.is_empty());
@@ -60,14 +56,14 @@ fn check_shape(id: &str, outcome: &Outcome) {
     for table in &outcome.tables {
         assert!(table.rows.iter().all(|row| row.len() == table.head.len()), "{}", table.title);
     }
-    let mut names: Vec<&str> = outcome.quantities.iter().map(|quantity| quantity.name.as_str()).collect();
     assert!(outcome.quantities.iter().all(|quantity| quantity.value.is_finite() && quantity.tolerance > 0.0));
+    let mut names: Vec<&str> = outcome.quantities.iter().map(|quantity| quantity.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), outcome.quantities.len());
 }
 
-/// Every verdict of an outcome with its reason, line by line.
+/// All that was judged, with its evidence.
 pub(crate) fn report(outcome: &Outcome) -> String {
     let rates = outcome.rates.iter().map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
     let checks = outcome.checks.iter().map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));

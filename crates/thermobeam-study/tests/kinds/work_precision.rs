@@ -1,10 +1,10 @@
 //! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
 
 use crate::file;
-use crate::typed::{passes_but_not_without_each_case, run};
+use crate::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::outcome::Outcome;
-use convergence_study::study::{CaseFailure, FromFile, Kind};
+use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here, run_here};
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::Measurement;
 
@@ -29,13 +29,13 @@ fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
     let outcome = study.judge(&passes_but_not_without_each_case(&study));
     assert!(outcome.checks.iter().any(|check| check.claim.contains("100 times cheaper")));
     let again = quick();
-    assert_eq!(outcome, again.judge(&run(&again)));
+    assert_eq!(outcome, run_here(&again));
 }
 
 #[test]
 fn planted_defects_fail() {
     let study = quick();
-    let honest = run(&study);
+    let honest = run_cases_here(&study);
     // The defect is told the number of steps.
     let plant = |only: &str, defect: &dyn Fn(usize, &mut Measurement)| {
         let mut planted = honest.clone();
@@ -78,7 +78,7 @@ fn planted_defects_fail() {
 fn a_claim_that_is_too_bold_fails() {
     let text = crate::text("work-precision-manufactured.toml");
     let study = read(&text.replace("times = 100", "times = 100000")).unwrap();
-    let outcome = study.judge(&run(&study));
+    let outcome = run_here(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert_eq!(failed(&outcome).len(), 1);
 }
@@ -88,7 +88,7 @@ fn seconds_are_there_for_benchmarks_only() {
     let study = quick();
     let timed = study.timed().unwrap();
     assert!(timed.iter().all(|run| run.measurement.spent.seconds > 0.0));
-    let mut slow = run(&study);
+    let mut slow = run_cases_here(&study);
     let outcome = study.judge(&slow);
     for run in slow.iter_mut().flat_map(|ran| ran.found.as_mut().unwrap()) {
         run.spent.seconds *= 2.0;

@@ -7,18 +7,15 @@ use std::time::Instant;
 use crate::project::PROJECT;
 use convergence_study::store::atomic;
 use convergence_study::store::provenance::Provenance;
-use convergence_study::study::Tier;
-use convergence_study::study::outcome::Table;
+use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
 use convergence_study::{report, run as runner};
-use thermobeam_study::error::yardstick::Quantity;
-use thermobeam_study::kinds::work_precision::{WORK_PRECISION, WorkPrecision};
-use thermobeam_study::kinds::{FromFile, Study};
-use thermobeam_study::predict::pace;
+use thermobeam_study::error::evaluator::ErrorMeasure;
+use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
+use thermobeam_study::run::step_time;
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::{output, screen, selection, workspace};
-use convergence_study::study::StudyFile;
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -44,11 +41,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let scene = Scene::read(&path)?;
     let studies = workspace::studies(&PROJECT, &root)?;
     let mut page = Page { text: heading(&root, &path), folder: root.join("reports") };
-    page.add(&pace::ways(&scene, 100)?)?;
-    page.add(&pace::ways(&scene, 1000)?)?;
-    page.add(&pace::scenes(&scene, 100)?)?;
-    page.add(&pace::scaling(&scene, &ELEMENTS)?)?;
-    for file in studies.iter().filter(|file| file.study.header().kind == WORK_PRECISION) {
+    page.add(&step_time::ways(&scene, 100)?)?;
+    page.add(&step_time::ways(&scene, 1000)?)?;
+    page.add(&step_time::scenes(&scene, 100)?)?;
+    page.add(&step_time::scaling(&scene, &ELEMENTS)?)?;
+    for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
         accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }
     threads(studies, arguments.tier, &mut page)?;
@@ -97,7 +94,7 @@ fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
     #[cfg(feature = "ode-library")]
     let runs = [runs, study.timed_library().map_err(|failure| Unusable::because(&failure.reason))?].concat();
     let id = &study.header().id;
-    for quantity in Quantity::ALL {
+    for quantity in ErrorMeasure::ALL {
         let table = study.seconds(quantity, &runs);
         if table.rows.is_empty() {
             continue;

@@ -1,4 +1,4 @@
-//! `merge DIR...`: shares of a sweep, joined.
+//! `merge DIR...`: joins the shares of a sweep.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use convergence_study::cli::output;
 
 /// Join the shares of a sweep into the file that one run would have written
 ///
-/// A case that is missing or there twice is an error, and nothing is written.
+/// A missing or repeated case is an error, and nothing is written.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The folders of all shares
@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
     /// The file to write, in the order of the cases
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Say nothing where all is well
+    /// Print nothing on success
     #[arg(long, short)]
     quiet: bool,
 }

@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let (run, _) = time_limit::within(arguments.time_limit, simulate);
     bar.finish_and_clear();
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| {
-        let history = run.record.iter().map(|record| ("history.csv", record.csv()));
+        let history = run.history.iter().map(|history| ("history.csv", history.csv()));
         write_files(folder, history.chain(figures(&scene, &run)))
     })?;
     // A run that failed has nothing whose error could be estimated.

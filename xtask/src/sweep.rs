@@ -17,25 +17,25 @@ use convergence_study::cli::running::seconds;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
-/// One JSON line for each case: its parameters and what `run --format json` prints, without the time on the clock. A case
-/// that fails has a line with the reason; the exit status is then 1.
+/// One JSON line for each case: its parameters and what `run --format json` prints, without the wall time. A case that fails
+/// has a line with the reason; the exit status is then 1.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The sweep file
     file: PathBuf,
-    /// Write to this folder, which is made if need be: a journal, and results.jsonl at the end; default: standard output
+    /// Write to this folder: a journal, and results.jsonl at the end; default: standard output
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Threads; default: one for each processor
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     jobs: usize,
-    /// The longest that a case may take; its line says where it was stopped, and the others go on [default: as long as it takes]
+    /// Time limit of a case; its line says where it was stopped, and the others continue [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     case_limit: Option<Duration>,
-    /// Go on with what is in the folder; where there is nothing, begin
+    /// Continue the sweep in the folder; start it where the folder is empty
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Run share k of n, dealt by the content of the cases; `merge` joins the shares
+    /// Run share k of n, which the values of a case determine; `merge` joins the shares
     #[arg(long, value_name = "k/n", default_value_t = Share::ALL, hide_default_value = true)]
     partition: Share,
     /// Show no progress bar
@@ -68,7 +68,7 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<u
     });
     bar.finish_and_clear();
     match outcome {
-        // A reader who has seen enough, such as `head`, is no error.
+        // A reader that stops early, such as `head`, is no error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
         _ => Ok(state.into_inner().unwrap_or_else(PoisonError::into_inner).1),
     }
@@ -86,10 +86,10 @@ fn to_folder(
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
     let begun = pending.len();
     let bar = progress::counting(&sweep.name, begun, "cases", arguments.quiet);
-    let (told, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
+    let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
     interrupt::say(move || {
-        let done = before + told.position() as usize;
-        format!("{done} of {cases} cases are kept in {place}; --resume goes on from there")
+        let done = before + counted.position() as usize;
+        format!("{done} of {cases} cases are saved in {place}; continue with --resume")
     });
     let start = Instant::now();
     let journal = journaled(sweep, pending, arguments, journal, &bar)?;

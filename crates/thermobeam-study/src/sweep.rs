@@ -25,8 +25,8 @@
 //! ```
 //!
 //! Cases are numbered from 0. A case's results are a function of the files alone: any number of threads, of shares and of
-//! interruptions ends in the same bytes. Numbers that are computed rather than listed are rounded to 9 digits, so that
-//! the logarithm of another machine's library does not move a case to another share.
+//! interruptions gives the same bytes. Computed numbers are rounded to 9 digits, so that a different mathematical library
+//! does not move a case to another share.
 
 mod case;
 mod design;
@@ -46,7 +46,7 @@ use crate::scene::Scene;
 use crate::scene::limits;
 use convergence_study::input::{self, InputError};
 
-pub use case::Case;
+pub use case::SweepCase;
 pub use error::SweepError;
 pub use join::{Merged, merge};
 pub use journal::{Journal, Manifest, RESULTS};
@@ -57,7 +57,7 @@ pub use share::{Share, content_hash};
 use design::Design;
 use reader::Template;
 
-/// Cases of a sweep: more would take a machine longer than it lasts.
+/// Largest number of cases of a sweep.
 pub const MOST_CASES: usize = limits::SWEEP_CASES;
 
 /// A sweep file, read and validated.
@@ -72,7 +72,7 @@ pub struct Sweep {
     fingerprint: u64,
 }
 
-/// The base scene, as text: every case reads it with its own values laid over it.
+/// The base scene, as text: every case reads it with its own values in place of the scene's.
 #[derive(Debug, Clone)]
 struct Base {
     file: String,
@@ -83,8 +83,8 @@ impl Sweep {
     /// Reads a sweep file and the scene that it names.
     ///
     /// # Errors
-    /// [`InputError`] with the place of the mistake. A number that the scene cannot have is one, wherever it does not
-    /// depend on the other numbers of the case; what does is found when the case is run.
+    /// [`InputError`] with file, line and field. A number that no scene can have is refused here; whether the numbers of a
+    /// case are compatible with each other is found when it is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = input::read_text(path)?;
@@ -101,20 +101,20 @@ impl Sweep {
         &self.keys
     }
 
-    /// Case number `index`, from 0.
-    pub fn case(&self, index: usize) -> Case<'_> {
-        Case::new(index, &self.keys, self.design.values(index, &self.keys))
+    /// SweepCase number `index`, from 0.
+    pub fn case(&self, index: usize) -> SweepCase<'_> {
+        SweepCase::new(index, &self.keys, self.design.values(index, &self.keys))
     }
 
     /// The scene of a case.
     ///
     /// # Errors
-    /// [`InputError`] where the case's numbers do not go together, such as a dt that does not divide t_end.
-    pub fn scene(&self, case: &Case<'_>) -> Result<Scene, InputError> {
+    /// [`InputError`] where the case's numbers are incompatible, such as a dt that does not divide t_end.
+    pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
         Scene::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
     }
 
-    /// A number that changes with the sweep file or the base scene.
+    /// A hash of the sweep file and the base scene.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
     }

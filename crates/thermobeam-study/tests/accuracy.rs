@@ -3,10 +3,10 @@
 use convergence_study::study::FromFile as _;
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::Settings;
+use thermobeam_study::error::evaluator::{ErrorMeasure, Evaluator, Reference};
 use thermobeam_study::error::free_vibration::{beam, vibration};
-use thermobeam_study::error::yardstick::{Quantity, Reference, Yardstick};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
+use thermobeam_study::predict::accuracy::{Choice, Request, Trust, Unreachable, choose};
 use thermobeam_study::run::family::Family;
 use thermobeam_study::scene::Scene;
 
@@ -22,16 +22,16 @@ fn manufactured() -> Family {
 }
 
 /// The error made, over all time levels.
-fn made(family: &Family, quantity: Quantity, scheme: Scheme, settings: Settings, [n, steps]: [usize; 2]) -> f64 {
+fn made(family: &Family, quantity: ErrorMeasure, scheme: Scheme, settings: Settings, [n, steps]: [usize; 2]) -> f64 {
     let on = family.on(n).unwrap();
-    let mut yardstick = Yardstick::new(family, &on, None).unwrap();
+    let mut evaluator = Evaluator::new(family, &on, None).unwrap();
     let mut run = on.start(scheme, settings, steps).unwrap();
     let mut worst = 0.0_f64;
     for index in 0..steps {
         run.advance(1).unwrap();
         let t = run.t();
-        let errors = yardstick.measure(run.level(), index, t);
-        let error = errors[Quantity::ALL.iter().position(|&other| other == quantity).unwrap()];
+        let errors = evaluator.measure(run.level(), index, t);
+        let error = errors[ErrorMeasure::ALL.iter().position(|&other| other == quantity).unwrap()];
         assert!(error.is_finite());
         worst = worst.max(error);
     }
@@ -39,7 +39,7 @@ fn made(family: &Family, quantity: Quantity, scheme: Scheme, settings: Settings,
 }
 
 /// Node-steps of the cheapest run with the error `target`, by search over meshes, steps and schemes.
-fn searched(family: &Family, quantity: Quantity, target: f64, about: &Plan) -> f64 {
+fn searched(family: &Family, quantity: ErrorMeasure, target: f64, about: &Choice) -> f64 {
     let mut best = f64::INFINITY;
     for scheme in SCHEMES {
         for k in -3..=3 {
@@ -62,33 +62,33 @@ fn searched(family: &Family, quantity: Quantity, target: f64, about: &Plan) -> f
 
 /// The error made is that asked for; the run costs at most twice the best, and so does it with its pilots.
 #[track_caller]
-fn check(family: &Family, quantity: Quantity, target: f64) {
-    let plan = plan(family, &Request::new(quantity, target)).unwrap();
-    let error = made(family, quantity, plan.scheme, plan.settings, [plan.elements, plan.steps]);
-    let context = format!("{} {target:e}: {error:e} made by {plan:?}", quantity.name());
+fn check(family: &Family, quantity: ErrorMeasure, target: f64) {
+    let choice = choose(family, &Request::new(quantity, target)).unwrap();
+    let error = made(family, quantity, choice.scheme, choice.settings, [choice.elements, choice.steps]);
+    let context = format!("{} {target:e}: {error:e} made by {choice:?}", quantity.name());
     assert!((0.2 * target..=target).contains(&error), "{context}");
-    assert!((0.7..=1.4).contains(&(error / plan.believed)), "{context}");
-    assert_eq!((plan.scheme.name, plan.trust), ("midpoint", Trust::Firm), "{context}");
-    let best = searched(family, quantity, target, &plan);
-    let cost = plan.node_steps() + plan.pilots.node_steps;
+    assert!((0.7..=1.4).contains(&(error / choice.believed)), "{context}");
+    assert_eq!((choice.scheme.name, choice.trust), ("midpoint", Trust::Firm), "{context}");
+    let best = searched(family, quantity, target, &choice);
+    let cost = choice.node_steps() + choice.pilots.node_steps;
     assert!(cost <= 2.0 * best, "{context}: with pilots {cost:e}, the best {best:e}");
 }
 
 #[test]
 fn a_vibrating_tip_is_as_accurate_as_asked_for_at_little_cost() {
     for target in [1e-5, 1e-6] {
-        check(&vibrating(&[0, 1], 0.1, 2.0), Quantity::Tip, target);
-        check(&vibrating(&[0], 0.5, 4.0), Quantity::Tip, target);
+        check(&vibrating(&[0, 1], 0.1, 2.0), ErrorMeasure::Tip, target);
+        check(&vibrating(&[0], 0.5, 4.0), ErrorMeasure::Tip, target);
     }
 }
 
 #[test]
 fn a_manufactured_solution_is_as_accurate_as_asked_for_at_little_cost() {
     for target in [1e-4, 1e-5] {
-        check(&manufactured(), Quantity::Tip, target);
+        check(&manufactured(), ErrorMeasure::Tip, target);
     }
     for target in [1e-2, 3e-3] {
-        check(&manufactured(), Quantity::Theorem34, target);
+        check(&manufactured(), ErrorMeasure::Theorem34, target);
     }
 }
 
@@ -96,10 +96,10 @@ fn a_manufactured_solution_is_as_accurate_as_asked_for_at_little_cost() {
 fn a_coarse_answer_is_as_accurate_as_asked_for_whatever_the_pilots_cost() {
     for target in [1e-2, 1e-3, 1e-4] {
         let family = vibrating(&[0, 1], 0.1, 2.0);
-        let plan = plan(&family, &Request::new(Quantity::Tip, target)).unwrap();
-        let error = made(&family, Quantity::Tip, plan.scheme, plan.settings, [plan.elements, plan.steps]);
-        assert!((0.2 * target..=target).contains(&error), "{target:e}: {error:e}, {plan:?}");
-        assert!(plan.pilots.node_steps < 3000.0);
+        let choice = choose(&family, &Request::new(ErrorMeasure::Tip, target)).unwrap();
+        let error = made(&family, ErrorMeasure::Tip, choice.scheme, choice.settings, [choice.elements, choice.steps]);
+        assert!((0.2 * target..=target).contains(&error), "{target:e}: {error:e}, {choice:?}");
+        assert!(choice.pilots.node_steps < 3000.0);
     }
 }
 
@@ -114,48 +114,48 @@ fn thrown(t_end: f64) -> Family {
 fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
     const OBSERVATIONS: usize = 200;
     for (t_end, quantity, target) in [
-        (0.5, Quantity::Tip, 1e-4),
-        (0.5, Quantity::Theorem34, 1e-2),
-        (2.0, Quantity::Tip, 1e-3),
-        (2.0, Quantity::Tip, 1e-4),
+        (0.5, ErrorMeasure::Tip, 1e-4),
+        (0.5, ErrorMeasure::Theorem34, 1e-2),
+        (2.0, ErrorMeasure::Tip, 1e-3),
+        (2.0, ErrorMeasure::Tip, 1e-4),
     ] {
         let family = thrown(t_end);
-        let plan = plan(&family, &Request::new(quantity, target)).unwrap();
-        let steps = plan.steps.next_multiple_of(OBSERVATIONS);
-        let reference = Reference::compute(&family, plan.elements * 4, steps * 4, OBSERVATIONS).unwrap();
-        let on = family.on(plan.elements).unwrap();
-        let mut yardstick = Yardstick::new(&family, &on, Some(&reference)).unwrap();
-        let mut run = on.start(plan.scheme, plan.settings, steps).unwrap();
+        let choice = choose(&family, &Request::new(quantity, target)).unwrap();
+        let steps = choice.steps.next_multiple_of(OBSERVATIONS);
+        let reference = Reference::compute(&family, choice.elements * 4, steps * 4, OBSERVATIONS).unwrap();
+        let on = family.on(choice.elements).unwrap();
+        let mut evaluator = Evaluator::new(&family, &on, Some(&reference)).unwrap();
+        let mut run = on.start(choice.scheme, choice.settings, steps).unwrap();
         let mut worst = 0.0_f64;
         for index in 0..OBSERVATIONS {
             run.advance(steps / OBSERVATIONS).unwrap();
-            let errors = yardstick.measure(run.level(), index, 0.0);
-            worst = worst.max(errors[if quantity == Quantity::Tip { 2 } else { 0 }]);
+            let errors = evaluator.measure(run.level(), index, 0.0);
+            worst = worst.max(errors[if quantity == ErrorMeasure::Tip { 2 } else { 0 }]);
         }
-        let context = format!("T = {t_end}, {} {target:e}: {worst:e}, {plan:?}", quantity.name());
+        let context = format!("T = {t_end}, {} {target:e}: {worst:e}, {choice:?}", quantity.name());
         assert!((0.2 * target..=target).contains(&worst), "{context}");
-        assert!(plan.trust < Trust::Firm, "{context}");
+        assert!(choice.trust < Trust::Firm, "{context}");
     }
 }
 
 #[test]
 fn what_cannot_be_reached_is_refused_with_what_can() {
     let family = vibrating(&[0, 1], 0.1, 2.0);
-    let limited = Request { max_node_steps: 1e5, ..Request::new(Quantity::Tip, 1e-7) };
-    let error = plan(&family, &limited).unwrap_err();
+    let limited = Request { max_node_steps: 1e5, ..Request::new(ErrorMeasure::Tip, 1e-7) };
+    let error = choose(&family, &limited).unwrap_err();
     let Unreachable::Cost { reachable, cost, .. } = error else { panic!("{error}") };
     assert!(reachable > 1e-7 && reachable < 1e-4 && cost > 1e5, "{error}");
     // What is called reachable can be reached.
-    let within = plan(&family, &Request { target: reachable, ..limited }).unwrap();
+    let within = choose(&family, &Request { target: reachable, ..limited }).unwrap();
     assert!(within.node_steps() + within.pilots.node_steps <= 1e5);
-    let limitless = Request { max_node_steps: f64::INFINITY, ..Request::new(Quantity::Tip, 1e-13) };
-    let error = plan(&family, &limitless).unwrap_err();
+    let limitless = Request { max_node_steps: f64::INFINITY, ..Request::new(ErrorMeasure::Tip, 1e-13) };
+    let error = choose(&family, &limitless).unwrap_err();
     assert!(
         matches!(error, Unreachable::RoundOff { reachable, .. } if reachable > 1e-13 && reachable < 1e-9),
         "{error}"
     );
     for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(plan(&family, &Request::new(Quantity::Tip, target)), Err(Unreachable::Target { .. })));
+        assert!(matches!(choose(&family, &Request::new(ErrorMeasure::Tip, target)), Err(Unreachable::Target { .. })));
     }
 }
 

@@ -6,12 +6,12 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here, run_here};
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::energy::EnergyDecay;
 use thermobeam_study::kinds::fixed_point::FixedPoint;
-use thermobeam_study::kinds::tables::{Norm, Norms};
-use thermobeam_study::kinds::convergence::file::ConvergenceSpec;
 use thermobeam_study::kinds::fixed_point::FixedPoint;
 use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::kinds::tables::{Norm, Norms};
 use thermobeam_study::kinds::untyped::Measured;
 use thermobeam_study::kinds::{FromFile, Study};
 
@@ -128,27 +128,4 @@ fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
         ran[1].found.as_mut().unwrap()[norm] = f64::NAN;
         assert_eq!(study.judge(&ran).verdict, Verdict::Fail, "{}", norm.name());
     }
-}
-
-#[test]
-fn no_nan_and_no_wrong_contraction_passes_for_the_fixed_point() {
-    let study = FixedPoint::read(file("fixed-point.toml")).unwrap();
-    let honest = results(&study);
-    assert_eq!(study.conclude(&honest).verdict, Verdict::Pass);
-    let mut judged = 0;
-    for case in 0..honest.len() {
-        for name in ["contraction", "distance", "converged"] {
-            for wrong in [f64::NAN, 1.04, 0.5] {
-                let mut planted = honest.clone();
-                let values = &mut planted[case].as_mut().unwrap().values;
-                let Some(value) = values.iter_mut().find(|(key, _)| key == name) else { continue };
-                value.1 *= wrong;
-                let fails = study.conclude(&planted).verdict != Verdict::Pass;
-                judged += usize::from(fails);
-                // Every distance is judged; a factor only where contact dominates and α is not within 3 % of 1.
-                assert!(fails || name != "distance" || !wrong.is_nan(), "case {case}, {name} times {wrong}");
-            }
-        }
-    }
-    assert!(judged > 60, "{judged} of the planted mistakes were seen");
 }

@@ -26,18 +26,18 @@ fn run(scene: &Scene, recording: Recording) -> Run {
 fn recording_changes_nothing_but_the_record() {
     let scene = thrown("1e-3", "");
     let (plain, recorded) = (run(&scene, Recording::Summary), run(&scene, Recording::History));
-    assert_eq!(plain.record, None);
-    let record = recorded.record.clone().unwrap();
-    assert_eq!(Run { record: None, wall: plain.wall, ..recorded.clone() }, plain);
+    assert_eq!(plain.history, None);
+    let history = recorded.history.clone().unwrap();
+    assert_eq!(Run { history: None, wall: plain.wall, ..recorded.clone() }, plain);
 
-    assert_eq!((record.rows.len(), record.steps_per_row), (1001, 1));
-    assert_eq!([record.rows[0].sample, record.rows[1000].sample], [plain.first, plain.last]);
-    let tips = record.rows.iter().map(|row| row.sample.u_tip);
+    assert_eq!((history.rows.len(), history.steps_per_row), (1001, 1));
+    assert_eq!([history.rows[0].sample, history.rows[1000].sample], [plain.first, plain.last]);
+    let tips = history.rows.iter().map(|row| row.sample.u_tip);
     assert_eq!(tips.clone().fold(f64::INFINITY, f64::min), plain.extremes.u_tip_min);
     assert_eq!(tips.fold(f64::NEG_INFINITY, f64::max), plain.extremes.u_tip_max);
-    let worst = record.rows.iter().map(|row| row.dissipation.residual.abs()).fold(0.0, f64::max);
+    let worst = history.rows.iter().map(|row| row.dissipation.residual.abs()).fold(0.0, f64::max);
     assert_eq!(worst, plain.energy.largest_balance_residual);
-    assert_eq!(record.rows.iter().filter(|row| row.sample.contact_force != 0.0).count(), plain.contact_steps);
+    assert_eq!(history.rows.iter().filter(|row| row.sample.contact_force != 0.0).count(), plain.contact_steps);
 }
 
 #[test]
@@ -68,14 +68,14 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
     let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 2\n[time]\nt_end = 500.001\ndt = 1e-3";
     let scene = Scene::parse(text, "long.toml").unwrap();
     let run = run(&scene, Recording::History);
-    let record = run.record.unwrap();
-    assert_eq!((scene.steps, record.steps_per_row), (500_001, 3));
-    assert_eq!(record.rows.len(), 1 + 500_001 / 3);
-    assert!(record.rows.len() <= MOST_ROWS + 1);
-    assert_eq!(record.rows.last().unwrap().sample, run.last);
-    assert_eq!(record.frames.times.last(), Some(&run.last.t));
-    assert!(record.frames.times.len() <= 442);
-    let lost: f64 = record.rows.iter().map(|row| row.dissipation.change).sum();
+    let history = run.history.unwrap();
+    assert_eq!((scene.steps, history.steps_per_row), (500_001, 3));
+    assert_eq!(history.rows.len(), 1 + 500_001 / 3);
+    assert!(history.rows.len() <= MOST_ROWS + 1);
+    assert_eq!(history.rows.last().unwrap().sample, run.last);
+    assert_eq!(history.frames.times.last(), Some(&run.last.t));
+    assert!(history.frames.times.len() <= 442);
+    let lost: f64 = history.rows.iter().map(|row| row.dissipation.change).sum();
     assert!((lost - (run.energy.last - run.energy.initial)).abs() < 1e-12);
 }
 
@@ -88,10 +88,10 @@ fn what_could_be_done_before_a_failure_is_kept() {
     assert!(matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0), "{failure}");
     assert!(run.steps > 0 && run.steps + 1 == failure.step);
     assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
-    let record = run.record.as_ref().unwrap();
-    assert_eq!(record.rows.len(), run.steps + 1);
-    assert_eq!(record.rows.last().unwrap().sample, run.last);
-    assert_eq!(record.csv().lines().count(), run.steps + 2);
+    let history = run.history.as_ref().unwrap();
+    assert_eq!(history.rows.len(), run.steps + 1);
+    assert_eq!(history.rows.last().unwrap().sample, run.last);
+    assert_eq!(history.csv().lines().count(), run.steps + 2);
     assert_eq!(figures(&scene, &run).len(), 5);
 }
 
@@ -122,7 +122,7 @@ fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
     assert_eq!((run.steps, run.iterations.total), (0, 0));
     assert_eq!(run.first, run.last);
     assert!(run.energy.largest_increase.is_nan());
-    assert_eq!(run.record.as_ref().map(|record| (record.rows.len(), record.frames.times.len())), Some((1, 1)));
+    assert_eq!(run.history.as_ref().map(|history| (history.rows.len(), history.frames.times.len())), Some((1, 1)));
     assert_eq!(figures(&scene, &run).len(), 5);
 }
 
@@ -148,13 +148,13 @@ fn boundary_values_that_the_scene_accepts_do_not_trouble_the_solver() {
 #[test]
 fn every_bit_of_the_history_can_be_read_back() {
     let run = run(&thrown("1e-2", ""), Recording::History);
-    let record = run.record.unwrap();
-    let csv = record.csv();
+    let history = run.history.unwrap();
+    let csv = history.csv();
     let mut lines = csv.lines();
     let names: Vec<_> = lines.next().unwrap().split(',').collect();
     assert_eq!(names[..8], ["t", "u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "contact_force", "energy"]);
     assert_eq!(names[8..], ["energy_change", "viscous", "thermal", "inertial", "contact_gap", "residual"]);
-    for (line, row) in lines.zip(&record.rows) {
+    for (line, row) in lines.zip(&history.rows) {
         let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
         let (s, d) = (row.sample, row.dissipation);
         assert_eq!(values[..4], [s.t, s.u_tip, s.phi_tip, s.u_t_tip]);

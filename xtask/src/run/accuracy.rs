@@ -2,8 +2,8 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
-use thermobeam_study::error::yardstick;
-use thermobeam_study::predict::accuracy::{Plan, Request, Trust, Unreachable, plan};
+use thermobeam_study::error::evaluator;
+use thermobeam_study::predict::accuracy::{self, Choice, Request, Trust, Unreachable};
 use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::scene::Scene;
@@ -21,24 +21,24 @@ pub(crate) enum Quantity {
 
 /// What was asked for, and the run that was chosen.
 pub(crate) struct Planned {
-    quantity: yardstick::Quantity,
+    quantity: evaluator::ErrorMeasure,
     target: f64,
-    plan: Plan,
+    choice: Choice,
 }
 
 /// The scene with scheme, mesh and steps that make the error asked for; those that it came with do not matter, but for
 /// the grading of its mesh.
 pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(Scene, Planned), Unreachable> {
     let quantity = match quantity {
-        Quantity::Tip => yardstick::Quantity::Tip,
-        Quantity::Theorem34 => yardstick::Quantity::Theorem34,
+        Quantity::Tip => evaluator::ErrorMeasure::Tip,
+        Quantity::Theorem34 => evaluator::ErrorMeasure::Theorem34,
     };
     let family = Family::of_scene(&scene);
-    let plan = plan(&family, &Request::new(quantity, target))?;
-    let mesh = family.mesh(plan.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
-    let dt = scene.t_end / plan.steps as f64;
-    let scene = Scene { mesh, dt, steps: plan.steps, scheme: plan.scheme, settings: plan.settings, ..scene };
-    Ok((scene, Planned { quantity, target, plan }))
+    let choice = accuracy::choose(&family, &Request::new(quantity, target))?;
+    let mesh = family.mesh(choice.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
+    let dt = scene.t_end / choice.steps as f64;
+    let scene = Scene { mesh, dt, steps: choice.steps, scheme: choice.scheme, settings: choice.settings, ..scene };
+    Ok((scene, Planned { quantity, target, choice }))
 }
 
 /// The key `accuracy` of the JSON object.
@@ -58,45 +58,45 @@ pub(super) struct Object {
 
 impl Planned {
     pub(super) fn object(&self) -> Object {
-        let plan = &self.plan;
+        let choice = &self.choice;
         Object {
             quantity: self.quantity.name(),
             target_error: self.target,
-            believed_error: plan.believed,
-            space_error: plan.parts[0],
-            time_error: plan.parts[1],
-            confidence: match plan.trust {
+            believed_error: choice.believed,
+            space_error: choice.parts[0],
+            time_error: choice.parts[1],
+            confidence: match choice.trust {
                 Trust::Firm => "firm",
                 Trust::Loose => "loose",
                 Trust::None => "none",
             },
-            node_steps: plan.node_steps(),
-            pilot_node_steps: plan.pilots.node_steps,
-            pilot_seconds: plan.pilots.seconds,
+            node_steps: choice.node_steps(),
+            pilot_node_steps: choice.pilots.node_steps,
+            pilot_seconds: choice.pilots.seconds,
         }
     }
 
     /// Lines of the summary: name, value, meaning.
     pub(super) fn lines(&self, run: &Run) -> Vec<(&'static str, String, String)> {
-        let plan = &self.plan;
+        let choice = &self.choice;
         let what = match self.quantity {
-            yardstick::Quantity::Tip => "maximum over [0, T] of the error of u(1, t)".to_owned(),
+            evaluator::ErrorMeasure::Tip => "maximum over [0, T] of the error of u(1, t)".to_owned(),
             _ => "maximum over [0, T] of the norm of Theorem 3.4".to_owned(),
         };
-        let trust = match plan.trust {
+        let trust = match choice.trust {
             Trust::Firm => "all rates observed are those of theory",
             Trust::Loose => "impacts, or rates below those of theory: judged by pilots as fine as this run",
             Trust::None => "no rates to speak of: judged by coarser runs alone",
         };
-        let parts = format!("space {:.1e}, time {:.1e}; {trust}", plan.parts[0], plan.parts[1]);
-        let (pilots, node_steps) = (plan.pilots.node_steps, plan.node_steps());
+        let parts = format!("space {:.1e}, time {:.1e}; {trust}", choice.parts[0], choice.parts[1]);
+        let (pilots, node_steps) = (choice.pilots.node_steps, choice.node_steps());
         let seconds =
-            format!("{:.3} s for the pilots, {:.3} s for the run", plan.pilots.seconds, run.wall.as_secs_f64());
+            format!("{:.3} s for the pilots, {:.3} s for the run", choice.pilots.seconds, run.wall.as_secs_f64());
         vec![
             ("asked for", format!("{:.3e}", self.target), what),
-            ("believed", format!("{:.3e}", plan.believed), parts),
+            ("believed", format!("{:.3e}", choice.believed), parts),
             ("node-steps", format!("{:.3e}", pilots + node_steps), format!("of which {pilots:.3e} for pilot runs")),
-            ("time", format!("{:.3} s", plan.pilots.seconds + run.wall.as_secs_f64()), seconds),
+            ("time", format!("{:.3} s", choice.pilots.seconds + run.wall.as_secs_f64()), seconds),
         ]
     }
 }

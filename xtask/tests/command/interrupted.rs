@@ -89,7 +89,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     let kept = folder.path("kept");
     let sweep = interrupted(xtask().arg("sweep").arg(&file).arg("--out").arg(&kept), AT_WORK);
     assert_eq!(sweep.status, Some(130));
-    assert!(sweep.stderr.contains(" of 4000 cases are kept in "), "{}", sweep.stderr);
+    assert!(sweep.stderr.contains(" of 4000 cases are saved in "), "{}", sweep.stderr);
     let journal = std::fs::read_to_string(kept.join("journal.jsonl")).expect("a journal");
     assert!(journal.ends_with('\n') || journal.is_empty(), "a torn line");
     let said = sweep.stderr.trim().strip_prefix("interrupted: ").and_then(|rest| rest.split(' ').next());

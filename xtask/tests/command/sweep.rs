@@ -218,11 +218,11 @@ fn a_merge_names_what_is_missing_twice_or_foreign_and_writes_nothing() {
     let missing = merge(&[&first]);
     assert!(missing.contains(&format!("missing: {absent}")) && missing.contains("shares 1/2"), "{missing}");
     let twice = merge(&[&first, &second, &first]);
-    assert!(twice.contains("is there twice") && twice.contains("1-2/results.jsonl"), "{twice}");
+    assert!(twice.contains("expected each case once") && twice.contains("1-2/results.jsonl"), "{twice}");
     let other = folder.path("other");
     run(&sweep(&folder, "[grid]\nbeam.beta = [0, 1]\n"), &other, &[]);
     let foreign = merge(&[&first, &second, &other]);
-    assert!(foreign.contains("other: the hash of sweep file and scene"), "{foreign}");
+    assert!(foreign.contains("other: expected the hash of sweep file and scene"), "{foreign}");
     let none = merge(&[&folder.path("nowhere")]);
     assert!(none.contains("nowhere: not the folder of a sweep"), "{none}");
 }
@@ -235,7 +235,7 @@ fn a_folder_is_not_written_over_nor_mixed() {
     let again = run(&file, &out, &[]);
     assert!(again.status == Some(2) && again.stderr.contains("--resume"), "{}", again.stderr);
     let share = run(&file, &out, &["--resume", "--partition", "1/2"]);
-    assert!(share.status == Some(2) && share.stderr.contains("the share is 1/1; here it is 1/2"), "{}", share.stderr);
+    assert!(share.status == Some(2) && share.stderr.contains("expected the share 1/2, found 1/1"), "{}", share.stderr);
     let before = read(&out.join("results.jsonl"));
     let changed = run(&sweep(&folder, "[grid]\nbeam.beta = [0, 2]\n"), &out, &["--resume"]);
     assert!(changed.status == Some(2) && changed.stderr.contains("hash"), "{}", changed.stderr);

@@ -7,31 +7,26 @@
 pub mod any_order;
 pub mod bifurcation;
 pub mod calibration;
-mod complete;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
 pub mod experiment;
-pub mod fixed_point;
 pub mod frequencies;
-pub mod random_scenes;
 pub mod rigid;
 pub mod self_convergence;
-pub mod stability;
+pub mod solvers;
 mod steady;
 mod table;
 pub mod tables;
 mod terms;
-pub mod untyped;
 pub mod vibration;
 mod watch;
 pub mod work_precision;
 
 pub use table::KINDS;
 pub use terms::TERMS;
-pub use untyped::{FromFile, Study};
 
 use convergence_study::input::InputError;
 use convergence_study::study::{self as harness, StudyFile};

@@ -6,7 +6,7 @@ use std::path::Path;
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::simulation::{Simulation, Stepping};
+use thermobeam::simulation::Stepping;
 use thermobeam::solve::Level;
 
 use crate::run::driver::Driver;
@@ -45,12 +45,6 @@ pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<S
 pub(super) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
     let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
     Driver::new(simulate::problem(scene), stepping)
-}
-
-/// The scene at t = 0.
-pub(super) fn start(scene: &Scene) -> Result<Simulation, SetupError> {
-    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-    Simulation::new(simulate::problem(scene), stepping)
 }
 
 /// A beam at rest.
@@ -119,19 +113,5 @@ pub(super) fn name_of(contact: Contact) -> &'static str {
         Contact::Free => "free",
         Contact::Upper => "on the upper obstacle",
         Contact::Lower => "on the lower obstacle",
-    }
-}
-
-/// The inverse of [`code_of`]; `None` for NaN.
-pub(super) fn contact_of(code: f64) -> Option<Contact> {
-    [Contact::Lower, Contact::Free, Contact::Upper].into_iter().find(|contact| code_of(*contact) == code)
-}
-
-/// A contact state as a number, for a study's results.
-pub(super) fn code_of(contact: Contact) -> f64 {
-    match contact {
-        Contact::Lower => -1.0,
-        Contact::Free => 0.0,
-        Contact::Upper => 1.0,
     }
 }

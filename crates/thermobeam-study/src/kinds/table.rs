@@ -3,8 +3,8 @@
 use convergence_study::study::KindRow;
 
 use super::{
-    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment, frequencies,
-    rigid, self_convergence, solvers, vibration, work_precision,
+    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment,
+    frequencies, rigid, self_convergence, solvers, vibration, work_precision,
 };
 
 /// One row for each kind; the first is that of a file without `kind`.

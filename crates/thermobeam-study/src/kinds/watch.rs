@@ -1,6 +1,5 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
-use crate::kinds::untyped::Measured;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::energy::{Balance, Rounding};
 
@@ -91,16 +90,5 @@ impl Watch {
     pub(super) fn worst(&self) -> Worst {
         let Self { residual, rise, open, risen, .. } = *self;
         Worst { residual, rise, open, risen }
-    }
-
-    /// Takes the worst of a run into those of the runs before; what a run without a step knows nothing of is left out.
-    pub(super) fn worsen(&self, worst: &mut Measured) {
-        let numbers = [("residual", self.residual), ("rise", self.rise), ("open", self.open), ("risen", self.risen)];
-        for (name, value) in numbers.into_iter().filter(|(_, value)| *value != f64::NEG_INFINITY) {
-            match worst.values.iter_mut().find(|(key, _)| *key == name) {
-                Some((_, worst)) => *worst = max_or_nan(*worst, value),
-                None => worst.push(name, value),
-            }
-        }
     }
 }

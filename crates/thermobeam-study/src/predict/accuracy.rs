@@ -1,30 +1,30 @@
 //! Ask for an accuracy: scheme, elements and steps that make an error no larger than wanted, at little cost.
 //!
 //! Pilot runs on coarse levels measure the errors of space and time (`pilot`). From their rates follow the error of any
-//! finer run and the cheapest run whose error is `AIM` of the one asked for. Pilots are refined until what they foretell can be
+//! finer run and the cheapest run whose error is `AIM` of the one asked for. Pilots are refined until their prediction can be
 //! trusted, or until they reach the accuracy themselves: where the tip meets an obstacle, the observed rate of the
 //! second-order scheme drops, and it is the observed rate that counts.
 //!
 //! The error of the tip is the maximum of |u_h(1, t) - u(1, t)| over the time levels in [0, T]; that in the norm of Theorem 3.4
-//! the maximum of that norm. Both are believed, not known: the answer says what it believes, and what the pilots cost.
+//! the maximum of that norm. Both are predictions: the answer gives the predicted error and the cost of the pilots.
 //!
 //! ```
-//! use thermobeam_study::predict::accuracy::{Request, plan};
+//! use thermobeam_study::predict::accuracy::{Request, choose};
 //! use thermobeam_study::run::family::Family;
 //! use thermobeam_study::scene::Scene;
-//! use thermobeam_study::error::yardstick::Quantity;
+//! use thermobeam_study::error::evaluator::ErrorMeasure;
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
 //! let family = Family::of_scene(&Scene::parse(text, "swing.toml")?);
-//! let plan = plan(&family, &Request::new(Quantity::Tip, 1e-4))?;
-//! assert!(plan.believed <= 1e-4 && plan.scheme.name == "midpoint");
+//! let choice = choose(&family, &Request::new(ErrorMeasure::Tip, 1e-4))?;
+//! assert!(choice.believed <= 1e-4 && choice.scheme.name == "midpoint");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod outlook;
 mod pilot;
 
-use crate::error::yardstick::Quantity;
+use crate::error::evaluator::ErrorMeasure;
 use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::Quantiles;
 use convergence_study::study::CaseFailure;
@@ -53,7 +53,7 @@ const ROUND_OFF_SHARE: f64 = 0.1;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// The tip or the norm of Theorem 3.4.
-    pub quantity: Quantity,
+    pub quantity: ErrorMeasure,
     /// The error asked for.
     pub target: f64,
     /// Node-steps that may be spent.
@@ -62,7 +62,7 @@ pub struct Request {
 
 impl Request {
     /// With the usual limit of cost.
-    pub fn new(quantity: Quantity, target: f64) -> Self {
+    pub fn new(quantity: ErrorMeasure, target: f64) -> Self {
         Self { quantity, target, max_node_steps: MAX_NODE_STEPS }
     }
 
@@ -83,9 +83,9 @@ pub enum Trust {
     Firm,
 }
 
-/// The run that should make the error asked for.
+/// The run that is predicted to make the error asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan {
+pub struct Choice {
     /// The time scheme.
     pub scheme: Scheme,
     /// Elements.
@@ -94,7 +94,7 @@ pub struct Plan {
     pub steps: usize,
     /// How each step is solved.
     pub settings: Settings,
-    /// The error that the run is believed to make.
+    /// The predicted error.
     pub believed: f64,
     /// The parts of space and of time in it.
     pub parts: [f64; 2],
@@ -104,7 +104,7 @@ pub struct Plan {
     pub pilots: Spent,
 }
 
-impl Plan {
+impl Choice {
     /// Node-steps of the run itself.
     pub fn node_steps(&self) -> f64 {
         self.elements as f64 * self.steps as f64
@@ -134,7 +134,7 @@ pub enum Unreachable {
         cost: f64,
         /// Node-steps allowed.
         limit: f64,
-        /// The error that can be had for them.
+        /// The smallest error within that cost.
         reachable: f64,
     },
     /// Rounding errors would be larger.
@@ -147,7 +147,7 @@ pub enum Unreachable {
         target: f64,
         /// The quantity's name.
         quantity: &'static str,
-        /// The error that can be had.
+        /// The smallest error above round-off.
         reachable: f64,
     },
     /// A pilot did not come to its end.
@@ -161,11 +161,11 @@ impl From<CaseFailure> for Unreachable {
     }
 }
 
-/// Finds the run.
+/// Chooses scheme, elements and steps.
 ///
 /// # Errors
-/// [`Unreachable`] says why there is none, and which error could be had.
-pub fn plan(family: &Family, request: &Request) -> Result<Plan, Unreachable> {
+/// [`Unreachable`]: why there is no such run, and the error that can be reached.
+pub fn choose(family: &Family, request: &Request) -> Result<Choice, Unreachable> {
     if !(request.target > 0.0 && request.target.is_finite()) {
         return Err(Unreachable::Target { target: request.target });
     }
@@ -232,7 +232,7 @@ fn first_pilots(family: &Family, request: &Request) -> Result<Vec<Pilots>, Unrea
 }
 
 /// Rounds up to whole numbers, and refuses what is out of reach.
-fn finish(forecast: &Forecast<'_>, request: &Request, at: [f64; 2], pilots: Spent) -> Result<Plan, Unreachable> {
+fn finish(forecast: &Forecast<'_>, request: &Request, at: [f64; 2], pilots: Spent) -> Result<Choice, Unreachable> {
     let (target, quantity) = (request.target, request.quantity.name());
     let at = at.map(f64::ceil);
     let cost = at[0] * at[1];
@@ -246,7 +246,7 @@ fn finish(forecast: &Forecast<'_>, request: &Request, at: [f64; 2], pilots: Spen
         return Err(Unreachable::RoundOff { target, quantity, reachable });
     }
     let (believed, parts) = forecast.error(at);
-    Ok(Plan {
+    Ok(Choice {
         scheme: forecast.scheme(),
         elements: at[0] as usize,
         steps: at[1] as usize,

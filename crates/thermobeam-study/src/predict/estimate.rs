@@ -22,7 +22,7 @@ use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
 use thiserror::Error;
 
-/// The budget could not be made up: one of the runs did not come to its end.
+/// The budget could not be computed: one of the runs did not complete.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("the run with {run}: {failure}")]
 pub struct EstimateError {
@@ -56,6 +56,14 @@ impl Source {
             Source::Time => "time",
             Source::Iteration => "iteration",
             Source::RoundOff => "round-off",
+        }
+    }
+
+    /// The key in JSON.
+    fn key(self) -> &'static str {
+        match self {
+            Source::RoundOff => "round_off",
+            other => other.name(),
         }
     }
 }

@@ -1,5 +1,4 @@
-//! Cost and error before and after a run: time per step, error budgets, the run that an accuracy needs.
+//! Before a run: the resolution that an accuracy needs, and what it costs. After it: the error budget.
 
 pub mod accuracy;
 pub mod estimate;
-pub mod pace;

@@ -34,7 +34,7 @@ impl From<MeshError> for RunError {
 pub(crate) struct Step<'s> {
     /// Iterations and contraction of the step.
     pub(crate) report: StepReport,
-    /// The levels before and after it.
+    /// The level before it.
     pub(crate) old: &'s Level,
     /// The level after it.
     pub(crate) new: &'s Level,

@@ -2,7 +2,8 @@
 
 pub mod any_order;
 pub mod driver;
+pub(crate) mod ensemble;
 pub mod family;
-pub(crate) mod patience;
 pub(crate) mod rerun;
 pub mod simulate;
+pub mod step_time;

@@ -19,15 +19,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod budget;
 mod figures;
+mod history;
 mod object;
-mod record;
 mod together;
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
@@ -41,8 +41,8 @@ use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 
 pub use figures::figures;
+pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
 pub use object::Object;
-pub use record::{Dissipation, Frames, MOST_ROWS, Record, Row};
 pub use together::{Together, run_together};
 
 /// The value at x = 1/2 of nodal values on a mesh.
@@ -72,8 +72,8 @@ impl Middle {
     }
 }
 
-/// What is worth reading off a time level.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Observed quantities of a time level; the JSON object of a run has them, except the contact force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sample {
     /// Time.
     pub t: f64,
@@ -88,13 +88,14 @@ pub struct Sample {
     /// The physical temperature at x = 1/2.
     pub theta_mid: f64,
     /// The contact force of the step that led here, positive on the upper obstacle; g(u(1)) at the start.
+    #[serde(skip)]
     pub contact_force: f64,
     /// E^n, with the term of θ_A.
     pub energy: f64,
 }
 
 /// Iterations of all steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Iterations {
     /// Their sum.
     pub total: usize,
@@ -103,7 +104,7 @@ pub struct Iterations {
 }
 
 /// The free end's range over all time levels, the start included.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extremes {
     /// Smallest u(1).
     pub u_tip_min: f64,
@@ -111,12 +112,13 @@ pub struct Extremes {
     pub u_tip_max: f64,
 }
 
-/// What became of the energy.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The energy over a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct EnergySummary {
     /// E^0.
     pub initial: f64,
     /// E^n of the last level.
+    #[serde(rename = "final")]
     pub last: f64,
     /// Largest `E^n - E^{n-1}`; negative where the energy always falls, NaN where no step was done.
     pub largest_increase: f64,
@@ -130,7 +132,7 @@ pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// The history and frames for pictures, see [`Record`].
+    /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
 
@@ -160,7 +162,7 @@ pub struct Run {
     /// Why the run ended early, if it did.
     pub failure: Option<RunError>,
     /// History and frames, if they were asked for.
-    pub record: Option<Record>,
+    pub history: Option<RunHistory>,
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -224,14 +226,14 @@ impl Simulator {
         let obstacles = driver.simulation().problem().obstacles;
         let first = sampler.sample(driver.simulation(), &start).at_the_start(obstacles);
         let nodes = driver.simulation().problem().mesh.nodes();
-        let mut record = (recording == Recording::History).then(|| Record::new(nodes, steps, first, &start.u));
+        let mut history = (recording == Recording::History).then(|| RunHistory::new(nodes, steps, first, &start.u));
         let mut tally = Tally::new(first.u_tip);
         let ended = driver.run(steps, |step| {
             let Step { report, old, new, simulation } = step;
             let balance = simulation.balance(old, new);
             tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
-            if let Some(record) = &mut record {
-                record.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
+            if let Some(history) = &mut history {
+                history.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
             }
             progress(simulation.step());
             ControlFlow::<()>::Continue(())
@@ -239,13 +241,13 @@ impl Simulator {
         let end = driver.level().clone();
         let simulation = driver.simulation();
         let last = if simulation.step() == 0 { first } else { sampler.sample(simulation, &end) };
-        if let Some(record) = &mut record {
-            record.finish(last, &end.u);
+        if let Some(history) = &mut history {
+            history.finish(last, &end.u);
         }
         let (work, is_heated) = (simulation.work(), simulation.is_heated());
         Run {
             failure: ended.err(),
-            record,
+            history,
             ..tally.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
         }
     }
@@ -322,7 +324,7 @@ impl Tally {
         self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
     }
 
-    /// The run that it is of, without failure and record.
+    /// The run that it is of, without failure and history.
     fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
         let energy = EnergySummary {
             initial: first.energy,
@@ -342,7 +344,7 @@ impl Tally {
             work,
             is_heated,
             failure: None,
-            record: None,
+            history: None,
         }
     }
 }

@@ -34,7 +34,7 @@ pub(crate) const DENSE_ELEMENTS: usize = 3000;
 /// Modes of vibration: the mesh has ten times as many nodes, and beyond some thousand a mode is the next one's neighbour.
 pub(crate) const MODES: usize = 10_000;
 
-/// Cases of a sweep: more would take a machine longer than it lasts.
+/// Largest number of cases of a sweep.
 pub(crate) const SWEEP_CASES: usize = 100_000_000;
 
 /// Values of one key of a sweep's grid.

@@ -7,14 +7,14 @@ use super::share::content_hash;
 
 /// A case; its JSON is that of its parameters, keys in the fixed order of a scene file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case<'s> {
+pub struct SweepCase<'s> {
     /// Its number, from 0.
     pub index: usize,
     keys: &'s [Key],
     values: Vec<f64>,
 }
 
-impl<'s> Case<'s> {
+impl<'s> SweepCase<'s> {
     pub(super) fn new(index: usize, keys: &'s [Key], values: Vec<f64>) -> Self {
         Self { index, keys, values }
     }
@@ -30,13 +30,13 @@ impl<'s> Case<'s> {
         format!("{{{}}}", pairs.collect::<Vec<_>>().join(","))
     }
 
-    /// The hash of [`Case::canonical`], by which shares are dealt.
+    /// The hash of [`SweepCase::canonical`], which determines the share of the case.
     pub fn hash(&self) -> u64 {
         content_hash(self.canonical().as_bytes())
     }
 }
 
-impl Serialize for Case<'_> {
+impl Serialize for SweepCase<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.values.len()))?;
         for (key, value) in self.parameters() {

@@ -52,7 +52,7 @@ fn combination(values: &[Vec<f64>], index: usize) -> Vec<f64> {
     chosen
 }
 
-/// A drawn dt that divides t_end would be a miracle: dt, or t_end where it alone varies, moves to the nearest that fits.
+/// Rounds a drawn dt, or t_end where it alone varies, so that dt divides t_end.
 fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], dt: f64, t_end: f64) -> Vec<f64> {
     let place = |name| keys.iter().position(|key| key.is("time", name));
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
@@ -66,11 +66,11 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], dt: f64, t_end: f64) -> V
 
 /// `samples` numbers in [0, 1), one in each of as many slices, in random order.
 ///
-/// The order depends on the seed and the key alone: a key that is added leaves the others' numbers as they were.
+/// The order depends on the seed and the key alone: adding a key does not change the numbers of the others.
 pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
-    let mut random = SplitMix::new(SplitMix::new(seed).next() ^ content_hash(key.path().as_bytes()));
+    let mut random = SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));
     let mut slices: Vec<usize> = (0..samples).collect();
-    // Fisher and Yates.
+    // The shuffle of Fisher and Yates.
     for last in (1..samples).rev() {
         slices.swap(last, random.below(last + 1));
     }

@@ -1,4 +1,4 @@
-//! What can go wrong with the folder of a sweep.
+//! Errors of the folder of a sweep.
 
 use std::io;
 use std::path::PathBuf;
@@ -11,11 +11,11 @@ pub enum SweepError {
     /// The operating system's, with the path named in front of it.
     #[error(transparent)]
     Io(#[from] io::Error),
-    /// The folder holds results, and nobody asked to resume.
-    #[error("{}: holds a sweep already; go on with --resume, or choose another folder", .0.display())]
+    /// The folder holds results, and `--resume` was not given.
+    #[error("{}: expected a folder without results, found those of a sweep; continue it with --resume, or choose another folder", .0.display())]
     Taken(PathBuf),
     /// The folder holds results of something else.
-    #[error("{}: {what} is {found}; here it is {expected}", .folder.display())]
+    #[error("{}: expected {what} {expected}, found {found}", .folder.display())]
     Other {
         /// The folder.
         folder: PathBuf,
@@ -26,21 +26,21 @@ pub enum SweepError {
         /// What was asked for.
         expected: String,
     },
-    /// Another process is at work there.
-    #[error("{}: another process is at work in this folder", .0.display())]
+    /// Another process writes to the folder.
+    #[error("{}: another process writes to this folder; wait for it, or choose another folder", .0.display())]
     Busy(PathBuf),
-    /// A file that is not what it should be.
+    /// A file with unexpected content.
     #[error("{}{}: {reason}", .file.display(), .line.map(|line| format!(":{line}")).unwrap_or_default())]
     Damaged {
         /// The file.
         file: PathBuf,
         /// The line, from 1, where it is one.
         line: Option<usize>,
-        /// What is wrong.
+        /// What was expected and found.
         reason: String,
     },
-    /// A case is there twice.
-    #[error("{}: case {case} is there twice: here and in {}", .second.display(), .first.display())]
+    /// A case has two lines.
+    #[error("{}: expected each case once, found case {case} here and in {}", .second.display(), .first.display())]
     Duplicate {
         /// Its number.
         case: usize,
@@ -50,7 +50,7 @@ pub enum SweepError {
         second: PathBuf,
     },
     /// Cases are missing.
-    #[error("{count} of {cases} cases are missing: {named}; found were the shares {shares}")]
+    #[error("expected {cases} cases, of which {count} are missing: {named}; found the shares {shares}")]
     Missing {
         /// How many.
         count: usize,
@@ -58,7 +58,7 @@ pub enum SweepError {
         cases: usize,
         /// The first of them.
         named: String,
-        /// The shares that were there.
+        /// The shares found.
         shares: String,
     },
 }

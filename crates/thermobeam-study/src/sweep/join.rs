@@ -1,4 +1,4 @@
-//! Shares of a sweep, put together.
+//! Merging the shares of a sweep.
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +9,10 @@ use super::lines::{self, Place};
 /// Numbers of missing cases that are listed.
 const LISTED: usize = 10;
 
-/// What [`merge`] has put together.
+/// Counts of [`merge`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Merged {
-    /// Cases, all of the sweep's.
+    /// Cases of the sweep.
     pub cases: usize,
     /// Those of them that failed.
     pub failed: usize,
@@ -21,8 +21,8 @@ pub struct Merged {
 /// Joins the shares in `folders` into the file that one run would have written.
 ///
 /// # Errors
-/// [`SweepError`]: folders of different sweeps, a case missing or there twice, a file that cannot be read or written.
-/// Then nothing is written.
+/// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
+/// is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     let manifests = folders.iter().map(|folder| Manifest::require(folder)).collect::<Result<Vec<_>, _>>()?;
     let Some(first) = manifests.first() else { return Ok(Merged { cases: 0, failed: 0 }) };
@@ -45,7 +45,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count() })
 }
 
-/// Refuses sorted places that leave a case out.
+/// Refuses sorted places without one for every case.
 fn none_missing(found: &[Place], cases: usize, shares: &str) -> Result<(), SweepError> {
     if found.len() == cases {
         return Ok(());

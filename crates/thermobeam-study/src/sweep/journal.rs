@@ -1,13 +1,13 @@
-//! The folder of a sweep: what it is of, what is done, and in the end the results in order.
+//! The folder of a sweep: the sweep it belongs to, the cases done, and at the end the results in order.
 //!
 //! | file | holds |
 //! | --- | --- |
 //! | `sweep.json` | the sweep, its share, the number of cases: a [`Manifest`] |
-//! | `journal.jsonl` | a line for each case that is done, as they came; gone when all are |
+//! | `journal.jsonl` | a line for each case that is done, in the order of completion; removed when all are done |
 //! | `results.jsonl` | the same lines in the order of the cases, when all are done |
 //!
-//! A line is written by one call of the operating system, when its case is done, with those that ran side by side, and before
-//! the next ones begin. So a process that is killed loses the cases that it was at, and leaves at most one torn line, which the next one removes.
+//! A line is written by one call of the operating system as soon as its case, and those side by side with it, are done. A
+//! process that is killed loses the cases under way and leaves at most one incomplete line, which the next process removes.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -20,16 +20,16 @@ use super::{Line, Share, Sweep, SweepError};
 use convergence_study::store::atomic;
 use convergence_study::store::writing;
 
-/// What the folder is of.
+/// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";
 
-/// Lines as they came.
+/// Lines in the order of completion.
 pub(super) const JOURNAL: &str = "journal.jsonl";
 
 /// Lines in the order of the cases: the result.
 pub const RESULTS: &str = "results.jsonl";
 
-/// What a folder of results is of.
+/// Identifies the sweep of a folder of results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     /// The sweep's name.
@@ -45,7 +45,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// That of a share of a sweep.
+    /// The manifest of a share of a sweep.
     pub fn new(sweep: &Sweep, share: Share) -> Self {
         Self {
             sweep: sweep.name.clone(),
@@ -56,18 +56,18 @@ impl Manifest {
         }
     }
 
-    /// That of a folder; `None` where there is none.
+    /// Reads the manifest of a folder; `None` where there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
         let damaged = |reason: String| SweepError::Damaged {
             file: path.clone(),
             line: None,
-            reason: format!("not that of a sweep: {reason}"),
+            reason: format!("expected the manifest of a sweep: {reason}"),
         };
         match std::fs::read(&path) {
             Ok(bytes) => {
                 let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
-                // It will be quoted, and a terminal obeys control characters.
+                // Messages quote it, and control characters would act on the terminal.
                 let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
                 match texts.iter().find(|text| text.contains(char::is_control)) {
                     Some(text) => Err(damaged(format!("control characters in {text:?}"))),
@@ -79,7 +79,7 @@ impl Manifest {
         }
     }
 
-    /// That of a folder which must have one.
+    /// Reads the manifest of a folder that must have one.
     pub(super) fn require(folder: &Path) -> Result<Self, SweepError> {
         let missing = || SweepError::Damaged {
             file: folder.to_owned(),
@@ -117,7 +117,7 @@ impl Manifest {
     }
 }
 
-/// An open folder; no other process can open it meanwhile.
+/// An open folder, locked against other processes.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -126,17 +126,17 @@ pub struct Journal {
     /// Which cases are done.
     done: Vec<bool>,
     failed: usize,
-    /// Whether the results had been written before.
+    /// Whether the results were complete when the folder was opened.
     is_complete: bool,
 }
 
 impl Journal {
-    /// Opens the folder of a share, which is made if need be.
+    /// Opens the folder of a share, and creates it if necessary.
     ///
-    /// * `resume`: whether to go on with what is there.
+    /// * `resume`: whether to continue what the folder holds.
     ///
     /// # Errors
-    /// [`SweepError`]; with all but a failing disk nothing has been written.
+    /// [`SweepError`]; nothing has been written then, except where the disk fails.
     pub fn open(folder: &Path, manifest: &Manifest, resume: bool) -> Result<Self, SweepError> {
         let found = Manifest::read(folder)?;
         if let Some(found) = &found {
@@ -150,7 +150,7 @@ impl Journal {
         let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let file = file.map_err(|error| atomic::naming(&path, &error))?;
-        // A file system that has no locks cannot keep a second process out.
+        // A file system without locks cannot keep a second process out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(SweepError::Busy(folder.to_owned()));
         }
@@ -160,7 +160,7 @@ impl Journal {
         if found.is_none() {
             let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
             if bytes > 0 {
-                let reason = format!("a journal without its {MANIFEST}: of which sweep?");
+                let reason = format!("expected {MANIFEST} beside it, which names the sweep; found none");
                 return Err(SweepError::Damaged { file: path, line: None, reason });
             }
             atomic::write(
@@ -170,17 +170,17 @@ impl Journal {
         }
         let mut journal =
             Self { path, results, file, done: vec![false; manifest.cases], failed: 0, is_complete: false };
-        journal.take_up()?;
+        journal.read_done()?;
         Ok(journal)
     }
 
-    /// Reads what is done, and removes a torn last line.
-    fn take_up(&mut self) -> Result<(), SweepError> {
+    /// Reads which cases are done, and removes an incomplete last line.
+    fn read_done(&mut self) -> Result<(), SweepError> {
         self.is_complete = self.results.exists();
         let source = if self.is_complete { &self.results } else { &self.path };
         let (mut places, end) = lines::places(source, 0, self.done.len())?;
         lines::sort(&mut places, std::slice::from_ref(source))?;
-        // Beside results, which hold all of it, a journal is what a process killed between two calls has left.
+        // A process killed after writing the results leaves a journal beside them, all of which they hold.
         let keep = if self.is_complete { 0 } else { end };
         self.file.set_len(keep).map_err(|error| atomic::naming(&self.path, &error))?;
         self.count(&places);
@@ -194,7 +194,7 @@ impl Journal {
         }
     }
 
-    /// Whether the line of a case is there.
+    /// Whether a case is done.
     pub fn has(&self, case: usize) -> bool {
         self.done[case]
     }
@@ -204,10 +204,10 @@ impl Journal {
         self.failed
     }
 
-    /// Keeps a line. When this returns, killing the process does not lose it.
+    /// Appends a line. Once this returns, killing the process does not lose it.
     ///
     /// # Errors
-    /// That of the operating system.
+    /// The error of the operating system.
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
         let _writing = writing::begin();
@@ -220,7 +220,7 @@ impl Journal {
     /// Writes the results in the order of their cases, and removes the journal.
     ///
     /// # Errors
-    /// [`SweepError`]; the journal is then still there.
+    /// [`SweepError`]; the journal remains.
     pub fn finish(self) -> Result<PathBuf, SweepError> {
         let files: Vec<PathBuf> =
             [&self.results, &self.path].into_iter().filter(|file| file.exists()).cloned().collect();

@@ -7,7 +7,7 @@ pub struct Key {
     pub table: &'static str,
     /// The key in it, such as `beta`.
     pub name: &'static str,
-    /// Only whole numbers make sense.
+    /// Whether its values are whole numbers.
     pub is_whole: bool,
 }
 

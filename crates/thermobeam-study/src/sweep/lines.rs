@@ -1,6 +1,6 @@
-//! Lines of results in files: where they are, in the order of their cases, copied.
+//! Lines of results in files: finding, sorting and copying them.
 //!
-//! The lines themselves stay on disk: only their places are held, 40 bytes a case.
+//! The lines stay on disk; memory holds their positions, 40 bytes a case.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
@@ -21,14 +21,14 @@ pub(super) struct Place {
     bytes: u64,
 }
 
-/// The part of a line that is looked at.
+/// The part of a line that is read.
 #[derive(Deserialize)]
 struct Head<'a> {
     case: usize,
     status: &'a str,
 }
 
-/// The places of all whole lines of a file, and the offset at which they end: what follows is a torn line.
+/// The places of all complete lines of a file, and the offset at which they end; an incomplete line may follow.
 pub(super) fn places(path: &Path, file: usize, cases: usize) -> Result<(Vec<Place>, u64), SweepError> {
     let mut reader = BufReader::new(File::open(path).map_err(|error| atomic::naming(path, &error))?);
     let (mut places, mut offset, mut line) = (vec![], 0, vec![]);
@@ -43,14 +43,17 @@ pub(super) fn places(path: &Path, file: usize, cases: usize) -> Result<(Vec<Plac
         let head: Head<'_> =
             serde_json::from_slice(&line).map_err(|error| damaged(format!("not a line of results: {error}")))?;
         if head.case >= cases {
-            return Err(damaged(format!("case {} of a sweep of {cases}", head.case)));
+            return Err(damaged(format!("expected a case below {cases}, the number of cases, found {}", head.case)));
         }
         places.push(Place { case: head.case, passed: head.status == "done", file, offset, bytes });
         offset += bytes;
     }
 }
 
-/// Sorts by case; a case that is there twice is an error.
+/// Sorts by case.
+///
+/// # Errors
+/// [`SweepError::Duplicate`] where a case has two lines.
 pub(super) fn sort(places: &mut [Place], files: &[PathBuf]) -> Result<(), SweepError> {
     places.sort_by_key(|place| place.case);
     match places.windows(2).find(|pair| pair[0].case == pair[1].case) {

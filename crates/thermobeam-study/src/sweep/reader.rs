@@ -1,11 +1,11 @@
-//! From a sweep file to cases, every complaint with its place.
+//! Reading a sweep file; every error names file, line and field.
 
 use std::path::Path;
 
 use super::design::Design;
 use super::key::{KEYS, TABLES};
-use super::values::{self, Axis};
-use super::{Base, Case, Key, MOST_CASES, Sweep, content_hash};
+use super::values::{self, VariedKey};
+use super::{Base, Key, MOST_CASES, Sweep, SweepCase, content_hash};
 use crate::scene::limits;
 use crate::scene::{Scene, stem};
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
@@ -15,8 +15,8 @@ use convergence_study::input::{self, Complaint, Field, InputError, Section};
 pub(super) struct Template(String);
 
 impl Template {
-    /// The values that are laid over the base scene.
-    pub(super) fn overlay(&self, case: &Case<'_>) -> String {
+    /// The values that replace those of the base scene.
+    pub(super) fn overlay(&self, case: &SweepCase<'_>) -> String {
         let mut text = self.0.clone();
         for (key, value) in case.parameters() {
             let (path, written) = (key.path(), key.written(value));
@@ -28,10 +28,10 @@ impl Template {
     }
 }
 
-/// Keys that only make sense together: dt must divide t_end.
+/// Keys that depend on each other: dt must divide t_end.
 const STEPS: [&str; 2] = ["dt", "t_end"];
 
-/// Texts of a scene that may depend on the case.
+/// Functions of a scene that may depend on the case.
 const TEXTS: [(&str, &str); 6] = [
     ("initial", "u"),
     ("initial", "u_t"),
@@ -49,22 +49,22 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     let base = Base { file: scene.display().to_string(), text: input::read_text(&scene)? };
     let plain = Scene::parse(&base.text, &base.file)?;
     let set = set(root)?;
-    let axes = axes(root)?;
-    check_placeholders(&set, &axes)?;
+    let varied = varied(root)?;
+    check_placeholders(&set, &varied)?;
     let template = Template(set.iter().map(|(name, text, _)| format!("{name} = {text}\n")).collect());
     let samples = samples(root)?;
-    probe(&base, &template, &set, &axes, samples.is_some())?;
-    let keys: Vec<Key> = axes.iter().map(|axis| axis.key).collect();
-    let values = axes.iter().map(|axis| axis.values.clone()).collect();
+    probe(&base, &template, &set, &varied, samples.is_some())?;
+    let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
+    let values = varied.iter().map(|varied| varied.values.clone()).collect();
     let design = match samples {
         Some((samples, _)) => {
-            let (dt, t_end) = common_steps(&base, &template, &axes).unwrap_or((plain.dt, plain.t_end));
+            let (dt, t_end) = common_steps(&base, &template, &varied).unwrap_or((plain.dt, plain.t_end));
             Design::Latin { samples, values, dt, t_end }
         }
         None => Design::Grid(values),
     };
     if design.cases() > MOST_CASES {
-        let (found, allowed) = limits::sweep_refusal(axes.iter().map(|axis| axis.values.len() as f64).product());
+        let (found, allowed) = limits::sweep_refusal(varied.iter().map(|varied| varied.values.len() as f64).product());
         return Err(root.refuse("grid", found, allowed));
     }
     let fingerprint = content_hash(format!("{text}\0{}", base.text).as_bytes());
@@ -114,7 +114,7 @@ fn samples(root: &Section<'_>) -> Result<Option<(usize, u64)>, InputError> {
 }
 
 /// The keys that vary: `[grid]` or `[latin]`.
-fn axes<'a>(root: &Section<'a>) -> Result<Vec<Axis<'a>>, InputError> {
+fn varied<'a>(root: &Section<'a>) -> Result<Vec<VariedKey<'a>>, InputError> {
     let either = "either [grid] or [latin]";
     let (section, others) = match (root.section("grid")?, root.section("latin")?) {
         (Some(grid), None) => (grid, &[][..]),
@@ -124,33 +124,34 @@ fn axes<'a>(root: &Section<'a>) -> Result<Vec<Axis<'a>>, InputError> {
     };
     section.allow(&[&TABLES[..], others].concat())?;
     let samples = samples(root)?;
-    let mut axes = vec![];
+    let mut varied = vec![];
     for table in TABLES {
         let Some(inner) = section.section(table)? else { continue };
         let keys: Vec<Key> = KEYS.into_iter().filter(|key| key.table == table).collect();
         inner.allow(&keys.iter().map(|key| key.name).collect::<Vec<_>>())?;
         for key in keys {
             let Some(field) = inner.get(key.name) else { continue };
-            axes.push(match samples {
+            varied.push(match samples {
                 None => values::grid(field, key)?,
                 Some((samples, seed)) => values::latin(field, key, samples, seed)?,
             });
         }
     }
-    if axes.is_empty() {
+    if varied.is_empty() {
         let names: Vec<String> = KEYS.iter().map(|key| key.path()).collect();
         let allowed = format!("at least one of {}", names.join(", "));
         return Err(root.refuse(if samples.is_some() { "latin" } else { "grid" }, "no key that varies", allowed));
     }
-    Ok(axes)
+    Ok(varied)
 }
 
 /// Refuses `{key}` for a key that does not vary.
-fn check_placeholders(set: &[(String, String, Field<'_>)], axes: &[Axis<'_>]) -> Result<(), InputError> {
+fn check_placeholders(set: &[(String, String, Field<'_>)], varied: &[VariedKey<'_>]) -> Result<(), InputError> {
     for (_, text, field) in set {
-        let known = axes.iter().fold(text.clone(), |text, axis| text.replace(&format!("{{{}}}", axis.key.path()), ""));
+        let known =
+            varied.iter().fold(text.clone(), |text, varied| text.replace(&format!("{{{}}}", varied.key.path()), ""));
         if known.contains(['{', '}']) {
-            let names: Vec<String> = axes.iter().map(|axis| format!("{{{}}}", axis.key.path())).collect();
+            let names: Vec<String> = varied.iter().map(|varied| format!("{{{}}}", varied.key.path())).collect();
             return Err(field.refuse_as_written(format!("a function in which only {} are filled in", names.join(", "))));
         }
     }
@@ -158,8 +159,8 @@ fn check_placeholders(set: &[(String, String, Field<'_>)], axes: &[Axis<'_>]) ->
 }
 
 /// The dt and t_end of all cases, where one of them varies alone.
-fn common_steps(base: &Base, template: &Template, axes: &[Axis<'_>]) -> Option<(f64, f64)> {
-    let fixed: Vec<&Axis<'_>> = axes.iter().filter(|axis| !is_step(axis.key)).collect();
+fn common_steps(base: &Base, template: &Template, varied: &[VariedKey<'_>]) -> Option<(f64, f64)> {
+    let fixed: Vec<&VariedKey<'_>> = varied.iter().filter(|varied| !is_step(varied.key)).collect();
     let scene = attempt(base, template, &fixed, None).ok()?;
     Some((scene.dt, scene.t_end))
 }
@@ -172,58 +173,58 @@ fn is_step(key: Key) -> bool {
 fn attempt(
     base: &Base,
     template: &Template,
-    axes: &[&Axis<'_>],
+    varied: &[&VariedKey<'_>],
     probed: Option<(usize, f64)>,
 ) -> Result<Scene, InputError> {
-    let keys: Vec<Key> = axes.iter().map(|axis| axis.key).collect();
-    let mut values: Vec<f64> = axes.iter().map(|axis| axis.probes[0].0).collect();
+    let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
+    let mut values: Vec<f64> = varied.iter().map(|varied| varied.probes[0].0).collect();
     if let Some((index, value)) = probed {
         values[index] = value;
     }
-    Scene::parse_overlaid(&base.text, &template.overlay(&Case::new(0, &keys, values)), &base.file)
+    Scene::parse_overlaid(&base.text, &template.overlay(&SweepCase::new(0, &keys, values)), &base.file)
 }
 
-/// Tries every number that is written in the file, the other keys at their first.
+/// Builds a scene with every number that the file lists, the other keys at their first value.
 ///
-/// Where dt and t_end both vary, whether they go together is for each case to find out; drawn ones are made to fit.
+/// Where dt and t_end both vary, each case checks whether dt divides t_end; drawn ones are rounded so that it does.
 fn probe(
     base: &Base,
     template: &Template,
     set: &[(String, String, Field<'_>)],
-    axes: &[Axis<'_>],
+    varied: &[VariedKey<'_>],
     is_drawn: bool,
 ) -> Result<(), InputError> {
-    let together = is_drawn || axes.iter().filter(|axis| is_step(axis.key)).count() == STEPS.len();
-    let (steps, others): (Vec<_>, Vec<_>) = axes.iter().partition(|axis| together && is_step(axis.key));
-    for (value, field) in steps.iter().flat_map(|axis| &axis.probes) {
+    let together = is_drawn || varied.iter().filter(|varied| is_step(varied.key)).count() == STEPS.len();
+    let (steps, others): (Vec<_>, Vec<_>) = varied.iter().partition(|varied| together && is_step(varied.key));
+    for (value, field) in steps.iter().flat_map(|key| &key.probes) {
         if *value <= 0.0 {
             return Err(field.refuse_as_written("numbers > 0"));
         }
     }
-    attempt(base, template, &others, None).map_err(|error| blame(&error, set, &others))?;
-    for (index, axis) in others.iter().enumerate() {
-        for (value, field) in &axis.probes {
-            attempt(base, template, &others, Some((index, *value))).map_err(|error| complain(&error, field))?;
+    attempt(base, template, &others, None).map_err(|error| traced(&error, set, &others))?;
+    for (index, key) in others.iter().enumerate() {
+        for (value, field) in &key.probes {
+            attempt(base, template, &others, Some((index, *value))).map_err(|error| at_field(&error, field))?;
         }
     }
     Ok(())
 }
 
-/// The complaint about a scene as one about the place in the sweep file that it comes from.
-fn blame(error: &InputError, set: &[(String, String, Field<'_>)], axes: &[&Axis<'_>]) -> InputError {
+/// The error of a scene as an error of the field of the sweep file that it comes from.
+fn traced(error: &InputError, set: &[(String, String, Field<'_>)], varied: &[&VariedKey<'_>]) -> InputError {
     let named = |name: &str| error.field.as_deref() == Some(name);
     let of_set = set.iter().find(|(name, ..)| named(name)).map(|(.., field)| field);
-    let of_axis = axes.iter().find(|axis| named(&axis.key.path())).map(|axis| &axis.probes[0].1);
-    match of_set.or(of_axis).or(axes.first().map(|axis| &axis.probes[0].1)) {
-        Some(field) => complain(error, field),
+    let of_key = varied.iter().find(|varied| named(&varied.key.path())).map(|varied| &varied.probes[0].1);
+    match of_set.or(of_key).or(varied.first().map(|varied| &varied.probes[0].1)) {
+        Some(field) => at_field(error, field),
         None => error.clone(),
     }
 }
 
-fn complain(error: &InputError, field: &Field<'_>) -> InputError {
+fn at_field(error: &InputError, field: &Field<'_>) -> InputError {
     let name = error.field.as_deref().unwrap_or("the scene");
     match &*error.complaint {
         Complaint::NotAllowed { found, allowed } => field.refuse(format!("{name} = {found}"), allowed.clone()),
-        other => field.refuse(format!("{}, of which {name} becomes unusable", field.as_written()), other.to_string()),
+        other => field.refuse(format!("{}, which makes {name} invalid", field.as_written()), other.to_string()),
     }
 }

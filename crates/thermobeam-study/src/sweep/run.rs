@@ -1,4 +1,4 @@
-//! Cases on all threads, their lines as they come.
+//! Running cases on all threads; lines in the order of completion.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -9,14 +9,14 @@ use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
-use super::{Case, Sweep};
+use super::{Sweep, SweepCase};
 use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use crate::scene::Scene;
 use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.
 const LANES: usize = 4;
-/// Cases among which a thread looks for those that can run side by side.
+/// Cases that a thread takes at a time, and groups into those that can run side by side.
 const BATCH: usize = 16;
 
 /// The result of one case: a line of JSON without its newline.
@@ -24,18 +24,18 @@ const BATCH: usize = 16;
 pub struct Line {
     /// The case's number.
     pub case: usize,
-    /// Whether it came to its end.
+    /// Whether it completed.
     pub passed: bool,
     /// The line.
     pub json: String,
 }
 
-/// What a line holds; names are a contract, more may be added.
+/// The JSON object of a line; names are a contract, more may be added.
 #[derive(Serialize)]
-struct Record<'a> {
+struct Content<'a> {
     case: usize,
     status: &'static str,
-    parameters: &'a Case<'a>,
+    parameters: &'a SweepCase<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,9 +43,9 @@ struct Record<'a> {
 }
 
 impl Line {
-    /// Computes a case. Whatever becomes of it, there is a line.
+    /// Computes a case; a failure is a line too.
     ///
-    /// * `limit`: the longest that it may take; the line then says where it was stopped.
+    /// * `limit`: the longest time it may take; the line says where it was stopped.
     pub fn compute(sweep: &Sweep, index: usize, limit: Option<Duration>) -> Self {
         let read = || scene(sweep, index).map_or_else(|line| line, |scene| simulate(sweep, index, &scene));
         caught(|| time_limit::within(limit, read).0).unwrap_or_else(|| Self::panicked(sweep, index))
@@ -55,27 +55,27 @@ impl Line {
         Self::failed(&sweep.case(index), "the program panicked".to_owned())
     }
 
-    fn failed(case: &Case<'_>, reason: String) -> Self {
-        Self::of(&Record { case: case.index, status: "failed", parameters: case, reason: Some(reason), result: None })
+    fn failed(case: &SweepCase<'_>, reason: String) -> Self {
+        Self::of(&Content { case: case.index, status: "failed", parameters: case, reason: Some(reason), result: None })
     }
 
-    fn of(record: &Record<'_>) -> Self {
-        // Plain structs, numbers and texts: there is nothing that cannot be written.
-        let json = serde_json::to_string(record).unwrap_or_else(|error| unreachable!("{error}"));
-        Self { case: record.case, passed: record.reason.is_none(), json }
+    fn of(content: &Content<'_>) -> Self {
+        // Structs of numbers and texts always serialise.
+        let json = serde_json::to_string(content).unwrap_or_else(|error| unreachable!("{error}"));
+        Self { case: content.case, passed: content.reason.is_none(), json }
     }
 }
 
-/// What a computation gives; `None` where it panics: a mistake of the program's, yet no reason to lose the other cases.
+/// The result of a computation; `None` where it panics, so that the other cases are not lost.
 fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
     panic::catch_unwind(AssertUnwindSafe(compute)).ok()
 }
 
-/// The scene of a case, or the line that says why there is none.
+/// The scene of a case, or the line of its failure.
 fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
     sweep.scene(&case).map_err(|error| {
-        // The place is one in a text that nobody has written.
+        // The line number would refer to a generated text.
         let field = error.field.map(|field| format!("{field}: ")).unwrap_or_default();
         Line::failed(&case, format!("{field}{}", error.complaint))
     })
@@ -93,7 +93,7 @@ fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
     let reason = run.failure.as_ref().map(ToString::to_string);
     let status = if reason.is_none() { "done" } else { "failed" };
     let result = Some(Object::reproducible(scene, run));
-    Line::of(&Record { case: index, status, parameters: &case, reason, result })
+    Line::of(&Content { case: index, status, parameters: &case, reason, result })
 }
 
 /// Cases that run side by side: at most [`LANES`], and their scenes agree.
@@ -102,11 +102,11 @@ struct Group {
     together: Option<Together>,
     indices: Vec<usize>,
     scenes: Vec<Scene>,
-    /// The line of a case that has no scene.
+    /// The line of a case without a scene.
     refused: Option<Line>,
 }
 
-/// Puts cases into groups; a case without a scene is in one of its own, without a scene.
+/// Groups cases; a case without a scene forms a group of its own.
 fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for &index in indices {
@@ -129,7 +129,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// The lines of a group: of all cases at once, or of one after the other where that cannot be.
+/// The lines of a group: its cases side by side, or one after the other where that fails.
 fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
     let Group { indices, scenes, refused, .. } = group;
     if let Some(line) = refused {
@@ -148,15 +148,15 @@ fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<
     })
 }
 
-/// Computes the cases on `jobs` threads (0: all there are), each for as long as `limit` allows, and hands each line to
-/// `sink` as soon as it is there.
+/// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on
+/// completion.
 ///
-/// Cases are begun in the order given, so that lines come nearly in that order; `sink` is called from every thread.
-/// Scenes with as many elements and steps run side by side, four at a time; with a limit each runs alone, so that none
-/// is stopped for another's sake. A line is the same either way.
+/// Cases start in the order given, so that lines come nearly in that order; `sink` is called from every thread. Scenes with
+/// equal numbers of elements and steps run side by side, four at a time; with a limit each runs alone, so that the limit
+/// applies to one case. A line is the same either way.
 ///
 /// # Errors
-/// That of `sink`, which ends the sweep, or of threads that cannot be started.
+/// The error of `sink`, which ends the sweep, or of threads that cannot be started.
 pub fn run(
     sweep: &Sweep,
     cases: &[usize],
@@ -165,7 +165,7 @@ pub fn run(
     sink: impl Fn(Line) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
-    // No thread is to be idle so that another one's lanes are full.
+    // Batches small enough that every thread has work.
     let batch = if limit.is_some() { 1 } else { cases.len().div_ceil(pool.current_num_threads()).clamp(1, BATCH) };
     let compute = |batch: &[usize]| match batch {
         [index] => sink(Line::compute(sweep, *index, limit)),
@@ -174,27 +174,27 @@ pub fn run(
     pool.install(|| cases.chunks(batch).par_bridge().try_for_each(compute))
 }
 
-/// Puts lines back into the order of their cases, holding those back that came early.
+/// Writes lines in the order of their cases; those that come early are kept until their turn.
 pub struct InOrder<W> {
     output: W,
-    /// Cases whose line has not been written, in order.
+    /// Cases of which the line has not been written, in order.
     expected: std::vec::IntoIter<usize>,
     next: Option<usize>,
     early: BTreeMap<usize, String>,
 }
 
 impl<W: Write> InOrder<W> {
-    /// * `expected`: the cases whose lines will come, increasing.
+    /// * `expected`: the cases of all lines to come, increasing.
     pub fn new(output: W, expected: Vec<usize>) -> Self {
         let mut expected = expected.into_iter();
         let next = expected.next();
         Self { output, expected, next, early: BTreeMap::new() }
     }
 
-    /// Takes a line and writes what is due.
+    /// Accepts a line and writes all lines whose turn has come.
     ///
     /// # Errors
-    /// That of the output.
+    /// The error of the output.
     pub fn add(&mut self, line: Line) -> io::Result<()> {
         self.early.insert(line.case, line.json);
         while let Some(json) = self.next.and_then(|next| self.early.remove(&next)) {

@@ -1,4 +1,4 @@
-//! Shares of a sweep, dealt by content: a case belongs to the same share wherever it stands in the file.
+//! Shares of a sweep: the values of a case determine its share, not its position in the file.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use convergence_study::judge::random::SplitMix;
 
-/// Share k of n, from 1 to n; 1/1 is everything.
+/// Share k of n, k from 1 to n; 1/1 is the whole sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
     number: u64,
@@ -16,13 +16,13 @@ pub struct Share {
 
 /// A text that is not a share.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("found {found:?}; allowed is k/n with 1 <= k <= n, such as 3/8")]
+#[error("expected k/n with 1 <= k <= n, such as 3/8; found {found:?}")]
 pub struct ShareError {
     found: String,
 }
 
 impl Share {
-    /// Everything.
+    /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
     /// Whether a case with this [`content_hash`] belongs to it: to exactly one of n shares.
@@ -49,14 +49,14 @@ impl fmt::Display for Share {
     }
 }
 
-/// 64 bits that are the same for the same bytes, on every machine and for ever: FNV-1a, its bits mixed by splitmix64.
+/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.
 ///
-/// Not for secrets. FNV alone leaves the low bits of similar texts similar, and shares are dealt by the low bits.
+/// Not cryptographic. With FNV alone the low bits of similar texts, which determine the share, would be correlated.
 pub fn content_hash(bytes: &[u8]) -> u64 {
     const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01B3;
     let fnv = bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME));
-    SplitMix::new(fnv).next()
+    SplitMix::new(fnv).next_u64()
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ impl Range {
     }
 }
 
-/// To 9 digits: what libraries of other machines make of a power is then the same.
+/// To 9 digits, on which the mathematical libraries of all machines agree.
 fn rounded(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
@@ -61,20 +61,20 @@ fn number(field: &Field<'_>, key: Key) -> Result<f64, InputError> {
         // Larger ones are refused by the scene; these are exact as f64.
         return Ok(field.count(1..=1 << 53)? as f64);
     }
-    // -0 and 0 are the same value under two names.
+    // -0 and 0 are one value; the sum is 0 for both.
     field.number().map(|value| value + 0.0)
 }
 
-/// Values with the place to complain at.
-pub(super) struct Axis<'a> {
+/// A key that varies, its values, and where they are written.
+pub(super) struct VariedKey<'a> {
     pub(super) key: Key,
     pub(super) values: Vec<f64>,
-    /// What has to be possible in a scene: values and where they are written.
+    /// Values that a scene must accept, and the fields to name if it does not.
     pub(super) probes: Vec<(f64, Field<'a>)>,
 }
 
 /// A list, or `{ from, to, count, scale }`.
-pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<Axis<'a>, InputError> {
+pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, InputError> {
     let allowed = "a list of at least one number, or { from, to, count }";
     if field.is_list() {
         let items = field.items(allowed)?;
@@ -86,7 +86,7 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<Axis<'a>, InputErro
         if let Some(twice) = values.iter().position(|value| !seen.insert(value.to_bits())) {
             return Err(items[twice].refuse(format!("{} a second time", items[twice].as_written()), "each number once"));
         }
-        return Ok(Axis { key, probes: values.iter().copied().zip(items).collect(), values });
+        return Ok(VariedKey { key, probes: values.iter().copied().zip(items).collect(), values });
     }
     if !field.is_table() {
         return Err(field.refuse_as_written(allowed));
@@ -99,15 +99,15 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<Axis<'a>, InputErro
     if values.len() < number {
         return Err(count.refuse(format!("{number}, which repeats numbers"), format!("at most {}", values.len())));
     }
-    Ok(Axis { key, probes: vec![(values[0], field.clone()), (values[number - 1], field)], values })
+    Ok(VariedKey { key, probes: vec![(values[0], field.clone()), (values[number - 1], field)], values })
 }
 
 /// `{ from, to, scale }`, a Latin hypercube's share of it.
-pub(super) fn latin<'a>(field: Field<'a>, key: Key, samples: usize, seed: u64) -> Result<Axis<'a>, InputError> {
+pub(super) fn latin<'a>(field: Field<'a>, key: Key, samples: usize, seed: u64) -> Result<VariedKey<'a>, InputError> {
     if !field.is_table() {
         return Err(field.refuse_as_written("a range { from, to }"));
     }
     let range = Range::read(&field, key, &[])?;
     let values = stratified(samples, seed, key).into_iter().map(|share| range.at(share, key)).collect();
-    Ok(Axis { key, values, probes: vec![(range.from, field.clone()), (range.to, field)] })
+    Ok(VariedKey { key, values, probes: vec![(range.from, field.clone()), (range.to, field)] })
 }

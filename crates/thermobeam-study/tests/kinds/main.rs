@@ -1,17 +1,20 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
-mod equilibrium;
 mod bifurcation;
 mod calibration;
 mod controls;
 mod energy;
+mod equilibrium;
 mod experiment;
 mod frequencies;
+mod planted;
 mod refused;
+mod rigid;
 mod self_convergence;
-mod stress;
+mod solvers;
 mod typed;
 mod vibration;
+mod work_precision;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::CaseFailure;

@@ -7,15 +7,16 @@ use convergence_study::judge::verdict::{Level, Verdict, judge};
 use thermobeam::parameters::{Beam, Obstacles};
 
 use crate::error::design::{Defect, Disagreement};
-use crate::kinds::convergence::file::ConvergenceSpec;
-use crate::kinds::convergence::step;
+use crate::exact::norm::Norms;
+use crate::kinds::convergence::Convergence;
 use crate::scene::tables;
+use convergence_study::study::FromFile;
 
 /// Errors in the order of [`Norm::ALL`](crate::kinds::tables::Norm::ALL).
-pub(super) type Errors = [f64; 8];
+pub(super) type Errors = Norms;
 
 /// What a run that broke down has measured: NaN, on which every study fails.
-pub(super) const BROKEN: Errors = [f64::NAN; 8];
+pub(super) const BROKEN: Errors = Norms::NAN;
 
 /// What is wrong in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +51,7 @@ impl Fault {
     /// What solver and sources disagree in; `None` where the study does not have the coefficient, or has it zero.
     ///
     /// * `relative`: relative error of a coefficient.
-    pub(super) fn plant(self, spec: &ConvergenceSpec, relative: f64) -> Option<Disagreement> {
+    pub(super) fn plant(self, spec: &Convergence, relative: f64) -> Option<Disagreement> {
         let honest = Disagreement { beam: spec.beam, obstacles: spec.obstacles, defect: None };
         match self {
             Fault::None => Some(honest),
@@ -80,7 +81,7 @@ fn perturbed(
 }
 
 /// The studies that a section names, with its own levels where it gives them.
-pub(super) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<ConvergenceSpec>, InputError> {
+pub(super) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence>, InputError> {
     let allowed = "a list of at least one study file beside this one";
     let field = section.require("studies", allowed)?;
     let files = field.items(allowed)?;
@@ -91,7 +92,7 @@ pub(super) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<
     let levels = levels.unwrap_or_default().iter().map(tables::elements).collect::<Result<Vec<_>, _>>()?;
     let mut studies = vec![];
     for file in files {
-        let mut spec = ConvergenceSpec::read(file.file(folder)?)?;
+        let mut spec = Convergence::read(file.file(folder)?)?;
         if !levels.is_empty() {
             spec.refine.elements.clone_from(&levels);
         }
@@ -104,13 +105,13 @@ pub(super) fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<
 ///
 /// * `levels`: elements, steps and errors of each level, coarse to fine.
 pub(super) fn verdicts<'a>(
-    spec: &'a ConvergenceSpec,
+    spec: &'a Convergence,
     levels: &'a [((usize, usize), Errors)],
 ) -> impl Iterator<Item = Verdict> + 'a {
     spec.expect.iter().map(move |expectation| {
         let level = |((elements, steps), errors): &((usize, usize), Errors)| Level {
-            step: step(spec, *elements, *steps),
-            error: errors[expectation.norm as usize],
+            step: spec.step(*elements, *steps),
+            error: errors[expectation.norm],
         };
         judge(&levels.iter().map(level).collect::<Vec<_>>(), expectation.order, expectation.tolerance).verdict
     })

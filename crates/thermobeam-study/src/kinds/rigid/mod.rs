@@ -1,6 +1,6 @@
 //! Obstacles becoming rigid, ε → 0: the Signorini limit.
 //!
-//! # One scale decides
+//! # The time scale of an impact
 //!
 //! When the free end meets an obstacle with velocity v, only a layer of width √(ζt) takes part at first: there the beam is
 //! a viscous half-space, whose end resists a change of velocity with the force `√ζ D^½`, a derivative of half an order. With
@@ -18,25 +18,32 @@
 //! | the same on a fixed mesh with a fixed dt, once t* < dt | 1 | the step averages the force, which then has a limit |
 //! | penetration at rest | 1 | the force at rest has a limit |
 //!
-//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails exactly where the time step no
-//! longer resolves the impact. Newton's method does not notice.
+//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails exactly where the time
+//! step no longer resolves the impact. Newton's iterations do not depend on ε.
 
-mod claims;
-mod measure;
+mod cases;
+mod file;
+mod judge;
 mod report;
-mod spec;
 mod theory;
 
-use super::Study;
-use super::complete::{all_ran, or_nothing};
-use super::steady::at_resolution;
-use crate::kinds::untyped::{Case, Measured};
-use crate::scene::Scene;
+use std::path::Path;
+
+use convergence_study::input::{InputError, Section};
 use convergence_study::judge::verdict::Judge;
-use convergence_study::study::CaseFailure;
-use convergence_study::study::Header;
-use convergence_study::study::outcome::Outcome;
-use convergence_study::text::number::max_or_nan;
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+
+use crate::scene::Scene;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "rigid",
+    read: reader::<RigidStudy>,
+    why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
+          epsilon^(2/3) in an impact that the grid resolves.",
+    judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
+    failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
+};
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,90 +70,114 @@ pub struct RigidStudy {
 
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Task {
-    /// The bouncing beam by Newton's method; the first is the rigid limit.
-    Moving(f64),
+pub struct Task {
+    /// Compliance of the obstacles.
+    pub epsilon: f64,
+    /// The computation.
+    pub run: RunOf,
+}
+
+/// A computation with one compliance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RunOf {
+    /// The bouncing beam between obstacles that are all but rigid, by Newton's method.
+    RigidLimit,
+    /// The bouncing beam by Newton's method.
+    Bouncing,
     /// The bouncing beam by the fixed point.
-    FixedPoint(f64),
-    Rest(f64),
-    Impact(f64),
+    FixedPoint,
+    /// The beam that comes to rest on an obstacle.
+    Rest,
+    /// The impact, resolved in space and time.
+    Impact,
 }
 
-impl RigidStudy {
-    fn tasks(&self) -> Vec<Task> {
-        let kinds = [Task::Moving, Task::FixedPoint, Task::Rest, Task::Impact];
-        let all = kinds.iter().flat_map(|kind| self.epsilons.iter().map(|&epsilon| kind(epsilon)));
-        std::iter::once(Task::Moving(self.limit)).chain(all).collect()
-    }
+/// What a case found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// Of [`RunOf::RigidLimit`] and [`RunOf::Bouncing`].
+    Bouncing(Bouncing),
+    /// Of [`RunOf::FixedPoint`].
+    FixedPoint(FixedPointRun),
+    /// Of [`RunOf::Rest`].
+    Rest(Rest),
+    /// Of [`RunOf::Impact`].
+    Impact(Impact),
+}
 
-    fn impact_scene(&self, epsilon: f64) -> Scene {
-        let scene = measure::with_compliance(&self.impact, epsilon);
-        let time = theory::impact_time(epsilon, scene.beam.zeta);
-        // The peak is at 1.65 t*.
-        Scene { dt: time / self.steps as f64, steps: 3 * self.steps, t_end: 3.0 * time, ..scene }
+/// A bouncing beam by Newton's method. A penetration is ε times the contact force, which keeps the digits that the
+/// difference u(1) - g loses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bouncing {
+    /// Largest contact force, in absolute value.
+    pub force: f64,
+    /// Largest penetration.
+    pub penetration: f64,
+    /// Iterations per step.
+    pub mean_iterations: f64,
+    /// Iterations of the step that took most.
+    pub most_iterations: usize,
+    /// (t, u(1, t)) of every level.
+    pub tip: Vec<(f64, f64)>,
+}
+
+/// The bouncing beam by the fixed point, up to the step that fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedPointRun {
+    /// Predicted contraction factor in contact.
+    pub alpha: f64,
+    /// Largest factor measured in contact, or that of the last increments of the step that fails; `None` where no step was
+    /// in contact, and where the iterates overflowed.
+    pub contraction: Option<f64>,
+    /// Iterations per step done.
+    pub mean_iterations: f64,
+    /// Time of the step that fails, if one does.
+    pub failed_at: Option<f64>,
+}
+
+/// A beam at rest on an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rest {
+    /// Contact force, in absolute value.
+    pub force: f64,
+    /// Penetration, ε times the force.
+    pub penetration: f64,
+}
+
+/// The first impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Velocity of the free end at t = 0.
+    pub velocity: f64,
+    /// Peak of the contact force.
+    pub force: f64,
+    /// Peak of the penetration, ε times the force.
+    pub penetration: f64,
+}
+
+impl FromFile for RigidStudy {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        file::read(header, root, folder)
     }
 }
 
-impl Study for RigidStudy {
+impl Kind for RigidStudy {
+    type Data = Task;
+    type Found = Found;
+
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case> {
-        let case = |task: &Task| {
-            let (name, epsilon, scene, steps) = match task {
-                Task::Moving(epsilon) => ("bouncing", epsilon, &self.moving, self.moving.steps as f64),
-                Task::FixedPoint(epsilon) => ("fixed point", epsilon, &self.moving, 4.0 * self.moving.steps as f64),
-                Task::Rest(epsilon) => ("at rest", epsilon, &self.resting, 200.0 / self.resting.dt),
-                Task::Impact(epsilon) => ("impact", epsilon, &self.impact, 3.0 * self.steps as f64),
-            };
-            let cost = steps * (scene.mesh.nodes().len() - 1) as f64;
-            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost }
-        };
-        self.tasks().iter().map(case).collect()
+    fn cases(&self) -> Vec<Case<Task>> {
+        cases::cases(self)
     }
 
-    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
-        match self.tasks()[index] {
-            Task::Moving(epsilon) => measure::moving(&measure::with_compliance(&self.moving, epsilon)),
-            Task::FixedPoint(epsilon) => {
-                measure::fixed_point(&measure::with_compliance(&self.moving, epsilon), self.max_iterations)
-            }
-            Task::Rest(epsilon) => {
-                measure::rest(&measure::with_compliance(&self.resting, epsilon), self.speed, self.t_max)
-            }
-            Task::Impact(epsilon) => measure::impact(&self.impact_scene(epsilon)),
-        }
+    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
+        cases::run(self, *task)
     }
 
-    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
-        let cases = self.cases();
-        let measured = or_nothing(cases.len(), results);
-        let mut groups = measured[1..].chunks(self.epsilons.len());
-        let mut next = || groups.next().unwrap_or(&[]);
-        let found = Found { limit: &measured[0], moving: next(), fixed_point: next(), rest: next(), impact: next() };
-        let mut checks = vec![all_ran(&cases, results)];
-        checks.extend(claims::judge(self, &found));
-        report::outcome(self, &found, claims::rates(self, &found), checks)
-    }
-}
-
-/// The results, each list in the order of the compliances.
-struct Found<'a> {
-    limit: &'a Measured,
-    moving: &'a [Measured],
-    fixed_point: &'a [Measured],
-    rest: &'a [Measured],
-    impact: &'a [Measured],
-}
-
-impl Found<'_> {
-    /// Largest distance over time between the free end of a bouncing beam and that with rigid obstacles.
-    fn distance_to_limit(&self, moving: &Measured) -> f64 {
-        let (tip, limit) = (moving.curve("u_tip"), self.limit.curve("u_tip"));
-        if tip.is_empty() || tip.len() != limit.len() {
-            return f64::NAN;
-        }
-        tip.iter().zip(limit).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, max_or_nan)
+    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+        judge::judge(self, ran)
     }
 }

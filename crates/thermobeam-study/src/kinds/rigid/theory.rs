@@ -1,9 +1,4 @@
-//! What is known beforehand: the impact of a viscous beam in closed form, and the fixed point's contraction.
-
-use thermobeam::error::StepFailure;
-use thermobeam::tridiagonal::TridiagonalFactor;
-
-use crate::scene::Scene;
+//! The impact of a viscous beam in closed form.
 
 /// The time that an impact takes, `t* = (ε √ζ)^(2/3)`; also the penetration for an impact of unit velocity.
 pub(super) fn impact_time(epsilon: f64, zeta: f64) -> f64 {
@@ -32,23 +27,6 @@ fn penetration(tau: f64) -> f64 {
         gamma[k % 2] *= x * (x + 1.0) * (x + 2.0);
     }
     sum
-}
-
-/// `[A_u⁻¹]_nn dt`, so that the fixed point contracts by this over ε while the free end is in contact:
-/// `A_u = M/dt + (ζ + dt (1 + β)/2) K`.
-///
-/// # Errors
-/// A pivot that is not positive: β far beyond buckling with a large dt.
-pub(super) fn tip_compliance(scene: &Scene) -> Result<f64, StepFailure> {
-    let (beam, dt) = (&scene.beam, scene.dt);
-    let lengths: Vec<f64> = scene.mesh.lengths().collect();
-    let n = lengths.len();
-    let mut factor = TridiagonalFactor::new(n);
-    factor.factorize(&lengths, 1.0 / dt, beam.zeta + 0.5 * dt * (1.0 + beam.beta), beam.beta)?;
-    let mut tip = vec![0.0; n + 1];
-    tip[n] = 1.0;
-    factor.solve_in_place(&mut tip);
-    Ok(dt * tip[n])
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use convergence_study::text::number::max_or_nan;
 use thermobeam::solve::Level;
 
 use super::{Sample, Traced};
-use crate::error::yardstick::{distance, prolong, restrict};
+use crate::error::evaluator::{distance, prolong, restrict};
 
 /// A difference of two runs; each the maximum over the times compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -29,7 +29,7 @@ impl Perturbation {
             return i as f64 / n;
         }
         // Every level gets numbers of its own: nested displacements would not be random.
-        let scramble = |state: u64| SplitMix::new(state).next();
+        let scramble = |state: u64| SplitMix::new(state).next_u64();
         let seed = scramble(scramble(self.seed ^ scramble(elements as u64)).wrapping_add(i as u64));
         let unit = SplitMix::new(seed).within([-1.0, 1.0]);
         (i as f64 + 0.5 * self.amount * unit) / n

@@ -9,6 +9,7 @@
 //! and costs `T/(h dt) = K E^-(1/p + 1/q)`.
 
 use convergence_study::judge::fit::{self, Quantiles, SurfacePoint, fit_line, fit_surface};
+use convergence_study::text::number::max_or_nan;
 
 /// The errors of one method in one quantity: rates, constants and the cost that follows.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +51,7 @@ impl Law {
     /// Fits the law.
     ///
     /// # Errors
-    /// In words, where there is none to be had: errors that are not numbers, rates that are not positive.
+    /// A text where no law can be fitted: errors that are not finite, rates that are not positive.
     pub fn fit(points: &[GridPoint], t_end: f64, runs: f64, quantiles: &Quantiles) -> Result<Self, String> {
         let surface: Vec<SurfacePoint> = points
             .iter()
@@ -95,7 +96,7 @@ impl Law {
         let square =
             |p: &GridPoint| (self.error(1.0 / p.elements as f64, self.t_end / p.steps as f64) / p.error).ln().powi(2);
         self.misfit = (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt();
-        self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min);
+        self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, |least, error| -max_or_nan(-least, -error));
         Ok(self)
     }
 
@@ -125,12 +126,7 @@ impl Law {
     /// Largest factor by which a run of the grid is cheaper than the best path; about 1 where the path is the best.
     pub fn undercut(&self, points: &[GridPoint]) -> f64 {
         let factor = |point: &GridPoint| self.cost(point.error) / point.node_steps;
-        points.iter().map(factor).fold(
-            0.0,
-            |most: f64, factor| {
-                if factor.is_nan() || most.is_nan() { f64::NAN } else { most.max(factor) }
-            },
-        )
+        points.iter().map(factor).fold(0.0, max_or_nan)
     }
 }
 

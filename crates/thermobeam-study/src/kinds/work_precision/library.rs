@@ -10,11 +10,12 @@
 //! elements times evaluations, each with three solves with M.
 
 use super::{Timed, WorkPrecision};
-use crate::error::yardstick::Yardstick;
+use crate::error::evaluator::Evaluator;
 use crate::exact::factors::Factors;
 use crate::kinds::work_precision::method::Measurement;
 use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use std::time::Instant;
@@ -116,15 +117,15 @@ impl WorkPrecision {
 
     fn integrated(&self, elements: usize, tolerance: f64) -> Result<Timed, CaseFailure> {
         let on = self.family.on(elements)?;
-        let mut yardstick = Yardstick::new(&self.family, &on, self.reference()?)?;
-        let measurement = self.integrate(&on, &mut yardstick, tolerance)?;
+        let mut evaluator = Evaluator::new(&self.family, &on, self.reference()?)?;
+        let measurement = self.integrate(&on, &mut evaluator, tolerance)?;
         Ok(Timed { method: "dop853", elements, steps: 0, measurement })
     }
 
     fn integrate(
         &self,
         on: &OnMesh<'_>,
-        yardstick: &mut Yardstick<'_>,
+        evaluator: &mut Evaluator<'_>,
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
         let system = SemiDiscrete::new(on)?;
@@ -139,9 +140,9 @@ impl WorkPrecision {
             spent.seconds += start.elapsed().as_secs_f64();
             spent.node_steps += system.lengths.len() as f64 * f64::from(stats.num_eval);
             y = integrator.y_out().last().cloned().ok_or_else(|| CaseFailure { reason: "no result".to_owned() })?;
-            let found = yardstick.measure(&system.level(&y), index, from + pause);
+            let found = evaluator.measure(&system.level(&y), index, from + pause);
             for (worst, error) in errors.iter_mut().zip(found) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+                *worst = max_or_nan(*worst, error);
             }
         }
         spent.node_solves = spent.node_steps;
@@ -152,6 +153,7 @@ impl WorkPrecision {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use convergence_study::study::FromFile;
     use std::path::Path;
 
     #[test]

@@ -1,8 +1,9 @@
 //! The methods compared, and one run of each.
 
-use crate::error::yardstick::{Yardstick, combine};
+use crate::error::evaluator::{Evaluator, combine};
 use crate::run::family::{OnMesh, Spent};
 use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};
 
@@ -30,7 +31,7 @@ pub const METHODS: [Method; 4] = [
 /// A run: largest errors over the times of observation, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// In the order of [`crate::error::yardstick::Quantity::ALL`].
+    /// In the order of [`crate::error::evaluator::ErrorMeasure::ALL`].
     pub errors: [f64; 3],
     /// The cost, without the measuring.
     pub spent: Spent,
@@ -49,7 +50,7 @@ impl Method {
     pub fn run(
         &self,
         on: &OnMesh<'_>,
-        yardstick: &mut Yardstick<'_>,
+        evaluator: &mut Evaluator<'_>,
         [steps, observations]: [usize; 2],
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
@@ -68,11 +69,11 @@ impl Method {
             };
             let t = run.t();
             let found = match &extrapolated {
-                Some(level) => yardstick.measure(level, index, t),
-                None => yardstick.measure(run.level(), index, t),
+                Some(level) => evaluator.measure(level, index, t),
+                None => evaluator.measure(run.level(), index, t),
             };
             for (worst, error) in errors.iter_mut().zip(found) {
-                *worst = if error.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(error) };
+                *worst = max_or_nan(*worst, error);
             }
         }
         let mut spent = run.spent();

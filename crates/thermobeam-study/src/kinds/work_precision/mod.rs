@@ -1,9 +1,9 @@
 //! What an error costs, by method: error over node-steps and solves.
 //!
-//! Every method runs over the same grid of elements and steps; its errors are those of the [`yardstick`](crate::error::yardstick),
+//! Every method runs over the same grid of elements and steps; its errors are those of the [`evaluator`](crate::error::evaluator),
 //! the largest over equidistant times of observation that all runs share. From the grid follow the fitted [`law::Law`],
 //! the best path dt(h), the cost of an error E, and who is cheapest at 1e-2 ... 1e-8. Costs are counted, not timed, so
-//! that a report is the same on every machine and at every time; [`WorkPrecision::timed`] has the seconds.
+//! that a report is the same on every machine and at every time; [`WorkPrecision::timed`] measures the seconds.
 //!
 //! ```toml
 //! [work-precision]
@@ -22,39 +22,46 @@
 //! times = 100
 //! ```
 
-mod input;
+mod file;
+mod judge;
 pub mod law;
 #[cfg(feature = "ode-library")]
 mod library;
 pub mod method;
-mod report;
 mod timed;
 
-use crate::error::yardstick::{Quantity, Reference, Yardstick};
-use crate::kinds::Study;
-use crate::kinds::untyped::{Case, Measured};
-use crate::run::family::Family;
-use convergence_study::study::CaseFailure;
-use convergence_study::study::Header;
-use convergence_study::study::outcome::Outcome;
-use law::GridPoint;
-use method::{METHODS, Measurement, Method};
+use std::path::Path;
 use std::sync::OnceLock;
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use thermobeam::solve::Solver;
+
+use crate::error::evaluator::{ErrorMeasure, Evaluator, Reference};
+use crate::run::family::Family;
+use method::{METHODS, Measurement, Method};
 pub use timed::Timed;
 
-/// Name of the kind.
-pub const WORK_PRECISION: &str = "work-precision";
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "work-precision",
+    read: reader::<WorkPrecision>,
+    why: "Every method pays for a smaller error with more node-steps. The law e^2 = (C_h h^p)^2 + (C_t dt^q)^2 of each gives its \
+          cheapest path, and its cost for any error.",
+    judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
+    failure: "A method has become more expensive for the same error, or its order is not what the law says.",
+};
 
 /// A claim that one method is so many times cheaper than another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advantage {
     /// The error is measured in this quantity.
-    pub quantity: Quantity,
+    pub quantity: ErrorMeasure,
     /// The error.
     pub error: f64,
     /// The cheaper method.
     pub of: Method,
-    /// The dearer one.
+    /// The more expensive one.
     pub over: Method,
     /// At least so many times.
     pub times: f64,
@@ -74,6 +81,15 @@ pub struct WorkPrecision {
     advantages: Vec<Advantage>,
 }
 
+/// A method on a mesh: one run for each number of steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MethodOnMesh {
+    /// The method.
+    pub method: Method,
+    /// Elements of the mesh.
+    pub elements: usize,
+}
+
 impl WorkPrecision {
     /// Equidistant times at which the error is measured.
     fn observations(&self) -> usize {
@@ -88,72 +104,51 @@ impl WorkPrecision {
         computed.as_ref().map(Some).map_err(Clone::clone)
     }
 
-    fn grid(&self) -> Vec<(Method, usize)> {
-        METHODS.iter().flat_map(|method| self.elements.iter().map(|&elements| (*method, elements))).collect()
+    fn meshes(&self) -> impl Iterator<Item = MethodOnMesh> {
+        METHODS.iter().flat_map(|&method| self.elements.iter().map(move |&elements| MethodOnMesh { method, elements }))
     }
 
     /// All runs of a method on a mesh, one for each number of steps.
-    fn measure(&self, method: &Method, elements: usize) -> Result<Vec<Measurement>, CaseFailure> {
+    fn measure(&self, MethodOnMesh { method, elements }: MethodOnMesh) -> Result<Vec<Measurement>, CaseFailure> {
         let on = self.family.on(elements)?;
-        let mut yardstick = Yardstick::new(&self.family, &on, self.reference()?)?;
-        let mut run = |&steps: &usize| method.run(&on, &mut yardstick, [steps, self.observations()], self.tolerance);
+        let mut evaluator = Evaluator::new(&self.family, &on, self.reference()?)?;
+        let mut run = |&steps: &usize| method.run(&on, &mut evaluator, [steps, self.observations()], self.tolerance);
         self.steps.iter().map(&mut run).collect()
-    }
-
-    /// The grid of one method in one quantity; NaN where a run failed.
-    fn points(&self, method: &Method, quantity: Quantity, results: &[Result<Measured, CaseFailure>]) -> Vec<GridPoint> {
-        let mut points = vec![];
-        for ((other, elements), result) in self.grid().into_iter().zip(results) {
-            if other != *method {
-                continue;
-            }
-            for &steps in &self.steps {
-                let value = |name: &str| {
-                    result.as_ref().map_or(f64::NAN, |measured| measured.value(&format!("{name} {steps}")))
-                };
-                points.push(GridPoint {
-                    elements,
-                    steps,
-                    error: value(quantity.name()),
-                    node_steps: value("node-steps"),
-                    node_solves: value("node-solves"),
-                });
-            }
-        }
-        points
     }
 }
 
-impl Study for WorkPrecision {
+impl FromFile for WorkPrecision {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        file::read(header, root, folder)
+    }
+}
+
+impl Kind for WorkPrecision {
+    type Data = MethodOnMesh;
+    /// One for each number of steps; of their cost only what is counted is judged, not the seconds.
+    type Found = Vec<Measurement>;
+
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case> {
+    fn cases(&self) -> Vec<Case<MethodOnMesh>> {
         let steps: usize = self.steps.iter().sum();
-        let case = |(method, elements): (Method, usize)| {
+        let case = |data: MethodOnMesh| {
+            let MethodOnMesh { method, elements } = data;
             // The fixed point needs several iterations where Newton's method needs one pass.
-            let passes = if method.solver == thermobeam::solve::Solver::FixedPoint { 8.0 } else { 1.0 };
+            let passes = if method.solver == Solver::FixedPoint { 8.0 } else { 1.0 };
             let cost = (elements * steps) as f64 * method.runs() * passes;
-            Case { label: format!("{}, n = {elements}", method.name), cost }
+            Case { label: format!("{}, n = {elements}", method.name), cost, data }
         };
-        self.grid().into_iter().map(case).collect()
+        self.meshes().map(case).collect()
     }
 
-    fn run(&self, index: usize) -> Result<Measured, CaseFailure> {
-        let (method, elements) = self.grid()[index];
-        let mut measured = Measured::default();
-        for (steps, run) in self.steps.iter().zip(self.measure(&method, elements)?) {
-            for (quantity, error) in Quantity::ALL.into_iter().zip(run.errors) {
-                measured.push(format!("{} {steps}", quantity.name()), error);
-            }
-            measured.push(format!("node-steps {steps}"), run.spent.node_steps);
-            measured.push(format!("node-solves {steps}"), run.spent.node_solves);
-        }
-        Ok(measured)
+    fn run(&self, on: &MethodOnMesh) -> Result<Vec<Measurement>, CaseFailure> {
+        self.measure(*on)
     }
 
-    fn conclude(&self, results: &[Result<Measured, CaseFailure>]) -> Outcome {
-        report::conclude(self, results)
+    fn judge(&self, ran: &[Ran<MethodOnMesh, Vec<Measurement>>]) -> Outcome {
+        judge::judge(self, ran)
     }
 }

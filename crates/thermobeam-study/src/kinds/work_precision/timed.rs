@@ -2,15 +2,14 @@
 
 use super::law::front;
 use super::method::Measurement;
-use super::{CaseFailure, WorkPrecision};
-use crate::error::yardstick::Quantity;
-use crate::kinds::Study;
+use super::{MethodOnMesh, WorkPrecision};
+use crate::error::evaluator::ErrorMeasure;
 use convergence_study::plots;
-use convergence_study::study::outcome::Table;
+use convergence_study::study::{CaseFailure, Table};
 
-/// Errors whose cost is told, where there is a run as good.
+/// Errors of which the cost is shown, where a run reaches them.
 const TARGETS: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-/// Of so many runs the fastest counts: a machine that does something else only makes a run slower.
+/// Runs of which the fastest counts: other load on the machine only makes a run slower.
 const REPEATS: usize = 3;
 
 /// A run with its seconds.
@@ -27,8 +26,8 @@ pub struct Timed {
 }
 
 impl Timed {
-    fn error(&self, quantity: Quantity) -> f64 {
-        let errors = Quantity::ALL.into_iter().zip(self.measurement.errors);
+    fn error(&self, quantity: ErrorMeasure) -> f64 {
+        let errors = ErrorMeasure::ALL.into_iter().zip(self.measurement.errors);
         errors.into_iter().find(|(other, _)| *other == quantity).map_or(f64::NAN, |(_, error)| error)
     }
 
@@ -50,9 +49,10 @@ impl WorkPrecision {
         let mut best: Vec<Timed> = vec![];
         for repeat in 0..REPEATS {
             let mut runs = vec![];
-            for (method, elements) in self.grid() {
+            for on in self.meshes() {
+                let MethodOnMesh { method, elements } = on;
                 let row = |(&steps, measurement)| Timed { method: method.name, elements, steps, measurement };
-                runs.extend(self.steps.iter().zip(self.measure(&method, elements)?).map(row));
+                runs.extend(self.steps.iter().zip(self.measure(on)?).map(row));
             }
             if repeat == 0 {
                 best = runs;
@@ -67,7 +67,7 @@ impl WorkPrecision {
     }
 
     /// What each error costs in milliseconds: for each method the fastest of the runs whose error is at most that.
-    pub fn seconds(&self, quantity: Quantity, timed: &[Timed]) -> Table {
+    pub fn seconds(&self, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
         let methods = methods(timed);
         let fastest = |method: &str, error: f64| -> Option<&Timed> {
             let good = timed.iter().filter(|run| run.method == method && run.error(quantity) <= error);
@@ -85,7 +85,7 @@ impl WorkPrecision {
         Table {
             title: format!(
                 "{}: milliseconds (elements x steps) for an error in {}, the fastest run of the grid that is as good",
-                self.header().id,
+                self.header.id,
                 quantity.name()
             ),
             head: head.chain(["fastest".to_owned()]).collect(),
@@ -94,7 +94,7 @@ impl WorkPrecision {
     }
 
     /// Error over seconds: for each method the runs that no other run of it beats.
-    pub fn seconds_figure(&self, quantity: Quantity, timed: &[Timed]) -> String {
+    pub fn seconds_figure(&self, quantity: ErrorMeasure, timed: &[Timed]) -> String {
         let series = methods(timed).into_iter().map(|method| {
             let own = timed.iter().filter(|run| run.method == method);
             let points = front(own.map(|run| (run.seconds(), run.error(quantity))));

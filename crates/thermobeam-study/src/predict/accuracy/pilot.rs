@@ -7,8 +7,8 @@
 //! and the difference of two meshes is `√(4^p - 1)` times the error of the finer.
 
 use super::{Request, Trust};
+use crate::error::evaluator::{ErrorMeasure, distance, prolong};
 use crate::error::richardson::{growth, orthogonal_growth};
-use crate::error::yardstick::{Quantity, distance, prolong};
 use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
 use convergence_study::study::CaseFailure;
@@ -24,7 +24,7 @@ const LOOSE: [f64; 2] = [0.3, 1.5];
 #[derive(Debug, Clone)]
 pub(super) struct Pilots {
     pub(super) scheme: Scheme,
-    quantity: Quantity,
+    quantity: ErrorMeasure,
     /// Elements and steps of the last pilot.
     at: [usize; 2],
     /// Differences of the last pilot to the one on half the mesh and to the one with half the steps, over time.
@@ -46,7 +46,7 @@ pub(super) struct Forecast<'a> {
 }
 
 impl Pilots {
-    pub(super) fn new(scheme: Scheme, quantity: Quantity) -> Self {
+    pub(super) fn new(scheme: Scheme, quantity: ErrorMeasure) -> Self {
         let spent = Spent::default();
         Self { scheme, quantity, at: [0; 2], differences: vec![], space: vec![], time: vec![], touched: false, spent }
     }
@@ -67,7 +67,7 @@ impl Pilots {
             let level = pilot.level();
             self.touched |= level.contact_force != 0.0;
             let pair = match self.quantity {
-                Quantity::Tip => {
+                ErrorMeasure::Tip => {
                     let tip = level.u[elements];
                     [tip - wide.level().u[elements / 2], tip - slow.level().u[elements]]
                 }
@@ -91,7 +91,7 @@ impl Pilots {
 
     /// Orders in space and time that theory gives.
     fn orders(&self) -> [f64; 2] {
-        [if self.quantity == Quantity::Tip { 2.0 } else { 1.0 }, self.scheme.order]
+        [if self.quantity == ErrorMeasure::Tip { 2.0 } else { 1.0 }, self.scheme.order]
     }
 
     pub(super) fn forecast(&self, quantiles: &Quantiles) -> Forecast<'_> {
@@ -149,7 +149,7 @@ impl Forecast<'_> {
     /// Errors of the pilot itself in space and in time, at each time of comparison, times their share in a finer run.
     fn parts(&self, shrink: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let [p, q] = self.rates;
-        let space = if self.pilots.quantity == Quantity::Tip { growth(2.0, p) } else { orthogonal_growth(2.0, p) };
+        let space = if self.pilots.quantity == ErrorMeasure::Tip { growth(2.0, p) } else { orthogonal_growth(2.0, p) };
         let factors = [shrink[0] / space, shrink[1] / growth(2.0, q)];
         self.pilots.differences.iter().map(move |pair| [pair[0] * factors[0], pair[1] * factors[1]])
     }
@@ -158,7 +158,7 @@ impl Forecast<'_> {
     pub(super) fn error(&self, [elements, steps]: [f64; 2]) -> (f64, [f64; 2]) {
         let [n, s] = self.pilots.at.map(|count| count as f64);
         let shrink = [(n / elements).powf(self.rates[0]), (s / steps).powf(self.rates[1])];
-        let adds = self.pilots.quantity == Quantity::Tip;
+        let adds = self.pilots.quantity == ErrorMeasure::Tip;
         let (mut total, mut space, mut time) = (0.0_f64, 0.0_f64, 0.0_f64);
         for [a, b] in self.parts(shrink) {
             let here = match (adds, self.trust) {

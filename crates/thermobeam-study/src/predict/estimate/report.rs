@@ -1,8 +1,35 @@
 //! The budget as a table, and what to refine next.
 
-use super::{Budget, Estimate, Source};
-use convergence_study::text::number::max_or_nan;
 use std::fmt;
+
+use convergence_study::text::number::max_or_nan;
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+use super::{Budget, Estimate, Source};
+
+/// In the JSON object of a run: what dominates, the advice, and one object for each number; names are a contract.
+impl Serialize for Budget {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("Budget", 3)?;
+        object.serialize_field("dominant", &self.dominant().map(Source::name))?;
+        object.serialize_field("advice", &self.advice())?;
+        object.serialize_field("quantities", &self.estimates)?;
+        object.end()
+    }
+}
+
+impl Serialize for Estimate {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("Estimate", 7)?;
+        object.serialize_field("name", self.name)?;
+        object.serialize_field("value", &self.value)?;
+        for source in Source::ALL {
+            object.serialize_field(source.key(), &self.error(source))?;
+        }
+        object.serialize_field("total", &self.total())?;
+        object.end()
+    }
+}
 
 impl Budget {
     /// The source that carries the largest share of the errors, all numbers counting alike; `None` if all errors are zero

@@ -6,9 +6,9 @@ use crate::scene::Scene;
 
 /// Names of files and their SVG documents; none where no history was recorded.
 pub fn figures(scene: &Scene, run: &Run) -> Vec<(&'static str, String)> {
-    let Some(record) = &run.record else { return Vec::new() };
+    let Some(history) = &run.history else { return Vec::new() };
     let over_time =
-        |value: fn(&super::Sample) -> f64| record.rows.iter().map(|row| (row.sample.t, value(&row.sample))).collect();
+        |value: fn(&super::Sample) -> f64| history.rows.iter().map(|row| (row.sample.t, value(&row.sample))).collect();
     let motion = SceneMotion {
         name: &scene.name,
         beam: &scene.beam,
@@ -16,10 +16,10 @@ pub fn figures(scene: &Scene, run: &Run) -> Vec<(&'static str, String)> {
         u_tip: over_time(|sample| sample.u_tip),
         phi_tip: over_time(|sample| sample.phi_tip),
         energy: over_time(|sample| sample.energy),
-        contact: record.contact_phases(),
-        times: &record.frames.times,
-        points: &record.frames.nodes,
-        frames: &record.frames.u,
+        contact: history.contact_phases(),
+        times: &history.frames.times,
+        points: &history.frames.nodes,
+        frames: &history.frames.u,
     };
     motion.pictures()
 }

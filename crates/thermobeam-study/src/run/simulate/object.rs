@@ -3,8 +3,7 @@
 use serde::Serialize;
 use thermobeam::error::StepFailure;
 
-use super::Run;
-use super::budget::{self, ErrorBudget};
+use super::{EnergySummary, Extremes, Iterations, Run, Sample};
 use crate::predict::estimate::Budget;
 use crate::run::driver::RunError;
 use crate::scene::Scene;
@@ -22,9 +21,9 @@ pub struct Object<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     wall_seconds: Option<f64>,
     #[serde(rename = "final")]
-    last: Final,
+    last: Sample,
     extremes: Extremes,
-    energy: Energy,
+    energy: EnergySummary,
     scheme: &'static str,
     solver: &'static str,
     /// Whether the temperature was computed.
@@ -32,43 +31,12 @@ pub struct Object<'a> {
     contact_steps: usize,
     work: Work,
     #[serde(skip_serializing_if = "Option::is_none")]
-    error_budget: Option<ErrorBudget>,
+    error_budget: Option<&'a Budget>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
 }
 
-#[derive(Debug, Serialize)]
-struct Iterations {
-    total: usize,
-    max: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct Final {
-    t: f64,
-    u_tip: f64,
-    phi_tip: f64,
-    u_t_tip: f64,
-    phi_t_tip: f64,
-    theta_mid: f64,
-    energy: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Extremes {
-    u_tip_min: f64,
-    u_tip_max: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Energy {
-    initial: f64,
-    #[serde(rename = "final")]
-    last: f64,
-    largest_increase: f64,
-    largest_balance_residual: f64,
-}
-
+/// Counts of the solver, which knows no JSON.
 #[derive(Debug, Serialize)]
 struct Work {
     passes: usize,
@@ -103,37 +71,23 @@ impl<'a> Object<'a> {
     }
 
     /// The same with an error budget.
-    pub fn with_budget(self, budget: Option<&Budget>) -> Self {
-        Self { error_budget: budget.map(budget::object), ..self }
+    pub fn with_budget(self, error_budget: Option<&'a Budget>) -> Self {
+        Self { error_budget, ..self }
     }
 
     /// The same without the time on the clock: the same run gives the same bytes.
     pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
-        let last = &run.last;
         Self {
             scene: &scene.name,
             elements: scene.mesh.elements(),
             steps: run.steps,
             dt: scene.dt,
             t_end: scene.t_end,
-            iterations: Iterations { total: run.iterations.total, max: run.iterations.max },
+            iterations: run.iterations,
             wall_seconds: None,
-            last: Final {
-                t: last.t,
-                u_tip: last.u_tip,
-                phi_tip: last.phi_tip,
-                u_t_tip: last.u_t_tip,
-                phi_t_tip: last.phi_t_tip,
-                theta_mid: last.theta_mid,
-                energy: last.energy,
-            },
-            extremes: Extremes { u_tip_min: run.extremes.u_tip_min, u_tip_max: run.extremes.u_tip_max },
-            energy: Energy {
-                initial: run.energy.initial,
-                last: run.energy.last,
-                largest_increase: run.energy.largest_increase,
-                largest_balance_residual: run.energy.largest_balance_residual,
-            },
+            last: run.last,
+            extremes: run.extremes,
+            energy: run.energy,
             scheme: scene.scheme.name,
             solver: scene.settings.solver.name(),
             heated: run.is_heated,
@@ -149,8 +103,7 @@ fn failure(ended: &RunError) -> Failure {
     let error = match ended {
         RunError::Step(error) => error,
         RunError::Setup(error) => {
-            let message = error.to_string();
-            return Failure { kind: "setup", step: 0, t: 0.0, message, numbers: Numbers::None {} };
+            return Failure { kind: "setup", step: 0, t: 0.0, message: error.to_string(), numbers: Numbers::None {} };
         }
         RunError::TimeUp(up) => {
             let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };

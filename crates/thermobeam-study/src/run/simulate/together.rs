@@ -1,13 +1,14 @@
 //! Scenes that run side by side in lanes, twice as fast as one after the other, each with the bits that it gets alone.
 
-use std::time::{Duration, Instant};
+use std::ops::ControlFlow;
 
 use thermobeam::ensemble::Ensemble;
-use thermobeam::error::SetupError;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::{Middle, Run, Sample, Tally, problem};
+use crate::run::driver::RunError;
+use crate::run::ensemble::EnsembleDriver;
 use crate::scene::Scene;
 
 /// What scenes must have in common to run side by side.
@@ -34,11 +35,11 @@ impl Together {
 /// A run's time is its share of the time that all of them took.
 ///
 /// # Errors
-/// [`SetupError`] of the first scene that cannot be set up, and where the scenes do not agree.
-pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, SetupError> {
+/// [`RunError::Setup`] of the first scene that cannot be set up, and where the scenes do not agree; [`RunError::TimeUp`].
+pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
     let dt: Vec<f64> = scenes.iter().map(|scene| scene.dt).collect();
-    let mut ensemble = Ensemble::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
+    let mut driver = EnsembleDriver::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
     let mut level = Level::new(common.elements + 1);
     let sample = |ensemble: &Ensemble, level: &mut Level, k: usize, step: usize| {
         ensemble.observe(k, level);
@@ -46,40 +47,24 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, SetupError> {
         let t = step as f64 * scene.dt;
         Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, ensemble.energy(k, level).total())
     };
-    let start = |k: usize| sample(&ensemble, &mut level, k, 0).at_the_start(scenes[k].obstacles);
+    let start = |k: usize| sample(driver.ensemble(), &mut level, k, 0).at_the_start(scenes[k].obstacles);
     let firsts: Vec<Sample> = (0..scenes.len()).map(start).collect();
     let mut tallies: Vec<Tally> = firsts.iter().map(|first| Tally::new(first.u_tip)).collect();
-    let wall = step_to_the_end(&mut ensemble, common.steps, &mut tallies);
+    driver.run(common.steps, |ensemble, balances| {
+        for (k, (tally, balance)) in tallies.iter_mut().zip(balances).enumerate() {
+            if let Ok(report) = ensemble.report(k) {
+                tally.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
+            }
+        }
+        ControlFlow::Continue(())
+    })?;
+    let (ensemble, share) = (driver.ensemble(), driver.wall() / scenes.len() as u32);
     let end = |(k, tally): (usize, Tally)| {
         let failure = ensemble.report(k).err().filter(|_| common.steps > 0);
         let steps = failure.as_ref().map_or(common.steps, |error| error.step - 1);
-        let last = if steps == 0 { firsts[k] } else { sample(&ensemble, &mut level, k, steps) };
-        let share = wall / scenes.len() as u32;
+        let last = if steps == 0 { firsts[k] } else { sample(ensemble, &mut level, k, steps) };
         let run = tally.run(steps, [firsts[k], last], share, ensemble.work_of(k), ensemble.is_heated(k));
         Run { failure: failure.map(Into::into), ..run }
     };
     Ok(tallies.into_iter().enumerate().map(end).collect())
-}
-
-/// Does all steps, or as many as there is a case left to do; the time that the solver took.
-fn step_to_the_end(ensemble: &mut Ensemble, steps: usize, tallies: &mut [Tally]) -> Duration {
-    let mut balances = vec![];
-    let mut wall = Duration::ZERO;
-    for _ in 0..steps {
-        let start = Instant::now();
-        ensemble.advance();
-        wall += start.elapsed();
-        ensemble.balances(&mut balances);
-        let mut left = 0;
-        for (k, (tally, balance)) in tallies.iter_mut().zip(&balances).enumerate() {
-            if let Ok(report) = ensemble.report(k) {
-                tally.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
-                left += 1;
-            }
-        }
-        if left == 0 {
-            break;
-        }
-    }
-    wall
 }

@@ -31,7 +31,7 @@ pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
     }
     let headline = format!("{detected} of {faults} planted faults detected");
     let summary = format!("{headline}, coefficients being off by {:e}", study.relative);
-    let head = ["fault"].into_iter().chain(study.studies.iter().map(|spec| spec.id.as_str()));
+    let head = ["fault"].into_iter().chain(study.studies.iter().map(|spec| spec.header.id.as_str()));
     let table = Table {
         title: "Verdict of each study under each fault: `fail` detects it; n/a: term absent".to_owned(),
         head: head.map(str::to_owned).collect(),
@@ -43,7 +43,7 @@ pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
 /// An honest run has finite errors; of a wrong one a number that is not finite is a detection.
 fn not_finite(found: &[Planted]) -> Vec<String> {
     let honest = found.iter().find(|planted| planted.fault == Fault::None);
-    let finite = honest.is_some_and(|planted| planted.errors.iter().all(|error| error.is_finite()));
+    let finite = honest.is_some_and(|planted| planted.errors.iter().all(|(_, error)| error.is_finite()));
     if finite { vec![] } else { vec!["an error without a fault".to_owned()] }
 }
 

@@ -20,13 +20,13 @@ use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, Outcom
 
 use super::fault::{BROKEN, Errors, Fault, named_studies};
 use crate::error::design::Prepared;
-use crate::kinds::convergence::file::ConvergenceSpec;
+use crate::kinds::convergence::Convergence;
 
 /// A study of planted faults.
 pub struct Controls {
     header: Header,
     relative: f64,
-    studies: Vec<ConvergenceSpec>,
+    studies: Vec<Convergence>,
 }
 
 /// One level of one study, on which every fault is planted.
@@ -46,7 +46,7 @@ pub struct Planted {
     /// What was wrong.
     pub fault: Fault,
     /// Errors in the order of [`Norm::ALL`](crate::kinds::tables::Norm::ALL); NaN where the run broke down.
-    pub errors: [f64; 8],
+    pub errors: Errors,
 }
 
 impl FromFile for Controls {
@@ -72,11 +72,11 @@ impl Kind for Controls {
     fn cases(&self) -> Vec<Case<LevelOf>> {
         let faults = Fault::all().len() as f64;
         let case = |study: usize, (n, steps): (usize, usize)| Case {
-            label: format!("{}, n = {n}, {steps} steps", self.studies[study].id),
+            label: format!("{}, n = {n}, {steps} steps", self.studies[study].header.id),
             cost: n as f64 * (steps as f64 * faults + 50.0),
             data: LevelOf { study, elements: n, steps },
         };
-        let of_study = |(study, spec): (usize, &ConvergenceSpec)| {
+        let of_study = |(study, spec): (usize, &Convergence)| {
             spec.refine.cases().into_iter().map(move |level| (study, level)).collect::<Vec<_>>()
         };
         self.studies.iter().enumerate().flat_map(of_study).map(|(study, level)| case(study, level)).collect()

@@ -5,19 +5,19 @@ use convergence_study::study::CaseFailure;
 
 use super::super::fault::{BROKEN, Fault, verdicts};
 use crate::error::design::Prepared;
-use crate::kinds::convergence::file::ConvergenceSpec;
+use crate::kinds::convergence::Convergence;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
 pub(super) const BISECTIONS: usize = 9;
 
 /// The levels of one study, prepared once for all runs.
 pub(super) struct Detector<'a> {
-    spec: &'a ConvergenceSpec,
+    spec: &'a Convergence,
     prepared: Vec<(Prepared<'a>, usize, usize)>,
 }
 
 impl<'a> Detector<'a> {
-    pub(super) fn new(spec: &'a ConvergenceSpec) -> Result<Self, CaseFailure> {
+    pub(super) fn new(spec: &'a Convergence) -> Result<Self, CaseFailure> {
         let prepare = |(n, steps)| Ok((Prepared::new(spec, n)?, n, steps));
         Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
     }

@@ -53,7 +53,7 @@ pub(super) fn judge(study: &Sensitivity, ran: &[Ran<Coefficient, Option<f64>>]) 
     } else {
         format!("some coefficient off by {:e} is not detected", study.at_most)
     };
-    let head = ["coefficient"].into_iter().chain(study.studies.iter().map(|spec| spec.id.as_str()));
+    let head = ["coefficient"].into_iter().chain(study.studies.iter().map(|spec| spec.header.id.as_str()));
     let table = Table {
         title: "Smallest relative error that makes the study fail; n/a: coefficient absent or zero".to_owned(),
         head: head.map(str::to_owned).collect(),

@@ -17,13 +17,13 @@ use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, Outcome, Ran};
 
 use super::fault::{Fault, coefficients, named_studies};
-use crate::kinds::convergence::file::ConvergenceSpec;
+use crate::kinds::convergence::Convergence;
 use detector::{BISECTIONS, Detector};
 
 /// A study of the smallest errors that are detected.
 pub struct Sensitivity {
     header: Header,
-    studies: Vec<ConvergenceSpec>,
+    studies: Vec<Convergence>,
     range: [f64; 2],
     at_most: f64,
 }
@@ -68,14 +68,14 @@ impl Kind for Sensitivity {
     }
 
     fn cases(&self) -> Vec<Case<Coefficient>> {
-        let cost = |spec: &ConvergenceSpec| -> f64 {
+        let cost = |spec: &Convergence| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
             spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
         };
-        let of_study = |(study, spec): (usize, &ConvergenceSpec)| {
+        let of_study = |(study, spec): (usize, &Convergence)| {
             let can_be_planted = |key: &&'static str| Fault::Coefficient(key).plant(spec, self.at_most).is_some();
             let case = |key| Case {
-                label: format!("{key} in {}", spec.id),
+                label: format!("{key} in {}", spec.header.id),
                 cost: cost(spec),
                 data: Coefficient { study, key },
             };

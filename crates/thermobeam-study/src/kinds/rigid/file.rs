@@ -2,24 +2,15 @@
 
 use std::path::Path;
 
-use super::{RigidStudy, at_resolution};
-use crate::kinds::FromFile;
-use crate::kinds::steady::{listed_scene, positive};
-use crate::scene::Scene;
-use crate::scene::limits;
-use crate::scene::tables;
-use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
 use convergence_study::study::Header;
 
-impl FromFile for RigidStudy {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, from_document)
-    }
-}
+use super::RigidStudy;
+use crate::kinds::steady::{at_resolution, listed_scene, positive};
+use crate::scene::{Scene, limits, tables};
 
-fn from_document(root: &Section<'_>, folder: &Path) -> Result<RigidStudy, InputError> {
-    let header = Header::from_document(root)?;
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<RigidStudy, InputError> {
     root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
     let obstacles = root.require("obstacles", "a table with epsilon, limit and tolerance")?.section()?;
     obstacles.allow(&["epsilon", "limit", "tolerance"])?;

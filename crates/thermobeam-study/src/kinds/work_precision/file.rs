@@ -1,59 +1,51 @@
-//! Reading a work-precision study.
+//! The study file: the problem, the grid of runs, the advantages claimed.
 
-use super::method::{METHODS, Method};
-use super::{Advantage, WORK_PRECISION, WorkPrecision};
-use crate::error::free_vibration;
-use crate::error::yardstick::Quantity;
-use crate::kinds::FromFile;
-use crate::kinds::convergence::Convergence;
-use crate::run::family::Family;
-use crate::scene::Scene;
-use crate::scene::limits;
-use convergence_study::input::{self, InputError, Section};
-use convergence_study::study::Header;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::Header;
+
+use super::method::{METHODS, Method};
+use super::{Advantage, ROW, WorkPrecision};
+use crate::error::evaluator::ErrorMeasure;
+use crate::error::free_vibration;
+use crate::kinds::convergence::Convergence;
+use crate::run::family::Family;
+use crate::scene::{Scene, limits};
+
 /// Tolerance of the solver that leaves no trace in the errors measured.
 const TOLERANCE: f64 = 1e-11;
-/// Misfit of the law that is allowed where a file does not say.
+/// Largest misfit of the law, where a file does not say.
 const MISFIT: f64 = 0.15;
 
 const POSITIVE: &str = "a finite number > 0";
 
-impl FromFile for WorkPrecision {
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, Self::from_document)
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<WorkPrecision, InputError> {
+    root.allow(&["study", ROW.name, "advantage"])?;
+    let section = root.require(ROW.name, "a table with elements, steps and a problem")?.section()?;
+    let keys = ["solution", "scene", "vibration", "zeta", "t_end", "reference", "elements", "steps"];
+    section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
+    let steps = levels(&section, "steps")?;
+    if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
+        return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
     }
-}
-
-impl WorkPrecision {
-    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", WORK_PRECISION, "advantage"])?;
-        let section = root.require(WORK_PRECISION, "a table with elements, steps and a problem")?.section()?;
-        let keys = ["solution", "scene", "vibration", "zeta", "t_end", "reference", "elements", "steps"];
-        section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
-        let steps = levels(&section, "steps")?;
-        if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
-            return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
-        }
-        let elements = levels(&section, "elements")?;
-        let number = |key: &str, default: f64| {
-            section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
-        };
-        let (family, reference) = problem(&section, folder, &elements, &steps)?;
-        Ok(Self {
-            header: Header::from_document(root)?,
-            family,
-            reference,
-            computed: OnceLock::new(),
-            tolerance: number("tolerance", TOLERANCE)?,
-            misfit: number("misfit", MISFIT)?,
-            advantages: advantages(root)?,
-            elements,
-            steps,
-        })
-    }
+    let elements = levels(&section, "elements")?;
+    let number = |key: &str, default: f64| {
+        section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
+    };
+    let (family, reference) = problem(&section, folder, &elements, &steps)?;
+    Ok(WorkPrecision {
+        header,
+        family,
+        reference,
+        computed: OnceLock::new(),
+        tolerance: number("tolerance", TOLERANCE)?,
+        misfit: number("misfit", MISFIT)?,
+        advantages: advantages(root)?,
+        elements,
+        steps,
+    })
 }
 
 /// An increasing list of at least two whole numbers.
@@ -136,7 +128,7 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
 fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
     let Some(field) = root.get("advantage") else { return Ok(vec![]) };
     let methods = METHODS.map(|method| (method.name, method));
-    let quantities = Quantity::ALL.map(|quantity| (quantity.name(), quantity));
+    let quantities = ErrorMeasure::ALL.map(|quantity| (quantity.name(), quantity));
     let items = field.items("a list of tables [[advantage]]")?;
     let advantage = |section: Section<'_>| {
         section.allow(&["norm", "error", "of", "over", "times"])?;

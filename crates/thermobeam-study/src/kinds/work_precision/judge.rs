@@ -1,20 +1,23 @@
 //! From the grids of all methods to checks, tables and figures.
 
-use super::law::{GridPoint, Law, front};
-use super::method::{METHODS, Method};
-use super::{Advantage, WorkPrecision};
-use crate::error::yardstick::Quantity;
-use crate::kinds::Study;
-use crate::kinds::untyped::Measured;
 use convergence_study::judge::fit::Quantiles;
 use convergence_study::plots;
-use convergence_study::study::CaseFailure;
+use convergence_study::study::Ran;
+use convergence_study::study::levels::completion;
 use convergence_study::study::outcome::{self, Check, Figure, Outcome, Table};
 
-/// Errors whose cost is told.
+use super::law::{GridPoint, Law, front};
+use super::method::{METHODS, Measurement, Method};
+use super::{Advantage, MethodOnMesh, WorkPrecision};
+use crate::error::evaluator::ErrorMeasure;
+
+/// Results of all cases.
+type Results = [Ran<MethodOnMesh, Vec<Measurement>>];
+
+/// Errors of which the cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-/// By so many times the misfit allowed may the error of a single run lie below the law: errors of space and time cancel
-/// in a lucky run, and not in its neighbours, with which the fit must agree. Its cost undercuts the best path accordingly.
+/// The error of a single run may lie below the law by so many times the misfit allowed: there errors of space and time
+/// happen to cancel, as they do not in neighbouring runs, with which the fit must agree.
 const UNDERCUT: f64 = 2.5;
 /// Relative change of a cost that is tolerated: rates enter its exponent.
 const COST_TOLERANCE: f64 = 1e-2;
@@ -24,7 +27,7 @@ const CONFIDENCE: f64 = 0.95;
 /// One method in one quantity.
 struct Row {
     method: Method,
-    quantity: Quantity,
+    quantity: ErrorMeasure,
     points: Vec<GridPoint>,
     law: Result<Law, String>,
 }
@@ -50,35 +53,56 @@ impl Row {
     }
 }
 
-pub(super) fn conclude(study: &WorkPrecision, results: &[Result<Measured, CaseFailure>]) -> Outcome {
-    let rows = rows(study, results);
-    let mut checks: Vec<Check> = study
-        .cases()
-        .iter()
-        .zip(results)
-        .filter_map(|(case, result)| {
-            let failure = result.as_ref().err()?;
-            Some(Check::that(false, format!("{}: runs to its end", case.label), &failure.reason))
-        })
-        .collect();
+pub(super) fn judge(study: &WorkPrecision, ran: &Results) -> Outcome {
+    let rows = rows(study, ran);
+    let mut checks = vec![completion(ran, |runs| not_finite(runs))];
     checks.extend(rows.iter().flat_map(|row| check_law(row, study.misfit)));
     let advantages: Vec<Check> = study.advantages.iter().map(|claim| check_advantage(claim, &rows)).collect();
     let summary = summary(&rows, &advantages);
     let headline = advantages.first().map_or_else(|| summary.clone(), |check| check.evidence.clone());
     checks.extend(advantages);
     let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
-    outcome.tables = Quantity::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
+    outcome.tables = ErrorMeasure::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
     outcome.tables.push(laws(&rows));
-    outcome.figures = Quantity::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
+    outcome.figures = ErrorMeasure::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
     outcome.quantities = quantities(&rows);
     outcome
 }
 
-fn rows(study: &WorkPrecision, results: &[Result<Measured, CaseFailure>]) -> Vec<Row> {
+fn not_finite(runs: &[Measurement]) -> Vec<String> {
+    let of_run = |run: &Measurement| {
+        let errors = ErrorMeasure::ALL.into_iter().zip(run.errors).map(|(quantity, error)| (quantity.name(), error));
+        let cost = [("node-steps", run.spent.node_steps), ("node-solves", run.spent.node_solves)];
+        let named = errors.chain(cost).filter(|(_, value)| !value.is_finite());
+        named.map(|(name, _)| name.to_owned()).collect::<Vec<_>>()
+    };
+    runs.iter().flat_map(of_run).collect()
+}
+
+/// The grid of one method in one quantity; NaN where a run failed.
+fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize) -> Vec<GridPoint> {
+    let mut points = vec![];
+    for Ran { case, found } in ran.iter().filter(|ran| ran.case.data.method == *method) {
+        for (k, &steps) in study.steps.iter().enumerate() {
+            let run = found.as_ref().ok().and_then(|runs| runs.get(k));
+            let value = |number: &dyn Fn(&Measurement) -> f64| run.map_or(f64::NAN, number);
+            points.push(GridPoint {
+                elements: case.data.elements,
+                steps,
+                error: value(&|run| run.errors[quantity]),
+                node_steps: value(&|run| run.spent.node_steps),
+                node_solves: value(&|run| run.spent.node_solves),
+            });
+        }
+    }
+    points
+}
+
+fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
     let Some(quantiles) = Quantiles::new(CONFIDENCE) else { return vec![] };
     let mut rows = vec![];
     for method in METHODS {
-        let [full, superclose, tip] = Quantity::ALL.map(|quantity| study.points(&method, quantity, results));
+        let [full, superclose, tip] = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
         let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, method.runs(), &quantiles);
         let close = fit(&superclose);
         let law = match &close {
@@ -86,12 +110,12 @@ fn rows(study: &WorkPrecision, results: &[Result<Measured, CaseFailure>]) -> Vec
             Err(reason) => Err(reason.clone()),
         };
         let row = |quantity, points, law| Row { method, quantity, points, law };
-        rows.push(row(Quantity::Theorem34, full, law));
-        rows.push(row(Quantity::Superclose, superclose, close));
+        rows.push(row(ErrorMeasure::Theorem34, full, law));
+        rows.push(row(ErrorMeasure::Superclose, superclose, close));
         let law = fit(&tip);
-        rows.push(row(Quantity::Tip, tip, law));
+        rows.push(row(ErrorMeasure::Tip, tip, law));
     }
-    rows.sort_by_key(|row| Quantity::ALL.iter().position(|quantity| *quantity == row.quantity));
+    rows.sort_by_key(|row| ErrorMeasure::ALL.iter().position(|quantity| *quantity == row.quantity));
     rows
 }
 
@@ -109,12 +133,12 @@ fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
         Check::that(
             undercut <= allowed,
             format!("{}: no run is cheaper than the best path", row.name()),
-            format!("the best of the grid is {undercut:.2} times as cheap, at most {allowed:.2} times"),
+            format!("cost on the best path over cost of a run with that error: {undercut:.2}, at most {allowed:.2}"),
         ),
     ]
 }
 
-fn find<'r>(rows: &'r [Row], quantity: Quantity, method: &Method) -> Option<&'r Row> {
+fn find<'r>(rows: &'r [Row], quantity: ErrorMeasure, method: &Method) -> Option<&'r Row> {
     rows.iter().find(|row| row.quantity == quantity && row.method == *method)
 }
 
@@ -139,17 +163,17 @@ fn summary(rows: &[Row], advantages: &[Check]) -> String {
         return format!("{}: {}", check.claim, check.evidence);
     }
     let winner = |quantity| cheapest(rows, quantity, 1e-4).map_or("none", |row| row.method.name);
-    let list = Quantity::ALL.map(|quantity| format!("{} {}", quantity.name(), winner(quantity)));
+    let list = ErrorMeasure::ALL.map(|quantity| format!("{} {}", quantity.name(), winner(quantity)));
     format!("cheapest at an error of 1e-4: {}", list.join(", "))
 }
 
 /// The method with the fewest node-steps; none where a cost is not known.
-fn cheapest(rows: &[Row], quantity: Quantity, error: f64) -> Option<&Row> {
+fn cheapest(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Option<&Row> {
     let known = rows.iter().filter(|row| row.quantity == quantity && row.cost(error).is_finite());
     known.min_by(|a, b| (a.cost(error) * a.solves_per_step()).total_cmp(&(b.cost(error) * b.solves_per_step())))
 }
 
-fn winners(quantity: Quantity, rows: &[Row]) -> Table {
+fn winners(quantity: ErrorMeasure, rows: &[Row]) -> Table {
     let mut head = vec!["error".to_owned()];
     head.extend(METHODS.iter().map(|method| method.name.to_owned()));
     head.extend(["cheapest", "ahead of the next"].map(str::to_owned));
@@ -206,7 +230,7 @@ fn laws(rows: &[Row]) -> Table {
     }
 }
 
-fn figure(study: &WorkPrecision, quantity: Quantity, rows: &[Row]) -> Figure {
+fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
     let series = of_quantity
         .map(|row| plots::Series {

@@ -66,7 +66,7 @@ pub struct Frames {
 
 /// The history of a run: start and end always, in between evenly thinned.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub struct RunHistory {
     /// The rows.
     pub rows: Vec<Row>,
     /// Steps from one row to the next; the last may follow sooner.
@@ -77,7 +77,7 @@ pub struct Record {
     since_row: Dissipation,
 }
 
-impl Record {
+impl RunHistory {
     pub(super) fn new(nodes: &[f64], steps: usize, first: Sample, u: &[f64]) -> Self {
         let steps_per_row = steps.div_ceil(MOST_ROWS).max(1);
         let steps_per_frame = steps.div_ceil(MOST_FRAMES).max(1);

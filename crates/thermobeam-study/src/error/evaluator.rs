@@ -15,7 +15,7 @@ use thermobeam::solve::{Level, Settings};
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ErrorMeasure {
     /// The norm of (3.14).
     Theorem34,
     /// The same norm of the distance to the nodal interpolant.
@@ -24,16 +24,16 @@ pub enum Quantity {
     Tip,
 }
 
-impl Quantity {
-    /// All of them, in the order of [`Yardstick::measure`].
-    pub const ALL: [Quantity; 3] = [Quantity::Theorem34, Quantity::Superclose, Quantity::Tip];
+impl ErrorMeasure {
+    /// All of them, in the order of [`Evaluator::measure`].
+    pub const ALL: [ErrorMeasure; 3] = [ErrorMeasure::Theorem34, ErrorMeasure::Superclose, ErrorMeasure::Tip];
 
     /// The name in files, reports and on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Quantity::Theorem34 => "theorem-3.4",
-            Quantity::Superclose => "superclose",
-            Quantity::Tip => "tip",
+            ErrorMeasure::Theorem34 => "theorem-3.4",
+            ErrorMeasure::Superclose => "superclose",
+            ErrorMeasure::Tip => "tip",
         }
     }
 }
@@ -70,11 +70,11 @@ enum Answer<'a> {
 }
 
 /// Measures the levels of one mesh.
-pub struct Yardstick<'a> {
+pub struct Evaluator<'a> {
     answer: Answer<'a>,
 }
 
-impl<'a> Yardstick<'a> {
+impl<'a> Evaluator<'a> {
     /// Against `reference`, or else against the family's exact solution.
     ///
     /// # Errors

@@ -1,0 +1,157 @@
+//! The maps.
+
+use convergence_study::plots::{self, Axis, ParameterMap, Series, Surface};
+use convergence_study::study::Figure;
+use thermobeam::kirchhoff::BUCKLING;
+use thermobeam::parameters::Beam;
+
+use super::judge::{Lines, Rows};
+use super::row::Point;
+use super::{Map, Parameter};
+
+/// Contractions below are shown as this: after a few iterations the ratio tells no more.
+const FASTEST: f64 = 1e-6;
+/// Residuals below are shown as this, a hundredth of a rounding error.
+const EXACT: f64 = 1e-18;
+
+/// What a map shows at each point, and which points it hatches instead.
+struct Shown {
+    file: &'static str,
+    caption: String,
+    z: Axis,
+    /// Smaller values are shown as this.
+    least: f64,
+    value: fn(&Point) -> Option<f64>,
+    hatched: fn(&Point) -> bool,
+    hatched_label: &'static str,
+    boundaries: Vec<Series>,
+}
+
+pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
+    let maps = Maps { map, rows };
+    let over = map.over.name();
+    let of_fixed_point = |file, axis: &str, least, value, caption| Shown {
+        file,
+        caption,
+        z: Axis::log(axis),
+        least,
+        value,
+        hatched: |point| !point.fixed_point.converged,
+        hatched_label: "the fixed point fails",
+        boundaries: vec![maps.predicted(), maps.found(lines)],
+    };
+    let of_newton = |file, z, least, value, boundaries, caption| Shown {
+        file,
+        caption,
+        z,
+        least,
+        value,
+        hatched: |point| !point.newton_completes,
+        hatched_label: "operator not definite",
+        boundaries,
+    };
+    let shown = [
+        of_fixed_point(
+            "contraction",
+            "contraction per iteration",
+            FASTEST,
+            |point| point.fixed_point.contraction,
+            format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
+        ),
+        of_fixed_point(
+            "iterations",
+            "iterations of the fixed point",
+            1.0,
+            |point| Some(point.fixed_point.iterations as f64),
+            format!("Iterations of the fixed point in a step over dt and {over}."),
+        ),
+        of_newton(
+            "newton",
+            Axis::linear("most Newton iterations in a step"),
+            1.0,
+            |point| Some(point.newton?.iterations as f64),
+            maps.definite(),
+            format!("Most iterations of Newton's method in a step over dt and {over}."),
+        ),
+        of_newton(
+            "balance",
+            Axis::log("largest residual / energy"),
+            EXACT,
+            |point| Some(point.newton?.residual),
+            vec![maps.predicted()],
+            format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
+        ),
+    ];
+    shown.into_iter().map(|shown| maps.draw(id, shown)).collect()
+}
+
+struct Maps<'a> {
+    map: &'a Map,
+    rows: &'a Rows<'a>,
+}
+
+impl Maps<'_> {
+    fn draw(&self, id: &str, shown: Shown) -> Figure {
+        let Shown { file, caption, z, least, value, hatched, hatched_label, boundaries } = shown;
+        let cell = |point: &Point| match value(point).filter(|_| !hatched(point)) {
+            // `max` would replace NaN by the least value.
+            Some(value) if !value.is_nan() => value.max(least),
+            _ => f64::NAN,
+        };
+        let cells = Surface {
+            title: None,
+            x: Axis::log("time step dt (dimensionless)"),
+            y: self.second_axis(),
+            z,
+            x_values: self.map.time_steps(),
+            y_values: self.rows.iter().map(|(value, _)| *value).collect(),
+            values: self.rows.iter().map(|(_, row)| row.points.iter().map(cell).collect()).collect(),
+        };
+        let marked = self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect();
+        let map = ParameterMap { cells, marked, marked_label: hatched_label.to_owned(), boundaries };
+        Figure { file: format!("{id}-{file}.svg"), caption, svg: plots::parameter_map(&map) }
+    }
+
+    fn second_axis(&self) -> Axis {
+        match self.map.over {
+            Parameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
+            Parameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
+            Parameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
+            Parameter::Width => Axis::log("mesh width h (dimensionless)"),
+        }
+    }
+
+    /// α = 1, row by row between the two time steps on either side, on logarithmic scales.
+    fn predicted(&self) -> Series {
+        let crossing = |(value, row): &(f64, &super::Row)| {
+            let finite: Vec<&Point> = row.points.iter().filter(|point| point.alpha.is_finite()).collect();
+            let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
+            let [below, above] = [pair[0], pair[1]];
+            let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
+            Some((below.dt * (above.dt / below.dt).powf(share), *value))
+        };
+        Series { label: "predicted: α = 1".to_owned(), points: self.rows.iter().filter_map(crossing).collect() }
+    }
+
+    /// The boundaries found, line by line.
+    fn found(&self, lines: &Lines<'_>) -> Series {
+        let mut points: Vec<(f64, f64)> =
+            lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value))).collect();
+        points.retain(|(_, value)| self.map.over.is_linear() || *value > 0.0);
+        points.sort_by(|a, b| a.1.total_cmp(&b.1));
+        Series { label: "found by bisection".to_owned(), points }
+    }
+
+    /// For β above this line the operator is definite.
+    fn definite(&self) -> Vec<Series> {
+        if self.map.over != Parameter::Beta {
+            return vec![];
+        }
+        let zeta = Beam::default().zeta;
+        let force = |&dt: &f64| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt));
+        let [low, high] = self.map.range;
+        let dts = super::spaced(self.map.dt, 400, false);
+        let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta)).collect();
+        vec![Series { label: "definite above: β = -B (1 + 2ζ/dt)".to_owned(), points }]
+    }
+}

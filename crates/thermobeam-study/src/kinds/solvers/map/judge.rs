@@ -1,0 +1,201 @@
+//! Claims, the table of boundaries, and what the baseline guards.
+
+use convergence_study::study::{Check, Quantity, Table};
+use convergence_study::text::number::max_or_nan;
+use thermobeam::kirchhoff::BUCKLING;
+
+use super::super::Part;
+use super::row::{NewtonSteps, Point};
+use super::{Boundary, Map, Row, figures};
+use crate::kinds::watch::of_allowed;
+
+/// A factor for which the iterations of the map are enough, with a margin for the mean force, which is not known beforehand.
+const SLOW: f64 = 0.8;
+/// γ up to which α alone decides.
+const ALONE: f64 = 0.01;
+/// Iterations that Newton's method may take in a step.
+const MOST: usize = 30;
+
+/// Results, each with its value of the second parameter.
+pub(super) type Rows<'r> = [(f64, &'r Row)];
+pub(super) type Lines<'r> = [(f64, &'r Boundary)];
+
+impl Map {
+    pub(in super::super) fn judge(&self, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Part {
+        let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
+        checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
+        checks.extend(energy(rows));
+        checks.extend(lines.iter().map(|(value, line)| self.check_boundary(*value, line)));
+        let converged = points(rows).filter(|point| point.fixed_point.converged).count();
+        let completes = points(rows).filter(|point| point.newton_completes).count();
+        let ratio = |line: &Boundary| {
+            let crossing = line.found.filter(|crossing| crossing.gamma <= ALONE)?;
+            Some((crossing.dt / line.predicted.unwrap_or(f64::NAN) - 1.0).abs())
+        };
+        let worst = 100.0 * lines.iter().filter_map(|(_, line)| ratio(line)).fold(0.0, max_or_nan);
+        let residual = largest(rows, |newton| newton.residual);
+        let summary = format!(
+            "{} points: the fixed point converges at {converged}, Newton's method at {completes}; boundary within {worst:.2} % of alpha = 1 where gamma <= {ALONE}; residual at most {residual:.1e} of the energy",
+            self.points * self.points,
+        );
+        Part {
+            summary,
+            headline: format!(
+                "boundary within {worst:.2} % of alpha = 1, residual at most {residual:.1e} of the energy"
+            ),
+            checks,
+            tables: vec![self.boundaries(lines)],
+            figures: figures::all(self, id, rows, lines),
+            quantities: self.quantities(lines, converged as f64),
+        }
+    }
+
+    fn complete(&self, rows: &Rows<'_>) -> Check {
+        let (found, expected) = (points(rows).count(), self.points * self.points);
+        Check::that(found == expected, "both solvers were run at every point", format!("{found} of {expected}"))
+    }
+
+    /// Newton's method converges wherever its operator is known to be definite.
+    fn newton_completes(&self, rows: &Rows<'_>) -> Check {
+        let (mut known, mut wrong, mut failed) = (0, 0, 0);
+        for (value, row) in rows {
+            let beam = self.beam(*value);
+            for point in &row.points {
+                failed += usize::from(!point.newton_completes);
+                if BUCKLING * (beam.zeta + 0.5 * point.dt) + 0.5 * beam.beta * point.dt > 0.0 {
+                    known += 1;
+                    wrong += usize::from(!point.newton_completes);
+                }
+            }
+        }
+        Check::that(
+            wrong == 0 && known > 0,
+            "Newton's method converges wherever B (zeta + dt/2) + beta dt/2 > 0",
+            format!("fails at {wrong} of {known} such points, and at {} others", failed - wrong),
+        )
+    }
+
+    /// The contact's factor at the boundary found is 1, up to a share of γ.
+    fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
+        let name = self.over.name();
+        let (crossing, predicted) = match *line {
+            Boundary { found: Some(found), predicted: Some(predicted) } => (found, predicted),
+            Boundary { found: None, predicted: None } => {
+                let claim = format!("{name} = {value:e}: no boundary on the map, as predicted");
+                return Check::that(true, claim, "the fixed point behaves alike at both ends");
+            }
+            Boundary { found, .. } => {
+                let (where_to, not) = if found.is_some() { ("found", "predicted") } else { ("predicted", "found") };
+                let claim = format!("{name} = {value:e}: the fixed point fails from alpha = 1 on");
+                return Check::that(false, claim, format!("a boundary is {where_to} on the map, but none is {not}"));
+            }
+        };
+        let difference = 100.0 * (crossing.dt / predicted - 1.0);
+        Check::that(
+            (crossing.alpha - 1.0).abs() <= self.agreement + crossing.gamma,
+            format!("{name} = {value:e}: the fixed point fails from alpha = 1 on"),
+            format!(
+                "from dt = {:.4e} on, predicted {predicted:.4e} ({difference:+.2} %); alpha {:.4} there, gamma {:.1e}",
+                crossing.dt, crossing.alpha, crossing.gamma
+            ),
+        )
+    }
+
+    fn boundaries(&self, lines: &Lines<'_>) -> Table {
+        let cell = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+        let row = |(value, line): &(f64, &Boundary)| {
+            let Boundary { predicted, found } = **line;
+            let difference = found.zip(predicted).map(|(at, predicted)| 100.0 * (at.dt / predicted - 1.0));
+            vec![
+                format!("{value:e}"),
+                cell(predicted.map(|dt| format!("{dt:.4e}"))),
+                cell(found.map(|at| format!("{:.4e}", at.dt))),
+                cell(difference.map(|percent| format!("{percent:+.3} %"))),
+                cell(found.map(|at| format!("{:.4}", at.alpha))),
+                cell(found.map(|at| format!("{:.1e}", at.gamma))),
+            ]
+        };
+        let head = [self.over.name(), "dt where alpha = 1", "dt found", "difference", "alpha there", "gamma there"];
+        Table {
+            title: "Boundary of the fixed point's convergence, by bisection in dt".to_owned(),
+            head: head.map(str::to_owned).to_vec(),
+            rows: lines.iter().map(row).collect(),
+        }
+    }
+
+    fn quantities(&self, lines: &Lines<'_>, converged: f64) -> Vec<Quantity> {
+        let found = |(value, line): &(f64, &Boundary)| {
+            let name = format!("boundary at {} = {value:e}", self.over.name());
+            line.found.map(|at| Quantity { name, value: at.dt, tolerance: 1e-2 })
+        };
+        let mut quantities: Vec<Quantity> = lines.iter().filter_map(found).collect();
+        // A point next to the boundary may fall to either side.
+        quantities.push(Quantity { name: "points with a fixed point".to_owned(), value: converged, tolerance: 1e-2 });
+        quantities
+    }
+}
+
+fn points<'r>(rows: &Rows<'r>) -> impl Iterator<Item = &'r Point> {
+    rows.iter().flat_map(|(_, row)| &row.points)
+}
+
+fn newton<'r>(rows: &Rows<'r>) -> impl Iterator<Item = &'r NewtonSteps> {
+    rows.iter().flat_map(|(_, row)| row.newton())
+}
+
+fn largest(rows: &Rows<'_>, number: impl Fn(&NewtonSteps) -> f64) -> f64 {
+    newton(rows).map(number).fold(f64::NEG_INFINITY, max_or_nan)
+}
+
+fn in_contact(rows: &Rows<'_>) -> Check {
+    let least = -largest(rows, |newton| -newton.contact_force);
+    let holds = least > 0.0 && newton(rows).next().is_some();
+    Check::that(holds, "the first step ends in contact", format!("least contact force {least:.2e}"))
+}
+
+/// The map against α and γ: convergence where both are well below 1, none where α exceeds 1 by more than γ.
+fn as_predicted(rows: &Rows<'_>) -> Check {
+    let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
+    for &Point { alpha, gamma, fixed_point, .. } in points(rows) {
+        if alpha < SLOW && gamma < SLOW {
+            fast += 1;
+            wrong += usize::from(!fixed_point.converged);
+        } else if alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW) {
+            // Where α is infinite, the operator A_u of the step is not definite.
+            beyond += 1;
+            wrong += usize::from(fixed_point.converged);
+        }
+    }
+    Check::that(
+        wrong == 0 && fast > 0 && beyond > 0,
+        "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma",
+        format!(
+            "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
+        ),
+    )
+}
+
+fn newton_is_quick(rows: &Rows<'_>) -> Check {
+    let most = newton(rows).map(|newton| newton.iterations).max();
+    let evidence = most.map_or("no step was done".to_owned(), |most| format!("at most {most}"));
+    let claim = format!("Newton's method takes at most {MOST} iterations in any step");
+    Check::that(most.is_some_and(|most| most <= MOST), claim, evidence)
+}
+
+fn energy(rows: &Rows<'_>) -> [Check; 2] {
+    // A row without a single step of Newton's method shows nothing.
+    let every_row = rows.iter().all(|(_, row)| row.newton().next().is_some());
+    let check = |claim: &str, number: fn(&NewtonSteps) -> f64, share: fn(&NewtonSteps) -> f64| {
+        let share = largest(rows, share);
+        let evidence = format!("{:.1e} of the energy, {}", largest(rows, number), of_allowed(share));
+        Check::that(every_row && share <= 1.0, claim, evidence)
+    };
+    [
+        check("the energy never rises beyond rounding errors", |newton| newton.rise, |newton| newton.risen),
+        check(
+            "the balance closes to 1e-12 of the energy, or to what rounding errors explain",
+            |newton| newton.residual,
+            |newton| newton.open,
+        ),
+    ]
+}

@@ -1,0 +1,160 @@
+//! The two solvers: each part's own studies pass, and fail on each of their claims.
+
+use crate::planted::verdict_with;
+use crate::typed::{Runs, passes_but_not_without_each_case};
+use crate::{file, text};
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile, Kind, run_here};
+use thermobeam_study::kinds::solvers::{Agreement, Boundary, Contraction, Crossing, Found, Point, Row, Solvers};
+
+fn map() -> Solvers {
+    Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn fixed_point() -> Solvers {
+    Solvers::read(file("fixed-point.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn row(found: &mut Found) -> &mut Row {
+    if let Found::Row(row) = found { row } else { panic!("no row: {found:?}") }
+}
+
+fn boundary(found: &mut Found) -> &mut Boundary {
+    if let Found::Boundary(line) = found { line } else { panic!("no boundary: {found:?}") }
+}
+
+fn contraction(found: &mut Found) -> &mut Contraction {
+    if let Found::Contraction(contraction) = found { contraction } else { panic!("no contraction: {found:?}") }
+}
+
+fn agreement(found: &mut Found) -> &mut Agreement {
+    if let Found::Comparison(agreement) = found { agreement } else { panic!("no comparison: {found:?}") }
+}
+
+#[test]
+fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
+    let study = map();
+    let sound = passes_but_not_without_each_case(&study);
+    // The first row is the stiffest; its shortest step converges, its longest does not.
+    let with_point = |at: usize, change: &dyn Fn(&mut Point)| {
+        verdict_with(&study, &sound, 0, |found| change(&mut row(found).points[at]))
+    };
+    let with_all = |change: &dyn Fn(&mut Point)| {
+        verdict_with(&study, &sound, 0, |found| row(found).points.iter_mut().for_each(change))
+    };
+    let last_point = 11;
+    assert_eq!(with_all(&|_| ()), Verdict::Pass);
+    assert_eq!(with_point(0, &|point| point.fixed_point.converged = false), Verdict::Fail);
+    assert_eq!(with_point(last_point, &|point| point.fixed_point.converged = true), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.alpha = f64::NAN), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.gamma = f64::NAN), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.fixed_point.contraction = Some(f64::NAN)), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.newton_completes = false), Verdict::Fail);
+    assert_eq!(with_all(&|point| point.newton = None), Verdict::Fail);
+    assert_eq!(verdict_with(&study, &sound, 0, |found| row(found).points.truncate(5)), Verdict::Fail);
+    for wrong in [31, usize::MAX] {
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").iterations = wrong), Verdict::Fail);
+    }
+    for wrong in [0.0, -1.0, f64::NAN] {
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").contact_force = wrong), Verdict::Fail);
+    }
+    for wrong in [1.1, f64::NAN] {
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").open = wrong), Verdict::Fail);
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").risen = wrong), Verdict::Fail);
+    }
+    for wrong in [f64::INFINITY, f64::NAN] {
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").residual = wrong), Verdict::Fail);
+    }
+    lines_fail(&study, &sound, 12);
+}
+
+/// Each boundary must be where α = 1; the results from `first` on are lines.
+fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
+    for index in first..sound.len() {
+        let with = |change: &dyn Fn(&mut Boundary)| verdict_with(study, sound, index, |found| change(boundary(found)));
+        let with_crossing = |change: &dyn Fn(&mut Crossing)| with(&|line| change(line.found.as_mut().expect("found")));
+        assert_eq!(with(&|line| line.found = None), Verdict::Fail);
+        assert_eq!(with(&|line| line.predicted = None), Verdict::Fail);
+        assert_eq!(with(&|line| line.predicted = Some(f64::NAN)), Verdict::Fail);
+        for alpha in [1.03, 0.97, f64::NAN] {
+            assert_eq!(with_crossing(&|at| at.alpha = alpha), Verdict::Fail, "{alpha}");
+        }
+        assert_eq!(with_crossing(&|at| at.gamma = f64::INFINITY), Verdict::Fail);
+    }
+}
+
+#[test]
+fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
+    let study = fixed_point();
+    let mut sound = passes_but_not_without_each_case(&study);
+    let (mut as_predicted, mut divergent, mut compared) = (0, 0, 0);
+    for index in 0..sound.len() {
+        let found = sound[index].found.as_mut().expect("a result");
+        if let Found::Comparison(_) = found {
+            compared += 1;
+            for wrong in [1e-4, f64::NAN] {
+                let verdict = verdict_with(&study, &sound, index, |found| agreement(found).distance = wrong);
+                assert_eq!(verdict, Verdict::Fail, "case {index}, distance {wrong}");
+            }
+            continue;
+        }
+        let Contraction { alpha, gamma, .. } = *contraction(found);
+        let with =
+            |change: &dyn Fn(&mut Contraction)| verdict_with(&study, &sound, index, |found| change(contraction(found)));
+        assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
+        assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
+        // A factor is judged only where contact dominates, and not where α is within 3 % of 1.
+        if alpha < 0.97 && alpha >= 100.0 * gamma {
+            as_predicted += 1;
+            assert_eq!(with(&|found| found.step.converged = false), Verdict::Fail);
+            for wrong in [Some(1.04 * alpha), Some(0.96 * alpha), Some(f64::NAN), None] {
+                assert_eq!(with(&|found| found.step.contraction = wrong), Verdict::Fail, "case {index}, {wrong:?}");
+            }
+        } else if alpha > 1.03 {
+            divergent += 1;
+            assert_eq!(with(&|found| found.step.converged = true), Verdict::Fail, "case {index}");
+        }
+    }
+    assert_eq!((as_predicted, divergent, compared), (25, 10, 4));
+}
+
+#[test]
+fn a_study_may_have_several_parts() {
+    let parts = text("stability-coarse.toml").replace("points = 12", "points = 3").replace("[1e-6, 1e-3]", "[1e-3]")
+        + "\n[contraction]\nelements = 20\ndt = [1e-3]\nepsilon = [1e-3]\nzeta = [0.1]\n";
+    let study = Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
+    let outcome = run_here(&study);
+    assert_eq!((study.cases().len(), outcome.tables.len(), outcome.figures.len()), (5, 2, 5));
+    assert!(outcome.summary.contains("of alpha; 9 points"), "{}", outcome.summary);
+}
+
+#[test]
+fn a_file_that_makes_no_sense_is_refused() {
+    let refused = |name: &str, from: &str, to: &str, message: &str| {
+        let changed = text(name).replace(from, to);
+        let error = Solvers::parse(&changed, &file(name)).expect_err(to).to_string();
+        assert!(error.contains(message), "{error}");
+    };
+    for (from, to, message) in [
+        ("over = \"epsilon\"", "over = \"rho\"", "map.over"),
+        ("dt = [1e-6, 10.0]", "dt = [10.0, 1e-6]", "map.dt"),
+        ("range = [1e-8, 10.0]", "range = [0.0, 10.0]", "map.range"),
+        ("points = 12", "points = 1", "map.points"),
+        ("lines = [1e-6, 1e-3]", "lines = []", "map.lines"),
+        ("lines = [1e-6, 1e-3]", "lines = [0.0]", "map.lines[0]"),
+        ("[map]", "[maps]", "did you mean `map`?"),
+    ] {
+        refused("stability-coarse.toml", from, to, message);
+    }
+    for (from, to, message) in [
+        ("zeta = [0.01, 0.1, 1.0]", "zeta = [0.0]", "contraction.zeta[0]"),
+        ("zeta = [0.01, 0.1, 1.0]", "zeta = []", "contraction.zeta"),
+        ("steps = 500", "steps = 0", "comparison.steps"),
+        ("paper-1-beta-0.toml", "paper-1-beta-00.toml", "comparison.scene"),
+    ] {
+        refused("fixed-point.toml", from, to, message);
+    }
+    let empty = "[study]\nid = \"a\"\nclaim = \"b\"\ntier = \"quick\"\nkind = \"solvers\"\n";
+    let error = Solvers::parse(empty, "a.toml".as_ref()).expect_err("no part").to_string();
+    assert!(error.contains("contraction, comparison, map"), "{error}");
+}

@@ -1,0 +1,115 @@
+//! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
+
+use crate::file;
+use crate::typed::passes_but_not_without_each_case;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::outcome::Outcome;
+use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here, run_here};
+use thermobeam_study::kinds::work_precision::WorkPrecision;
+use thermobeam_study::kinds::work_precision::method::Measurement;
+
+/// Steps of the study's runs.
+const STEPS: [usize; 4] = [16, 64, 256, 1024];
+
+fn read(text: &str) -> Result<WorkPrecision, String> {
+    WorkPrecision::parse(text, &file("study.toml")).map_err(|error| error.to_string())
+}
+
+fn quick() -> WorkPrecision {
+    WorkPrecision::read(file("work-precision-manufactured.toml")).unwrap()
+}
+
+fn failed(outcome: &Outcome) -> Vec<&str> {
+    outcome.checks.iter().filter(|c| c.verdict == Verdict::Fail).map(|c| c.claim.as_str()).collect()
+}
+
+#[test]
+fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
+    let study = quick();
+    let outcome = study.judge(&passes_but_not_without_each_case(&study));
+    assert!(outcome.checks.iter().any(|check| check.claim.contains("100 times cheaper")));
+    let again = quick();
+    assert_eq!(outcome, run_here(&again));
+}
+
+#[test]
+fn planted_defects_fail() {
+    let study = quick();
+    let honest = run_cases_here(&study);
+    // The defect is told the number of steps.
+    let plant = |only: &str, defect: &dyn Fn(usize, &mut Measurement)| {
+        let mut planted = honest.clone();
+        for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with(only)) {
+            let runs = ran.found.as_mut().unwrap();
+            assert_eq!(runs.len(), STEPS.len());
+            STEPS.into_iter().zip(runs).for_each(|(steps, run)| defect(steps, run));
+        }
+        study.judge(&planted).verdict
+    };
+    let [superclose, tip] = [1, 2];
+    assert_eq!(plant("midpoint", &|_, _| ()), Verdict::Pass);
+    for wrong in [f64::NAN, f64::INFINITY] {
+        let one = |steps: usize, run: &mut Measurement| {
+            if steps == 64 {
+                run.errors[superclose] = wrong;
+            }
+        };
+        assert_eq!(plant("midpoint, n = 16", &one), Verdict::Fail);
+        assert_eq!(plant("richardson, n = 16", &|_, run| run.spent.node_steps = wrong), Verdict::Fail);
+    }
+    assert_eq!(plant("midpoint", &|_, run| run.errors[tip] = run.errors[tip].max(1e-3)), Verdict::Fail, "a floor");
+    // Second order lost: 256 and 1024 steps give the error of 64.
+    let first_order = |steps: usize, run: &mut Measurement| {
+        run.errors[superclose] *= match steps {
+            256 => 8.0,
+            1024 => 64.0,
+            _ => 1.0,
+        }
+    };
+    assert_eq!(plant("midpoint", &first_order), Verdict::Fail);
+    let mut missing = honest.clone();
+    missing[2].found = Err(CaseFailure { reason: "planted".to_owned() });
+    let outcome = study.judge(&missing);
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert!(outcome.checks[0].evidence.contains("planted"), "{}", outcome.checks[0].evidence);
+}
+
+#[test]
+fn a_claim_that_is_too_bold_fails() {
+    let text = crate::text("work-precision-manufactured.toml");
+    let study = read(&text.replace("times = 100", "times = 100000")).unwrap();
+    let outcome = run_here(&study);
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert_eq!(failed(&outcome).len(), 1);
+}
+
+#[test]
+fn seconds_are_there_for_benchmarks_only() {
+    let study = quick();
+    let timed = study.timed().unwrap();
+    assert!(timed.iter().all(|run| run.measurement.spent.seconds > 0.0));
+    let mut slow = run_cases_here(&study);
+    let outcome = study.judge(&slow);
+    for run in slow.iter_mut().flat_map(|ran| ran.found.as_mut().unwrap()) {
+        run.spent.seconds *= 2.0;
+    }
+    assert_eq!(study.judge(&slow), outcome);
+}
+
+#[test]
+fn mistakes_are_named() {
+    let head = "[study]\nid = \"w\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"work-precision\"\n[work-precision]\n";
+    let grid = "elements = [4, 8]\nsteps = [8, 16]\n";
+    for (body, piece) in [
+        ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
+        ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
+        (grid, "exactly one of"),
+        (&format!("{grid}vibration = [40]\nzeta = 0.1\nt_end = 1"), "modes that ring"),
+        (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nreference = [8, 8]"), "reference without scene"),
+        (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\nreference = [9, 8]"), "a multiple"),
+        (&format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""), "did you mean"),
+    ] {
+        let error = read(&format!("{head}{body}")).err().unwrap_or_else(|| panic!("{body} was accepted"));
+        assert!(error.contains("study.toml:") && error.contains(piece), "{piece}: {error}");
+    }
+}

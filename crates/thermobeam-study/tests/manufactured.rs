@@ -6,14 +6,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here, run_here};
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::energy::EnergyDecay;
-use thermobeam_study::kinds::fixed_point::FixedPoint;
-use thermobeam_study::kinds::fixed_point::FixedPoint;
-use thermobeam_study::kinds::tables::Norm;
 use thermobeam_study::kinds::tables::{Norm, Norms};
-use thermobeam_study::kinds::untyped::Measured;
-use thermobeam_study::kinds::{FromFile, Study};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
@@ -26,10 +19,6 @@ fn convergence(name: &str) -> Convergence {
 fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
     let (beam, obstacles) = study.solver_coefficients();
     Prepared::new(study, elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
-}
-
-fn results(study: &dyn Study) -> Vec<Result<Measured, CaseFailure>> {
-    (0..study.cases().len()).map(|index| study.run(index)).collect()
 }
 
 /// Norms of the table, in its order; errors to the digits given.

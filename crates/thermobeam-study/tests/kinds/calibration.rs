@@ -1,7 +1,7 @@
 use convergence_study::judge::calibration::Calibration;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::calibration::{ROW, RuleCalibration};
+use thermobeam_study::kinds::calibration::{Counted, ROW, RuleCalibration};
 
 use crate::file;
 use crate::refused::refusal;
@@ -25,6 +25,7 @@ fn each_share_can_be_too_large_or_too_small() {
     ];
     for (what, plant) in planted {
         let runs = changed::<RuleCalibration>(&sound, |_, found| {
+            let Counted::Families(found) = found else { return };
             plant(found);
             // Of no samples a share is NaN.
             if found.families[0].wrong == 0 {
@@ -33,9 +34,17 @@ fn each_share_can_be_too_large_or_too_small() {
         });
         assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what}");
     }
-    let mut failed = sound.clone();
-    failed[0].found = Err(CaseFailure { reason: "planted".into() });
-    assert_eq!(study.judge(&failed).verdict, Verdict::Fail);
+    for case in 0..sound.len() {
+        let mut failed = sound.clone();
+        failed[case].found = Err(CaseFailure { reason: "planted".into() });
+        assert_ne!(study.judge(&failed).verdict, Verdict::Pass, "case {case}");
+    }
+    let hidden = changed::<RuleCalibration>(&sound, |_, found| {
+        if let Counted::Laws(found) = found {
+            found.hidden[0][1][2] = 0.9;
+        }
+    });
+    assert_eq!(study.judge(&hidden).verdict, Verdict::Fail, "hidden terms that pass");
     assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
 }
 
@@ -45,6 +54,7 @@ fn files_with_errors_are_refused() {
         ("samples = 20000", "samples = 10", "calibration.samples"),
         ("false_pass = 0.01", "false_pass = 1.0", "calibration.false_pass"),
         ("coverage = 0.93", "covered = 0.93", "covered"),
+        ("hidden = ", "hidden = 2", "laws.hidden"),
     ] {
         let error = refusal(&ROW, "rule-calibration.toml", from, to);
         assert!(error.contains(message), "{error}");

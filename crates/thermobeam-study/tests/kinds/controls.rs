@@ -9,6 +9,7 @@ use thermobeam_study::kinds::controls::{Fault, ROW};
 use crate::refused::refusal;
 use crate::typed::{Runs, changed, report};
 use crate::{file, text};
+use thermobeam_study::kinds::tables::Norm;
 
 fn controls() -> Controls {
     Controls::read(file("negative-controls.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -55,7 +56,7 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
                 found
                     .iter_mut()
                     .filter(|planted| planted.fault == Fault::None)
-                    .for_each(|planted| planted.errors[5] = f64::NAN);
+                    .for_each(|planted| planted.errors[Norm::Theorem34] = f64::NAN);
             }
         });
         assert_eq!(study.judge(&broken).verdict, Verdict::Fail, "case {case}");

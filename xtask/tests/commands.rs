@@ -70,8 +70,9 @@ fn outside_a_workspace_there_is_nothing_to_verify() {
 
 #[test]
 fn the_list_tells_the_last_verdict_whichever_record_has_it() {
-    let scenes = [("a.toml", &study("a", "equilibrium")), ("b.toml", &study("b", "energy"))];
-    let root = workspace(&scenes.map(|(name, text)| (name, text.as_str())));
+    let body = "[frequencies]\ncount = 1\nelements = [4, 8, 16]\norder = 2.0\ntolerance = 0.1\n";
+    let [a, b] = ["a", "b"].map(|id| study(id, "frequencies") + body);
+    let root = workspace(&[("a.toml", a.as_str()), ("b.toml", b.as_str())]);
     let list = |arguments: &[&str]| {
         let output = xtask(root.path(), &[&["list"], arguments].concat());
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

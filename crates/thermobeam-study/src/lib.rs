@@ -3,13 +3,14 @@
 //! # From a file to a verdict
 //!
 //! ```text
-//! TOML ── study::read ──> Study ── runner::run ──> Finished ── report, record, baseline, junit ──> verification
-//!                          cases      threads       Outcome
+//! TOML ── kinds::read ──> Study ── convergence_study::run ──> Finished ── report, record, baseline, JUnit
+//!                          cases            threads            Outcome
 //! ```
 //!
-//! A study is data: a [`study_file`] or a [`scene`], whose functions are [`expression`]s. Its kind, in [`study`], says what its cases
-//! compute and how their results are judged. Errors against a manufactured solution ([`exact`], [`design`]) become rates by
-//! [`fit`] and verdicts by [`verdict`], and all that was found is an [`outcome`]. The [`runner`] alone knows threads.
+//! A study is data, and so is a [`scene`], whose functions are [`expression`]s. Each of the [`kinds`] of study says what its cases
+//! compute and how their results are judged; [`run`] steps problems, [`mod@error`] measures errors against exact solutions and finer
+//! runs, [`predict`] predicts cost and error. Threads, rates, verdicts, baseline, records and reports are the harness's:
+//! [`convergence_study`].
 //!
 //! ```
 //! use convergence_study::judge::verdict::Verdict;
@@ -28,24 +29,6 @@
 //! )?;
 //! assert_eq!(run_here(&study).verdict, Verdict::Pass);
 //! # Ok::<(), convergence_study::input::InputError>(())
-//! ```
-//!
-//! # The same rule for any code
-//!
-//! [`verdict`] knows neither the norm nor the scheme, only steps and errors; [`rates`] reads them from a table.
-//!
-//! ```
-//! use thermobeam_study::verdict::{Verdict, judge_pairs};
-//!
-//! // The midpoint rule for the integral of exp, claimed to be of second order; then, of fourth.
-//! let error = |n: i32| {
-//!     let h = 1.0 / f64::from(n);
-//!     let sum: f64 = (0..n).map(|i| h * ((f64::from(i) + 0.5) * h).exp()).sum();
-//!     (h, (sum - 1f64.exp_m1()).abs())
-//! };
-//! let errors = [4, 8, 16, 32, 64].map(error);
-//! assert_eq!(judge_pairs(errors, 2.0, 0.05).verdict, Verdict::Pass);
-//! assert_eq!(judge_pairs(errors, 4.0, 0.05).verdict, Verdict::Fail);
 //! ```
 //!
 //! What the solver must obey is derived in [`thermobeam::theory`].

@@ -36,7 +36,9 @@ fn the_same_data_give_the_same_bytes() {
 #[test]
 fn every_figure_is_in_the_gallery() {
     let (module, gallery) = (include_str!("../src/figures/mod.rs"), include_str!("figures/mod.rs"));
+    // The pictures of a run are made of figures that have their place in a gallery.
     let exported = module.lines().filter_map(|line| line.strip_prefix("pub use ")?.split("::").next());
+    let exported = exported.filter(|name| *name != "scene");
     let figures: Vec<_> = exported.collect();
     assert!(figures.len() >= 3);
     for figure in figures {

@@ -47,7 +47,7 @@ fn tests_of(source: &str) -> impl Iterator<Item = String> {
 /// Names of all tests and studies of the workspace.
 fn known(root: &Path) -> BTreeSet<String> {
     let mut sources = vec![];
-    for part in ["thermobeam", "thermobeam-exact", "thermobeam-study"] {
+    for part in ["thermobeam", "thermobeam-exact", "thermobeam-study", "convergence-study"] {
         for folder in ["src", "tests"] {
             files(&root.join("crates").join(part).join(folder), "rs", &mut sources);
         }

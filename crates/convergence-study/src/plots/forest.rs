@@ -161,7 +161,7 @@ fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
     match rate.rate.filter(finite) {
         Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 2.4, colour),
         Some(value) => arrow(pen, (px(plot, value) - 8.0 * value.signum(), y), value.signum(), colour),
-        None => pen.text("no rate", (plot.right - 4.0, y), 0.75 * NOTE_SIZE, Anchor::End, colour),
+        None => pen.text("no rate", (plot.right - 4.0, y), NOTE_SIZE, Anchor::End, colour),
     }
 }
 

@@ -15,6 +15,7 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
         ("iterations", iterations(&iteration_counts())),
         ("parameter-map", parameter_map(&stability_map())),
         ("work-precision", work_precision(&costs())),
+        ("forest", forest(&all_rates())),
         ("hostile", history(&hostile())),
     ]
 }
@@ -250,4 +251,22 @@ pub(crate) fn hostile() -> History {
         ],
         ..Default::default()
     }
+}
+
+/// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
+pub(crate) fn all_rates() -> Forest {
+    let rate = |rate: f64, half: f64, judged| ForestRate {
+        rate: Some(rate),
+        interval: Some([rate - half, rate + half]),
+        judged,
+    };
+    let none = ForestRate { rate: None, interval: None, judged: Judged::Inconclusive };
+    let row = |label: &str, rates: Vec<ForestRate>| ForestRow { label: label.into(), rates };
+    let space = vec![
+        row("first-order", vec![rate(0.1, 0.2, Judged::Pass), rate(-0.3, 0.1, Judged::Pass)]),
+        row("lost-order", vec![rate(-20.0, 0.1, Judged::Fail), none]),
+    ];
+    let time = vec![row("scattered", vec![rate(0.4, 1.1, Judged::Inconclusive)])];
+    let group = |label: &str, rows| ForestGroup { label: label.into(), rows };
+    Forest { title: "All rates".into(), groups: vec![group("space", space), group("time", time)] }
 }

@@ -7,9 +7,10 @@ use convergence_study::input::error_table::RateTable;
 use convergence_study::judge::verdict::Judge;
 use convergence_study::store::baseline::Baseline;
 use tempfile::TempDir;
+use thermobeam::dg;
 use thermobeam_study::kinds;
 use thermobeam_study::run::simulate::Simulator;
-use thermobeam_study::scene::Scene;
+use thermobeam_study::scene::any_order::SceneFile;
 use thermobeam_study::sweep::{Journal, Manifest, Share, Sweep};
 
 /// A kind of file.
@@ -147,9 +148,13 @@ impl Bench {
         let said = |error: &dyn std::error::Error| error.to_string();
         match reading {
             Reading::Scene => {
-                let scene = Scene::read(&path).map_err(|error| said(&error))?;
-                let run = Simulator::new(&scene).map_err(|error| format!("{}: {error}", path.display()))?;
-                drop(run);
+                let refused = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
+                match SceneFile::read(&path).map_err(|error| said(&error))? {
+                    SceneFile::OneStep(scene) => drop(Simulator::new(&scene).map_err(|error| refused(&error))?),
+                    SceneFile::AnyOrder(scene) => {
+                        drop(dg::Simulation::new(scene.problem(), scene.stepping).map_err(|error| refused(&error))?);
+                    }
+                }
             }
             Reading::Study => {
                 drop(kinds::read(&path).map_err(|error| said(&error))?.plan().cases());

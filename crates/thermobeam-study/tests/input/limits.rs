@@ -38,17 +38,17 @@ fn what_a_study_cannot_have_is_refused_with_what_it_would_take() {
     let many = format!("elements = {:?}", (1..=2000).collect::<Vec<_>>());
     let as_many = format!("steps = {:?}", (1..=2000).collect::<Vec<_>>());
     for (name, changes, pieces) in [
-        ("stability-coarse.toml", &[("points", "points = 1000")][..], &["stability.points: found 1000", "<= 400"][..]),
+        ("stability-coarse.toml", &[("points", "points = 1000")][..], &["map.points: found 1000", "<= 400"][..]),
         (
             "stability-h.toml",
             &[("range", "range = [1e-12, 0.5]")],
             &[
-                "stability.range: found the list [1e-12, 0.5], of which the finest mesh would take",
+                "map.range: found the list [1e-12, 0.5], of which the finest mesh would take",
                 "GiB",
                 "h >= 1.2e-7",
             ],
         ),
-        ("stability-h.toml", &[("lines", "lines = [1e-9]")], &["stability.lines[0]: found 1e-9", "465.7 GiB"]),
+        ("stability-h.toml", &[("lines", "lines = [1e-9]")], &["map.lines[0]: found 1e-9", "465.7 GiB"]),
         (
             "energy-decay.toml",
             &[("random", "random = 1000000000000")],

@@ -153,7 +153,7 @@ fn a_wrong_header_is_named() {
         ("[study]\nid = \"A b\"", &["2:6: study.id: found the text \"A b\"; allowed is 1 to 100 lowercase letters"]),
         ("[study]\nid = \"\"", &["2:6: study.id: found the text \"\""]),
         ("[study]\nid = 3", &["2:6: study.id: found 3; allowed is a text"]),
-        ("[study]\nid = \"a\"", &["1:1: study.claim: missing; allowed is one line of text that says"]),
+        ("[study]\nid = \"a\"", &["1:1: study.claim: missing; allowed is one line of text without control characters"]),
         ("[study]\nid = \"a\"\nclaim = \" \"", &["3:9: study.claim: found the text \" \""]),
         ("[study]\nid = \"a\"\nclaim = \"b\"", &["study.tier: missing; allowed is \"quick\" or \"full\""]),
         (

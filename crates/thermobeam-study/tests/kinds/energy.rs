@@ -16,7 +16,7 @@ fn runs(name: &str) -> Runs {
 type Defect<F> = (&'static str, fn(&mut F));
 
 #[test]
-fn each_run_of_the_scenes_can_fail() {
+fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
     let planted: [Defect<Found>; 9] = [

@@ -8,7 +8,7 @@ use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::rigid::{Found, RigidStudy, RunOf};
 
 #[test]
-fn the_file_passes_but_not_without_each_case_and_fails_on_each_claim() {
+fn every_claim_about_rigid_obstacles_can_fail() {
     let study = RigidStudy::read(file("rigid-obstacles.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
     let position = |run: RunOf, nth: usize| {

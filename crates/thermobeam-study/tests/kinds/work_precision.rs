@@ -104,7 +104,6 @@ fn mistakes_are_named() {
         ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
         ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
         (grid, "exactly one of"),
-        (&format!("{grid}vibration = [40]\nzeta = 0.1\nt_end = 1"), "modes that ring"),
         (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nreference = [8, 8]"), "reference without scene"),
         (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\nreference = [9, 8]"), "a multiple"),
         (&format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""), "did you mean"),

@@ -10,7 +10,7 @@ pub enum SetupError {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// A setting out of range.
-    #[error("{name} = {found}: allowed is {allowed}")]
+    #[error("{name}: expected {allowed}, found {found}")]
     Setting {
         /// Which setting.
         name: &'static str,
@@ -20,7 +20,7 @@ pub enum SetupError {
         allowed: String,
     },
     /// Initial data that are not finite.
-    #[error("initial {field} is {found} in the element between x = {from} and x = {to}: allowed are finite numbers")]
+    #[error("initial {field} between x = {from} and x = {to}: expected finite numbers, found {found}")]
     NotFinite {
         /// Which field.
         field: &'static str,
@@ -32,7 +32,7 @@ pub enum SetupError {
         to: f64,
     },
     /// Initial data that break a boundary condition.
-    #[error("initial {field} at x = {x} is {found}: allowed is {allowed}")]
+    #[error("initial {field} at x = {x}: expected {allowed}, found {found}")]
     Boundary {
         /// Which field.
         field: &'static str,

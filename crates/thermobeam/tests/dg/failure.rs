@@ -20,23 +20,26 @@ fn good() -> Stepping {
 fn settings_out_of_range_are_refused_by_name() {
     for degree in [0, 41, 100] {
         let message = refused(experiment(0.0, 0.0, degree), good());
-        assert_eq!(message, format!("degree of the elements = {degree}: allowed is an integer from 1 to 40"));
+        assert_eq!(message, format!("degree of the elements: expected an integer from 1 to 40, found {degree}"));
     }
     let cases = [
-        (Stepping { degree: 6, ..good() }, "degree in time = 6: allowed is an integer from 0 to 5"),
-        (Stepping { dt: 0.0, ..good() }, "dt = 0: allowed is a finite number > 0"),
-        (Stepping { dt: f64::NAN, ..good() }, "dt = NaN: allowed is a finite number > 0"),
-        (Stepping { dt: f64::INFINITY, ..good() }, "dt = inf: allowed is a finite number > 0"),
-        (Stepping { restart_dt: 0.03, ..good() }, "restart_dt = 0.03: allowed is a number > 0 and at most dt = 0.02"),
-        (Stepping { restart_dt: -1.0, ..good() }, "restart_dt = -1: allowed is a number > 0 and at most dt = 0.02"),
-        (Stepping { growth: 0.9, ..good() }, "growth = 0.9: allowed is a finite number >= 1"),
-        (Stepping { growth: f64::NAN, ..good() }, "growth = NaN: allowed is a finite number >= 1"),
+        (Stepping { degree: 6, ..good() }, "degree in time: expected an integer from 0 to 5, found 6"),
+        (Stepping { dt: 0.0, ..good() }, "dt: expected a finite number > 0, found 0"),
+        (Stepping { dt: f64::NAN, ..good() }, "dt: expected a finite number > 0, found NaN"),
+        (Stepping { dt: f64::INFINITY, ..good() }, "dt: expected a finite number > 0, found inf"),
+        (
+            Stepping { restart_dt: 0.03, ..good() },
+            "restart_dt: expected a number > 0 and at most dt = 0.02, found 0.03",
+        ),
+        (Stepping { restart_dt: -1.0, ..good() }, "restart_dt: expected a number > 0 and at most dt = 0.02, found -1"),
+        (Stepping { growth: 0.9, ..good() }, "growth: expected a finite number >= 1, found 0.9"),
+        (Stepping { growth: f64::NAN, ..good() }, "growth: expected a finite number >= 1, found NaN"),
         (
             Stepping { growth: 1.0001, ..good() },
-            "growth = 1.0001: allowed is a ratio that leads from restart_dt to dt in 1000 steps",
+            "growth: expected a ratio that leads from restart_dt to dt in 1000 steps, found 1.0001",
         ),
-        (Stepping { tolerance: 0.0, ..good() }, "tolerance = 0: allowed is a finite number > 0"),
-        (Stepping { max_iterations: 0, ..good() }, "max_iterations = 0: allowed is an integer >= 1"),
+        (Stepping { tolerance: 0.0, ..good() }, "tolerance: expected a finite number > 0, found 0"),
+        (Stepping { max_iterations: 0, ..good() }, "max_iterations: expected an integer >= 1, found 0"),
     ];
     for (stepping, message) in cases {
         assert_eq!(refused(experiment(0.0, 0.0, 4), stepping), message);
@@ -52,14 +55,14 @@ fn settings_out_of_range_are_refused_by_name() {
 fn coefficients_and_initial_data_are_checked() {
     let base = || experiment(0.0, 0.0, 4);
     let beam = Problem { beam: Beam { rho: -1.0, ..Beam::default() }, ..base() };
-    assert_eq!(refused(beam, good()), "rho = -1: allowed is a finite number >= 0");
+    assert_eq!(refused(beam, good()), "rho: expected a finite number >= 0, found -1");
     let obstacles = Problem { obstacles: Some(Obstacles { epsilon: 0.0, ..Obstacles::default() }), ..base() };
-    assert_eq!(refused(obstacles, good()), "epsilon = 0: allowed is a finite number > 0");
+    assert_eq!(refused(obstacles, good()), "epsilon: expected a finite number > 0, found 0");
     let with = |initial: Initial| Problem { initial, ..base() };
     let lifted = Initial { u: Box::new(|x| 0.5 + x), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(lifted), good()), "initial u at x = 0 is 0.5: allowed is 0");
+    assert_eq!(refused(with(lifted), good()), "initial u at x = 0: expected 0, found 0.5");
     let hot = Initial { theta: Box::new(|x| 2.0 * (1.0 - x)), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(hot), good()), "initial theta at x = 0 is 2: allowed is 0");
+    assert_eq!(refused(with(hot), good()), "initial theta at x = 0: expected 0, found 2");
     let wild = Initial { phi_t: Box::new(|x| 1.0 / (x - x)), ..Initial::at_rest(0.0) };
     let found = Simulation::new(with(wild), good()).err();
     assert!(matches!(found, Some(SetupError::NotFinite { field: "phi_t", .. })), "{found:?}");

@@ -1,6 +1,6 @@
-//! The rule for rates on errors that have nothing to do with beams: three quadrature formulas for the integral of exp.
+//! The rule for rates on errors of three quadrature formulas for the integral of exp.
 //!
-//! `cargo run -p thermobeam-study --example own_rates`
+//! `cargo run -p convergence-study --example own_rates`
 
 use convergence_study::judge::verdict::{RateVerdict, Verdict, judge_pairs};
 

@@ -104,7 +104,8 @@ fn a_case_at_its_limit_fails_its_study_and_no_other() {
     let root = workspace(&folder, "w", &[("short", quick("short")), ("long", endless("long"))]);
     let ended = ended(&mut verify(&root, &["--case-limit", "0.3"]));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""));
-    let line = |id: &str| ended.stdout.lines().find(|line| line.starts_with(&format!("{id} "))).unwrap_or_default().to_owned();
+    let line =
+        |id: &str| ended.stdout.lines().find(|line| line.starts_with(&format!("{id} "))).unwrap_or_default().to_owned();
     assert!(line("short").contains(" pass ") && line("long").contains(" fail "), "{}", ended.stdout);
     let page = std::fs::read_to_string(root.join("reports/README.md")).expect("a report");
     for piece in ["n = 8, 9000000000 steps ends within the limit", "stopped at the limit of 0.3 s, after step "] {

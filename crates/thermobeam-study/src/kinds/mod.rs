@@ -1,8 +1,7 @@
-//! The kinds of study, one file each, behind one interface.
+//! The kinds of study of the beam: a folder each.
 //!
-//! A study is a TOML file: data. Its kind says what its cases are (pure computations, run on any thread in any order),
-//! and how their results become an [`Outcome`]: checks with verdicts, tables, figures, and the numbers that the baseline
-//! guards. The runner knows threads, the report knows Markdown, a study knows neither.
+//! A study is a TOML file: data. In the folder of its kind `file.rs` reads it, `cases.rs` lists and computes its cases, `judge.rs`
+//! turns their results into an outcome: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
 
 pub mod any_order;
 pub mod bifurcation;
@@ -29,13 +28,13 @@ pub use table::KINDS;
 pub use terms::TERMS;
 
 use convergence_study::input::InputError;
-use convergence_study::study::{self as harness, StudyFile};
+use convergence_study::study::{Study, StudyFile};
 use std::path::Path;
 
 /// Reads a study file of any of the beam's kinds.
 ///
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
-pub fn read(path: &Path) -> Result<Box<dyn harness::Study>, InputError> {
+pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
     StudyFile::read(&KINDS, path).map(|file| file.study)
 }

@@ -178,7 +178,7 @@ fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError>
 /// Refuses elements of a higher degree: one-step schemes work on linear ones.
 fn linear_elements(root: &Section<'_>) -> Result<(), InputError> {
     let degree = root.section("mesh")?.and_then(|section| section.get("degree"));
-    let Some(field) = degree.filter(|field| !field.count(1..=1).is_ok()) else { return Ok(()) };
+    let Some(field) = degree.filter(|field| field.count(1..=1).is_err()) else { return Ok(()) };
     Err(field.refuse(field.as_written(), "1, or time.scheme = \"dg\" for elements of higher degree"))
 }
 

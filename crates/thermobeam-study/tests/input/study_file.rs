@@ -162,7 +162,7 @@ fn a_wrong_header_is_named() {
         ),
         ("[study]\nname = \"a\"", &["2:1: study.name: unknown key `name`; allowed is id, claim, tier, kind"]),
     ] {
-        says(&Header::parse(text, "s.toml".as_ref()).expect_err(text).to_string(), pieces);
+        says(&Header::parse(text, "s.toml").expect_err(text).to_string(), pieces);
         says(&refusal(&[text]), pieces);
     }
 }
@@ -170,10 +170,10 @@ fn a_wrong_header_is_named() {
 #[test]
 fn the_header_of_any_kind_is_read_without_the_rest() {
     let text = [STUDY, "kind = \"energy\"\n[anything]\nelse = 1"].concat();
-    let header = Header::parse(&text, "s.toml".as_ref()).expect("a header");
+    let header = Header::parse(&text, "s.toml").expect("a header");
     assert_eq!((header.id.as_str(), header.kind.as_str(), header.tier), ("a-1.2", "energy", Tier::Quick));
     says(&refusal(&[&text]), &["5:8: study.kind: found \"energy\"; allowed is \"convergence\""]);
-    assert_eq!(Header::parse(STUDY, "s.toml".as_ref()).expect("a header").kind, "convergence");
+    assert_eq!(Header::parse(STUDY, "s.toml").expect("a header").kind, "convergence");
 }
 
 #[test]

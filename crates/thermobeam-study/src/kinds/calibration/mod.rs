@@ -58,7 +58,7 @@ pub enum Counted {
     /// Of [`Part::Families`].
     Families(Calibration),
     /// Of [`Part::Laws`].
-    Laws(Comparison),
+    Laws(Box<Comparison>),
 }
 
 /// A study of this kind.
@@ -111,7 +111,7 @@ impl Kind for RuleCalibration {
     fn run(&self, part: &Part) -> Result<Counted, CaseFailure> {
         Ok(match part {
             Part::Families => Counted::Families(calibrate(self.samples, self.seed)?),
-            Part::Laws => Counted::Laws(self.laws.run()?),
+            Part::Laws => Counted::Laws(Box::new(self.laws.run()?)),
         })
     }
 

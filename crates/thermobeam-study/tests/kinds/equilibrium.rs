@@ -14,7 +14,7 @@ fn verdict(study: &EndStates, sound: &Runs<EndStates>, label: &str, change: impl
     let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
     let planted = changed::<EndStates>(sound, |index, end| {
         if index == case {
-            change(end)
+            change(end);
         }
     });
     study.judge(&planted).verdict

@@ -13,6 +13,9 @@ fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
     SelfConvergence::parse(&change(text), &name).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A field of a level: its name, a place in it, and how to reach it.
+type FieldAt = (&'static str, usize, fn(&mut Level) -> &mut Vec<f64>);
+
 #[test]
 fn quick_files_pass_but_not_without_each_case() {
     for name in FILES {
@@ -69,7 +72,7 @@ fn each_quantity_can_fail() {
 fn the_functions_themselves_can_fail() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
-    let fields: [(&str, usize, fn(&mut Level) -> &mut Vec<f64>); 5] = [
+    let fields: [FieldAt; 5] = [
         ("u", 1, |level| &mut level.u),
         ("v", 4, |level| &mut level.v),
         ("phi", 6, |level| &mut level.phi),

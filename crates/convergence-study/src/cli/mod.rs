@@ -29,20 +29,15 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::project::Project;
 pub use help::grouped;
 
-/// The commands of the harness.
+/// The commands of the harness. What each does stands at its arguments, from where `--help` takes it.
+#[allow(missing_docs)]
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// `verify`
     Verify(verify::Arguments),
-    /// `study`
     Study(study::Arguments),
-    /// `list`
     List(list::Arguments),
-    /// `explain`
     Explain(explain::Arguments),
-    /// `rates`
     Rates(rates::Arguments),
-    /// `completions`
     Completions(completions::Arguments),
 }
 

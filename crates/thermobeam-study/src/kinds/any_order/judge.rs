@@ -113,14 +113,15 @@ fn over_degrees(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: C
             value: *error,
             tolerance: 1e-4,
         }));
-        let name = format!("{} elements", series.runs[0].elements);
+        let n = series.runs[0].elements;
+        let name = if n == 1 { "1 element".to_owned() } else { format!("{n} elements") };
         let listed = plots::Series { label: name, points };
         curves.push(Curve { look: look(k), marks: Marks::Filled, ..Curve::line(k, &listed) });
     }
     let svg = Xy {
         title: Some("Error over the degree of the elements".into()),
         x: PlotAxis::linear("degree p"),
-        y: PlotAxis::log("error of all fields at the end, L2 (dimensionless)"),
+        y: PlotAxis::log("L2 error of all fields (dimensionless)"),
         curves,
         ..Xy::default()
     }

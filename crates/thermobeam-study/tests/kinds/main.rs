@@ -7,6 +7,7 @@ mod calibration;
 mod controls;
 mod energy;
 mod equilibrium;
+mod exact_experiments;
 mod experiment;
 mod frequencies;
 mod planted;

@@ -5,6 +5,7 @@
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
 pub mod any_order;
+pub mod any_order_cost;
 pub mod bifurcation;
 pub mod calibration;
 pub mod controls;

@@ -321,7 +321,7 @@ fn more_space(scene: &AnyOrderScene, factor: f64) -> Option<AnyOrderScene> {
     }
     // Halving elements of degree p gains 2^p on smooth parts, so that a lower degree will do.
     halved(scene)
-        .map(|halved| AnyOrderScene { degree: halved.degree.min(HIGHEST_DEGREE).max(DEGREE_OF_HALVED), ..halved })
+        .map(|halved| AnyOrderScene { degree: halved.degree.clamp(DEGREE_OF_HALVED, HIGHEST_DEGREE), ..halved })
 }
 
 fn half_steps(stepping: Stepping) -> Stepping {

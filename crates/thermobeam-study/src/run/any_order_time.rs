@@ -85,7 +85,11 @@ pub fn times(scene: &Scene, t_end: f64) -> Result<Table, CaseFailure> {
     Ok(Table { title, head: head.map(str::to_owned).to_vec(), rows })
 }
 
-fn by(scene: &Scene, (degree, q, dt): (usize, usize, f64), t_end: f64) -> Result<AnyOrderScene, CaseFailure> {
+pub(crate) fn by(
+    scene: &Scene,
+    (degree, q, dt): (usize, usize, f64),
+    t_end: f64,
+) -> Result<AnyOrderScene, CaseFailure> {
     let growth = 1.0 + GROWTH * dt / COARSE;
     Ok(AnyOrderScene {
         name: scene.name.clone(),
@@ -99,7 +103,7 @@ fn by(scene: &Scene, (degree, q, dt): (usize, usize, f64), t_end: f64) -> Result
     })
 }
 
-fn finished(scene: &AnyOrderScene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
+pub(crate) fn finished(scene: &AnyOrderScene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
     let run = run(scene, times, &mut |_| ())?;
     match run.failure {
         Some(failure) => Err(failure.into()),

@@ -2,6 +2,7 @@
 
 mod any_order;
 mod any_order_controls;
+mod any_order_cost;
 mod bifurcation;
 mod calibration;
 mod controls;

@@ -83,7 +83,7 @@ fn one(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<Series, I
         Over::Space => {
             section.allow(&["degree", "elements", "tolerance"])?;
             let (q, steps, p) = (time_degree(run)?, steps(run)?, count(section, "degree", MAX_DEGREE)?);
-            let list = increasing(section, "elements", |field| tables::elements(field))?;
+            let list = increasing(section, "elements", tables::elements)?;
             let run = |elements| Resolution { degree: p, elements, time_degree: q, steps };
             (list.into_iter().map(run).collect(), "tolerance")
         }

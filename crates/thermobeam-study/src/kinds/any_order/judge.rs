@@ -65,9 +65,12 @@ fn runs_of<'r>(
     mine
 }
 
+/// Name and order of an error, and the error itself.
+type ClaimOf = (String, f64, fn(&Errors) -> f64);
+
 fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>]) -> Levels {
     let Resolution { degree: p, time_degree: q, .. } = series.runs[0];
-    let claims: Vec<(String, f64, fn(&Errors) -> f64)> = match study.over {
+    let claims: Vec<ClaimOf> = match study.over {
         Over::Time => vec![
             (format!("q = {q}, ends"), (2 * q + 1) as f64, |errors| errors.fields),
             (format!("q = {q}, u inside"), (q + 2).min(2 * q + 1) as f64, |errors| errors.inside_u),
@@ -78,7 +81,7 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
             (format!("p = {p}, slopes"), p as f64, |errors| errors.slopes),
         ],
     };
-    let column = |(name, order, of): &(String, f64, fn(&Errors) -> f64)| ErrorColumn {
+    let column = |(name, order, of): &ClaimOf| ErrorColumn {
         name: name.clone(),
         errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, of)).collect(),
         claim: Some(Claim { order: *order, tolerance: series.tolerance }),

@@ -11,7 +11,7 @@ use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
 use convergence_study::{report, run as runner};
 use thermobeam_study::error::evaluator::ErrorMeasure;
 use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
-use thermobeam_study::run::step_time;
+use thermobeam_study::run::{any_order_time, step_time};
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
@@ -19,6 +19,9 @@ use convergence_study::cli::{output, screen, selection, workspace};
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
+
+/// Where the runs of any order end: three contact events of the paper's first experiment.
+const ANY_ORDER_END: f64 = 1.0;
 
 /// Studies in the table of the costliest.
 const COSTLIEST: usize = 12;
@@ -45,6 +48,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     page.add(&step_time::ways(&scene, 1000)?)?;
     page.add(&step_time::scenes(&scene, 100)?)?;
     page.add(&step_time::scaling(&scene, &ELEMENTS)?)?;
+    let any_order = any_order_time::times(&scene, scene.t_end.min(ANY_ORDER_END));
+    page.add(&any_order.map_err(|failure| Unusable::because(&failure.reason))?)?;
     for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
         accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod any_order;
+mod any_order_accuracy;
 mod summary;
 
 use std::io;
@@ -33,10 +34,11 @@ pub(crate) struct Arguments {
     /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper
+    /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper;
+    /// for scheme = "dg" by space and time, three more runs
     #[arg(long)]
     estimate_error: bool,
-    /// Choose scheme, elements and steps so that the error is no larger than this
+    /// Choose scheme, elements and steps so that the error is no larger than this; for scheme = "dg" degrees, elements and steps
     #[arg(long, value_name = "ERROR")]
     target_error: Option<f64>,
     /// What the target error is about

@@ -7,28 +7,43 @@ use convergence_study::cli::output::{self, Format};
 use convergence_study::cli::{interrupt, progress};
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
+use thermobeam_study::predict::any_order::{Budget, estimate};
 use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIMES, phase_name, run};
 use thermobeam_study::scene::any_order::AnyOrderScene;
 
+use super::any_order_accuracy::{self as accuracy, NotChosen, PlannedAnyOrder};
 use super::{Arguments, summary, write_files};
 
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
 
+/// The JSON object, with what was asked for on top.
+#[derive(serde::Serialize)]
+struct Printed<'a> {
+    #[serde(flatten)]
+    object: AnyOrderObject<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_budget: Option<&'a Budget>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<accuracy::Object>,
+}
+
 /// Runs the scene, writes what was asked for and prints the result.
 pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome {
-    for (asked, option) in
-        [(arguments.target_error.is_some(), "--target-error"), (arguments.estimate_error, "--estimate-error")]
-    {
-        if asked {
-            let reason = format!(
-                "{}: {option} works with one-step schemes; for scheme = \"dg\" compare runs with a higher mesh.degree and a \
-                 higher time.degree",
-                arguments.scene.display()
-            );
-            return Err(Unusable::because(&reason));
-        }
-    }
+    let planned = match arguments.target_error {
+        None => None,
+        Some(target) => match accuracy::choose_any_order(scene, arguments.quantity, target) {
+            Ok(planned) => Some(planned),
+            Err(NotChosen::Refused(reason)) => {
+                return Err(Unusable::because(&format!("{}: {reason}", arguments.scene.display())));
+            }
+            Err(NotChosen::NotReached(reason)) => {
+                output::complain(&format!("{}: {reason}", arguments.scene.display()));
+                return Ok(Ended::Badly);
+            }
+        },
+    };
+    let scene = planned.as_ref().map_or(scene, |planned| planned.scene());
     let times = if arguments.out.is_some() { HISTORY_TIMES } else { 0 };
     if let Some(folder) = &arguments.out {
         atomic::prepare_folder(folder)?;
@@ -44,13 +59,28 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     let found = found.map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let files = (times > 0).then(|| ("history.csv", found.csv())).into_iter().chain(found.pictures(scene));
     let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, files))?;
+    // A run that failed has nothing whose error could be estimated.
+    let wanted = arguments.estimate_error && found.failure.is_none();
+    let budget = wanted.then(|| estimate(scene)).transpose();
+    let known = budget.as_ref().ok().and_then(Option::as_ref);
     match arguments.format {
-        Format::Json => output::print_json(&AnyOrderObject::new(scene, &found))?,
+        Format::Json => {
+            let object = AnyOrderObject::new(scene, &found);
+            let accuracy = planned.as_ref().map(|planned| planned.object());
+            output::print_json(&Printed { object, error_budget: known, accuracy })?;
+        }
         Format::Text => {
-            let mut text = text(scene, &found);
+            let mut text = text(scene, &found, planned.as_ref());
             summary::list(&mut text, &written);
+            if let Some(budget) = known {
+                let _ = writeln!(text, "\n{budget}");
+            }
             output::print(&text)?;
         }
+    }
+    if let Err(reason) = budget {
+        output::complain(&format!("{}: error budget: {reason}", arguments.scene.display()));
+        return Ok(Ended::Badly);
     }
     Ok(match &found.failure {
         None => Ended::Well,
@@ -61,7 +91,7 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     })
 }
 
-fn text(scene: &AnyOrderScene, run: &AnyOrderRun) -> String {
+fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {
     let stepping = scene.stepping;
     let mut text = format!(
         "{}: {} elements of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
@@ -77,6 +107,9 @@ fn text(scene: &AnyOrderScene, run: &AnyOrderRun) -> String {
     let [_, last] = &run.ends;
     if let Some(failure) = &run.failure {
         let _ = writeln!(text, "\nFAILED at t = {}: {failure}", last.t);
+    }
+    if let Some(planned) = planned {
+        summary::section(&mut text, "accuracy", planned.lines(run));
     }
     let number = summary::number;
     let work = vec![

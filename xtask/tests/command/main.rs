@@ -1,6 +1,7 @@
 //! The commands as scripts use them: arguments, exit status, standard output and error, files.
 
 mod accuracy;
+mod any_order;
 mod equilibria;
 mod failure;
 mod first_steps;

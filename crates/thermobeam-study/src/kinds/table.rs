@@ -3,14 +3,15 @@
 use convergence_study::study::KindRow;
 
 use super::{
-    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment,
-    frequencies, rigid, self_convergence, solvers, vibration, work_precision,
+    any_order, any_order_cost, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments,
+    experiment, frequencies, rigid, self_convergence, solvers, vibration, work_precision,
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 15] = [
+pub const KINDS: [KindRow; 16] = [
     convergence::ROW,
     any_order::ROW,
+    any_order_cost::ROW,
     controls::ROW,
     energy::ROW,
     solvers::ROW,

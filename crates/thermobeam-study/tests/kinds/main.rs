@@ -1,10 +1,14 @@
 //! Kinds of study, each against its own files and against planted defects: a check that cannot fail proves nothing.
 
+mod any_order;
+mod any_order_controls;
+mod any_order_cost;
 mod bifurcation;
 mod calibration;
 mod controls;
 mod energy;
 mod equilibrium;
+mod exact_experiments;
 mod experiment;
 mod frequencies;
 mod planted;

@@ -10,6 +10,9 @@
 //! elements = 1          # for "time" and "degree"
 //! map = "0.8*s + 0.2*s^2"
 //!
+//! [control]             # optional: coefficients in which the solver differs from the loads; then the study must fail
+//! zeta = 0.101
+//!
 //! [[series]]
 //! degree = 2            # "space"; or time_degree = 1 for "time"
 //! elements = [4, 8, 16] # "space"; or steps = [...] for "time"; or degrees = [...] for "degree"
@@ -23,7 +26,7 @@ use thermobeam::mesh::Mesh;
 
 use super::{AnyOrder, Over, Resolution, Series};
 use crate::expression::Variable;
-use crate::kinds::tables::manufactured;
+use crate::kinds::tables::{control, manufactured};
 use crate::scene::functions::FunctionField;
 use crate::scene::tables;
 
@@ -33,7 +36,7 @@ const MOST_STEPS: usize = 100_000;
 const POSITIVE: &str = "a finite number > 0";
 
 pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, InputError> {
-    root.allow(&["study", "beam", "obstacles", "exact", "run", "series"])?;
+    root.allow(&["study", "beam", "obstacles", "exact", "run", "control", "series"])?;
     let beam = tables::beam(root)?;
     let obstacles = tables::obstacles(root)?;
     let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
@@ -58,7 +61,8 @@ pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, Input
         return Err(series.refuse_as_written(allowed));
     }
     let series = items.iter().map(|item| one(&run, over, &item.section()?)).collect::<Result<Vec<_>, _>>()?;
-    let study = AnyOrder { header, beam, obstacles, exact, map, t_end, over, series };
+    let control = control(root, beam, obstacles)?;
+    let study = AnyOrder { header, beam, obstacles, exact, control, map, t_end, over, series };
     for resolution in study.resolutions() {
         if let (Err(error), Some(field)) = (study.mesh(resolution.elements), run.get("map")) {
             return Err(field.refuse(error.to_string(), "a map that increases from 0 to 1"));

@@ -5,7 +5,7 @@ use convergence_study::plots::marker::Marks;
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{self, Axis as PlotAxis};
 use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
-use convergence_study::study::{Axis, Check, Figure, Outcome, Quantity, Ran};
+use convergence_study::study::{Axis, Check, Figure, Outcome, Quantity, Ran, Table};
 
 use super::{AnyOrder, Errors, Over, Resolution, Series};
 
@@ -30,8 +30,7 @@ fn over_steps(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: Che
     let mut rates = vec![];
     let mut begin = 0;
     for series in &study.series {
-        let mine = &ran[begin..(begin + series.runs.len()).min(ran.len())];
-        begin += series.runs.len();
+        let mine = runs_of(ran, &mut begin, series);
         let levels = levels_of(study, series, mine);
         let judged = levels.judge();
         outcome.quantities.extend(levels.quantities(&judged));
@@ -54,12 +53,24 @@ fn over_steps(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: Che
     Outcome { figures, quantities, levels, ..Outcome::new(levels::summary(&rates), rates, vec![completion]) }
 }
 
-/// An error: its name, the order claimed, and where it is found.
-type ClaimedError = (String, f64, fn(&Errors) -> f64);
+/// The next runs, those of one series: fewer where some are missing.
+fn runs_of<'r>(
+    ran: &'r [Ran<Resolution, Errors>],
+    begin: &mut usize,
+    series: &Series,
+) -> &'r [Ran<Resolution, Errors>] {
+    let end = *begin + series.runs.len();
+    let mine = &ran[(*begin).min(ran.len())..end.min(ran.len())];
+    *begin = end;
+    mine
+}
+
+/// Name and order of an error, and the error itself.
+type ClaimOf = (String, f64, fn(&Errors) -> f64);
 
 fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>]) -> Levels {
     let Resolution { degree: p, time_degree: q, .. } = series.runs[0];
-    let claims: Vec<ClaimedError> = match study.over {
+    let claims: Vec<ClaimOf> = match study.over {
         Over::Time => vec![
             (format!("q = {q}, ends"), (2 * q + 1) as f64, |errors| errors.fields),
             (format!("q = {q}, u inside"), (q + 2).min(2 * q + 1) as f64, |errors| errors.inside_u),
@@ -70,7 +81,7 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
             (format!("p = {p}, slopes"), p as f64, |errors| errors.slopes),
         ],
     };
-    let column = |(name, order, of): &ClaimedError| ErrorColumn {
+    let column = |(name, order, of): &ClaimOf| ErrorColumn {
         name: name.clone(),
         errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, of)).collect(),
         claim: Some(Claim { order: *order, tolerance: series.tolerance }),
@@ -98,11 +109,10 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
 fn over_degrees(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: Check) -> Outcome {
     let mut checks = vec![completion];
     let mut curves = vec![];
-    let mut quantities = vec![];
+    let (mut quantities, mut rows) = (vec![], vec![]);
     let mut begin = 0;
     for (k, series) in study.series.iter().enumerate() {
-        let mine = &ran[begin..(begin + series.runs.len()).min(ran.len())];
-        begin += series.runs.len();
+        let mine = runs_of(ran, &mut begin, series);
         let points: Vec<(f64, f64)> = mine
             .iter()
             .map(|ran| (ran.case.data.degree as f64, ran.ok().map_or(f64::NAN, |errors| errors.fields)))
@@ -115,6 +125,7 @@ fn over_degrees(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: C
         }));
         let n = series.runs[0].elements;
         let name = if n == 1 { "1 element".to_owned() } else { format!("{n} elements") };
+        rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
         let listed = plots::Series { label: name, points };
         curves.push(Curve { look: look(k), marks: Marks::Filled, ..Curve::line(k, &listed) });
     }
@@ -132,7 +143,18 @@ fn over_degrees(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: C
         svg,
     };
     let summary = checks.iter().skip(1).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
-    Outcome { headline: summary.clone(), figures: vec![figure], quantities, ..Outcome::new(summary, vec![], checks) }
+    let table = Table {
+        title: "Error of all fields at the end over the degree".to_owned(),
+        head: ["mesh", "degree p", "error"].map(str::to_owned).to_vec(),
+        rows,
+    };
+    Outcome {
+        headline: summary.clone(),
+        tables: vec![table],
+        figures: vec![figure],
+        quantities,
+        ..Outcome::new(summary, vec![], checks)
+    }
 }
 
 fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
@@ -142,7 +164,7 @@ fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
         (Some((p0, e0)), Some((p1, e1))) if last > 0 => (e0 / e1).powf(1.0 / (p1 - p0)),
         _ => f64::NAN,
     };
-    let monotone = points[..=last.min(points.len().saturating_sub(1))].windows(2).all(|pair| pair[1].1 < pair[0].1);
+    let monotone = points.iter().zip(points.iter().skip(1)).take(last).all(|(one, next)| next.1 < one.1);
     let rest = points.iter().skip(last).all(|(_, error)| *error <= ROUND_OFF);
     let end = points.get(last).map_or(f64::NAN, |(p, _)| *p);
     [

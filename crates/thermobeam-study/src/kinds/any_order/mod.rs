@@ -16,6 +16,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 
 use crate::exact::solution::Manufactured;
 use crate::expression::Expression;
+use crate::kinds::tables::Control;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -77,15 +78,35 @@ pub(super) struct Series {
 }
 
 /// A study of orders.
+#[derive(Clone)]
 pub struct AnyOrder {
     header: Header,
     beam: Beam,
     obstacles: Option<Obstacles>,
     exact: Manufactured,
+    /// The solver's own coefficients, where they differ: then the study must fail.
+    control: Option<Control>,
     map: Option<Expression>,
     t_end: f64,
     over: Over,
     series: Vec<Series>,
+}
+
+impl AnyOrder {
+    /// The coefficients from which the loads are derived.
+    pub(super) fn coefficients(&self) -> (Beam, Option<Obstacles>) {
+        (self.beam, self.obstacles)
+    }
+
+    /// The same study with other coefficients in the solver, or with none.
+    pub(super) fn with_control(&self, control: Option<Control>) -> Self {
+        Self { control, ..self.clone() }
+    }
+
+    /// The coefficients that the solver works with: those of the control, or else those of the loads.
+    fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
+        self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
+    }
 }
 
 impl FromFile for AnyOrder {

@@ -65,7 +65,7 @@ impl Fault {
 }
 
 /// The coefficients with one of them off by a relative amount; `None` where it is not there, or zero.
-fn perturbed(
+pub(super) fn perturbed(
     mut beam: Beam,
     mut obstacles: Option<Obstacles>,
     key: &'static str,

@@ -1,12 +1,14 @@
 //! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
 //!
-//! A check that cannot fail proves nothing. The study file says by one of two tables what is asked:
+//! A check that cannot fail proves nothing. The study file says by one of three tables what is asked:
 //!
 //! | table | question |
 //! | --- | --- |
 //! | `[controls]` | does some study fail for each coefficient off by a given relative amount, and for each defect of the sources? |
+//! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient named? |
 //! | `[sensitivity]` | from which relative error of each coefficient on does a study fail? |
 
+pub mod any_order;
 mod fault;
 pub mod matrix;
 pub mod sensitivity;
@@ -32,16 +34,19 @@ pub const ROW: KindRow = KindRow {
 };
 
 /// The tables of which a study file has one.
-const TABLES: [&str; 2] = ["controls", "sensitivity"];
+const TABLES: [&str; 3] = ["controls", "any-order", "sensitivity"];
 
 /// Reads a study of planted faults, or of the smallest that are detected, whichever table the file has.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&[&["study"], &TABLES[..]].concat())?;
-    let allowed = "one of the tables [controls] and [sensitivity]";
-    match TABLES.map(|table| root.get(table).is_some()) {
-        [false, false] => Err(root.missing("controls", allowed)),
-        [true, true] => Err(root.refuse("sensitivity", "a second table", allowed)),
-        [true, false] => reader::<matrix::Controls>(header, root, folder),
-        [false, true] => reader::<sensitivity::Sensitivity>(header, root, folder),
+    let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
+    let found: Vec<&str> = TABLES.into_iter().filter(|table| root.get(table).is_some()).collect();
+    match found[..] {
+        [] => Err(root.missing("controls", allowed)),
+        ["controls"] => reader::<matrix::Controls>(header, root, folder),
+        ["any-order"] => reader::<any_order::AnyOrderControls>(header, root, folder),
+        ["sensitivity"] => reader::<sensitivity::Sensitivity>(header, root, folder),
+        [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
+        [other] => Err(root.missing(other, allowed)),
     }
 }

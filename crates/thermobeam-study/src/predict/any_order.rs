@@ -1,0 +1,347 @@
+//! Ask a scene of any order for an accuracy: degrees, elements and steps that make an error no larger than wanted.
+//!
+//! A discretisation is judged by two comparisons in the curve u(1, t), inside steps as well as at their ends: with a finer
+//! space (p + 2, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
+//! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long.
+//! High orders make the finer run so much better that the difference is the error of the coarser one. What is larger than its
+//! half of the target is refined, by as much as the difference calls for, and the comparison repeated.
+//!
+//! * Steps: during an impact, of duration (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
+//!   which ends of steps do not show. The degree q helps between impacts, short steps within.
+//! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; its width is √(ζ t) after the time t.
+//!
+//! ```
+//! use thermobeam_study::predict::any_order::choose;
+//! use thermobeam_study::scene::any_order::SceneFile;
+//!
+//! let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 1.0";
+//! let SceneFile::AnyOrder(scene) = SceneFile::parse(text, "swing.toml")? else { panic!("a one-step scheme") };
+//! let choice = choose(&scene, 1e-7)?;
+//! assert!(choice.believed() <= 1e-7);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod budget;
+mod sampled;
+
+use std::ops::AddAssign;
+
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
+use thermobeam::mesh::Mesh;
+use thiserror::Error;
+
+use crate::scene::any_order::AnyOrderScene;
+pub use budget::{Budget, Estimate, Source, estimate};
+use sampled::{Curves, Sampled, distance, sample, times};
+
+/// Share of the target that each of the two differences may take.
+const SHARE: f64 = 0.5;
+
+/// The error in x falls at least by this for each degree, in the worst of the scenes measured: a front after an impact.
+const FALL_PER_DEGREE: f64 = 1.8;
+
+/// Rate of the error inside steps near a contact event, where u_tt behaves like t^(1/2).
+const EVENT_RATE: f64 = 2.5;
+
+/// Halvings of all steps in one go: a difference that is too large tells no more.
+const MOST_HALVINGS: i32 = 2;
+
+/// Degrees added in one go, and the degree from which on elements are halved instead.
+const MOST_DEGREES: usize = 8;
+const HIGHEST_DEGREE: usize = 26;
+const DEGREE_OF_HALVED: usize = 14;
+
+/// Growth of steps below which it is kept: they would never reach dt.
+const LEAST_GROWTH: f64 = 1.02;
+
+/// Ratio of the distances of neighbouring nodes from x = 1.
+const GRADING: f64 = 6.0;
+
+/// Part of the longest element from which on elements are halved: shorter ones wait until the others have come closer.
+const LONG: f64 = 0.25;
+
+/// Most elements that are tried.
+const MOST_ELEMENTS: usize = 64;
+
+/// Rounds of refinement: each at least halves something.
+const ROUNDS: usize = 14;
+
+/// Unknowns times solves of the costliest run that is begun: some ten minutes.
+const MOST_UNKNOWN_SOLVES: f64 = 2e10;
+
+/// A round that lowers the difference by less than this has not paid.
+const STALLED: f64 = 0.7;
+
+/// Difference below which a round that has not paid has met round-off: that of the solver's own stopping rule, 1e-14 a step.
+const ROUND_OFF: f64 = 1e-11;
+
+/// What runs have cost.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cost {
+    /// Unknowns of a step times linear solves: the same on every machine.
+    pub unknown_solves: f64,
+    /// Seconds in steps.
+    pub seconds: f64,
+    /// Runs.
+    pub runs: usize,
+}
+
+impl AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.unknown_solves += other.unknown_solves;
+        self.seconds += other.seconds;
+        self.runs += other.runs;
+    }
+}
+
+/// The discretisation chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The scene with the mesh, the degrees and the steps chosen.
+    pub scene: AnyOrderScene,
+    /// Largest difference of u(1, t) to a finer space.
+    pub space: f64,
+    /// Largest difference of u(1, t) to finer steps.
+    pub time: f64,
+    /// What all runs made to find it have cost, the last comparisons included.
+    pub checks: Cost,
+    /// What the run chosen costs.
+    pub run: Cost,
+    /// The finer space of the last comparison, in words.
+    pub finer_space: String,
+}
+
+impl Choice {
+    /// The error that the run is believed to make.
+    pub fn believed(&self) -> f64 {
+        self.space + self.time
+    }
+}
+
+/// Why there is no such run.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Unreachable {
+    /// The target is not a positive number.
+    #[error("target error {target}: allowed is a finite number > 0")]
+    Target {
+        /// As asked for.
+        target: f64,
+    },
+    /// Refinement came to its end.
+    #[error(
+        "an error of {target:.3e} in u(1, t) was not reached: {reason}; about {reached:.1e} can be reached (space {space:.1e}, time {time:.1e})"
+    )]
+    NotReached {
+        /// As asked for.
+        target: f64,
+        /// The smallest error that a comparison has confirmed.
+        reached: f64,
+        /// Its part of space.
+        space: f64,
+        /// Its part of time.
+        time: f64,
+        /// What stopped it.
+        reason: &'static str,
+    },
+    /// A run did not come to its end.
+    #[error("a run to compare with failed: {0}")]
+    Run(String),
+}
+
+/// Chooses degrees, elements and steps.
+///
+/// * `scene`: its own mesh, degrees and steps do not matter.
+/// * `target`: bound on the largest error of u(1, t) over [0, `t_end`], inside steps included.
+///
+/// # Errors
+/// [`Unreachable`]: why there is no such run, and the error that was reached.
+pub fn choose(scene: &AnyOrderScene, target: f64) -> Result<Choice, Unreachable> {
+    if !(target > 0.0 && target.is_finite()) {
+        return Err(Unreachable::Target { target });
+    }
+    let mut search = Search::new(scene, target);
+    let mut base = search.sample(&search.first.clone())?;
+    let mut scene = search.first.clone();
+    for _ in 0..ROUNDS {
+        let finer = finer_space(&scene).ok_or_else(|| search.not_reached("the elements are as fine as they get"))?;
+        let shorter = finer_steps(&scene);
+        // Each comparison only where the last one does not hold any more: refining time leaves the error of space.
+        let in_space = search.sample(&finer)?;
+        let in_time = search.sample(&shorter)?;
+        let (space, time) = (distance(&base.u, &in_space.u), distance(&base.u, &in_time.u));
+        if space <= SHARE * target && time <= SHARE * target {
+            let finer_space = words(&finer);
+            return Ok(Choice { scene, space, time, checks: search.spent, run: base.cost, finer_space });
+        }
+        search.judge(space, time)?;
+        let mut next = scene.clone();
+        if !(space <= SHARE * target) {
+            next = more_space(&next, space / (SHARE * target))
+                .ok_or_else(|| search.not_reached("the elements are as fine as they get"))?;
+        }
+        if !(time <= SHARE * target) {
+            next.stepping = more_time(next.stepping, time / (SHARE * target));
+        }
+        // A run that is already there is not made again.
+        base = if next == finer {
+            in_space
+        } else if next == shorter {
+            in_time
+        } else {
+            search.sample(&next)?
+        };
+        scene = next;
+    }
+    Err(search.not_reached("it was refined as often as is sensible"))
+}
+
+/// What a search for a discretisation keeps.
+struct Search {
+    target: f64,
+    first: AnyOrderScene,
+    times: usize,
+    spent: Cost,
+    last: Cost,
+    /// The differences of the round whose sum was smallest.
+    best: [f64; 2],
+}
+
+impl Search {
+    fn new(scene: &AnyOrderScene, target: f64) -> Self {
+        let first = first(scene, target);
+        let times = times(scene, impact(scene));
+        let best = [f64::INFINITY; 2];
+        Self { target, first, times, spent: Cost::default(), last: Cost::default(), best }
+    }
+
+    fn sample(&mut self, scene: &AnyOrderScene) -> Result<Sampled, Unreachable> {
+        // A refinement costs four times the run before it at most, by halving steps twice.
+        if !(4.0 * self.last.unknown_solves <= MOST_UNKNOWN_SOLVES) {
+            return Err(self.not_reached("a finer run would take more than some ten minutes"));
+        }
+        let sampled = sample(scene, self.times, Curves::Tip).map_err(Unreachable::Run)?;
+        self.spent += sampled.cost;
+        self.last = sampled.cost;
+        Ok(sampled)
+    }
+
+    /// Notes what a round has found; stops where refining has met round-off.
+    fn judge(&mut self, space: f64, time: f64) -> Result<(), Unreachable> {
+        let ([best_space, best_time], found) = (self.best, space + time);
+        let stalled = !(found <= STALLED * (best_space + best_time));
+        if found < best_space + best_time {
+            self.best = [space, time];
+        }
+        if !found.is_finite() {
+            return Err(self.not_reached("a curve is not finite"));
+        }
+        if stalled && found <= ROUND_OFF {
+            return Err(self.not_reached("finer runs differ by as much: rounding errors"));
+        }
+        Ok(())
+    }
+
+    fn not_reached(&self, reason: &'static str) -> Unreachable {
+        let [space, time] = self.best;
+        Unreachable::NotReached { target: self.target, reached: (space + time) / SHARE, space, time, reason }
+    }
+}
+
+/// Duration of an impact, (ε √ζ)^(2/3); without obstacles the longest step stands in for it.
+fn impact(scene: &AnyOrderScene) -> f64 {
+    let of =
+        |obstacles: &thermobeam::parameters::Obstacles| (obstacles.epsilon * scene.beam.zeta.sqrt()).powf(2.0 / 3.0);
+    scene.obstacles.as_ref().map_or(LONGEST, of)
+}
+
+/// Longest step for an error of 1e-5: a tenth of the shortest period that carries much energy.
+const LONGEST: f64 = 0.02;
+
+/// The discretisation tried first, from what scenes of the paper needed: two degrees in space for every decimal digit, half
+/// a degree in time, and steps that shrink by two for every four digits.
+fn first(scene: &AnyOrderScene, target: f64) -> AnyOrderScene {
+    let digits = (-target.log10()).clamp(1.0, 11.0);
+    let shrink = 10.0_f64.powf(-(digits - 5.0).max(0.0) / 11.0);
+    let dt = (LONGEST * shrink).min(0.125 * scene.t_end);
+    let impact = impact(scene);
+    let stepping = Stepping {
+        degree: ((0.5 * digits).round() as usize).clamp(1, MAX_TIME_DEGREE),
+        dt,
+        restart_dt: (0.2 * impact * shrink).min(dt),
+        growth: 1.0 + 0.5 * shrink,
+        ..Stepping::default()
+    };
+    // The layer at x = 1 some four impacts after a touch.
+    let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);
+    let nodes = if scene.obstacles.is_some() { graded(layer) } else { vec![0.0, 1.0] };
+    let degree = (4.0 + 1.2 * digits).round() as usize;
+    // Nodes that increase from 0 to 1.
+    let mesh = Mesh::from_nodes(nodes).unwrap_or_else(|_| scene.mesh.clone());
+    AnyOrderScene { mesh, degree, stepping, ..scene.clone() }
+}
+
+/// Elements towards x = 1 that grow by [`GRADING`] away from it, the last one of the width given.
+fn graded(layer: f64) -> Vec<f64> {
+    let widths = std::iter::successors(Some(layer), |width| Some(GRADING * width));
+    let inner: Vec<f64> = widths.take_while(|width| *width <= 0.5).map(|width| 1.0 - width).collect();
+    let ends = [0.0].into_iter().chain(inner.into_iter().rev());
+    ends.chain([1.0]).collect()
+}
+
+/// p + 2, or the longest elements halved.
+fn finer_space(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
+    if scene.degree + 2 <= MAX_DEGREE {
+        return Some(AnyOrderScene { degree: scene.degree + 2, ..scene.clone() });
+    }
+    halved(scene)
+}
+
+fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
+    let mesh = &scene.mesh;
+    let mut nodes = vec![];
+    for x in mesh.nodes().windows(2) {
+        nodes.push(x[0]);
+        if x[1] - x[0] >= LONG * mesh.size() {
+            nodes.push(0.5 * (x[0] + x[1]));
+        }
+    }
+    nodes.push(1.0);
+    let mesh = (nodes.len() <= MOST_ELEMENTS).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
+    Some(AnyOrderScene { mesh, ..scene.clone() })
+}
+
+/// Space refined for an error smaller by `factor`.
+fn more_space(scene: &AnyOrderScene, factor: f64) -> Option<AnyOrderScene> {
+    let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();
+    let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };
+    // Odd degrees add nothing to some fields: even ones only.
+    let degree = scene.degree + degrees + degrees % 2;
+    if degree <= HIGHEST_DEGREE {
+        return Some(AnyOrderScene { degree, ..scene.clone() });
+    }
+    // Halving elements of degree p gains 2^p on smooth parts, so that a lower degree will do.
+    halved(scene)
+        .map(|halved| AnyOrderScene { degree: halved.degree.clamp(DEGREE_OF_HALVED, HIGHEST_DEGREE), ..halved })
+}
+
+fn half_steps(stepping: Stepping) -> Stepping {
+    let Stepping { dt, restart_dt, growth, .. } = stepping;
+    let growth = (1.0 + 0.5 * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
+    Stepping { dt: 0.5 * dt, restart_dt: 0.5 * restart_dt, growth, ..stepping }
+}
+
+fn finer_steps(scene: &AnyOrderScene) -> AnyOrderScene {
+    AnyOrderScene { stepping: half_steps(scene.stepping), ..scene.clone() }
+}
+
+/// Steps refined for an error smaller by `factor`; the degree grows with them while it can.
+fn more_time(stepping: Stepping, factor: f64) -> Stepping {
+    let wanted = (factor.log2() / EVENT_RATE).ceil();
+    let halvings = if wanted.is_finite() { (wanted as i32).clamp(1, MOST_HALVINGS) } else { MOST_HALVINGS };
+    let degree = (stepping.degree + 1).min(MAX_TIME_DEGREE);
+    (0..halvings).fold(Stepping { degree, ..stepping }, |stepping, _| half_steps(stepping))
+}
+
+fn words(scene: &AnyOrderScene) -> String {
+    format!("{} elements of degree {}", scene.mesh.elements(), scene.degree)
+}

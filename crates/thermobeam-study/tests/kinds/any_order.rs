@@ -1,0 +1,135 @@
+//! Laws of studies of orders by the scheme of any order: they pass, and planted defects make them fail.
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here, run_here};
+use thermobeam_study::kinds::any_order::{AnyOrder, Errors, ROW};
+
+use crate::planted::verdict_with;
+use crate::refused::refusal;
+use crate::typed::{Runs, changed, passes_but_not_without_each_case, report};
+use crate::{file, text};
+
+fn parse(text: &str) -> AnyOrder {
+    AnyOrder::parse(text, &file("changed.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn read(name: &str) -> AnyOrder {
+    AnyOrder::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Two series of `any-order-time.toml`: the other two take most of its time.
+fn time() -> AnyOrder {
+    let text = text("any-order-time.toml");
+    let (head, rest) = text.split_once("[[series]]").expect("series");
+    let of = |q: &str| {
+        let series = rest.split("[[series]]").find(|series| series.contains(q));
+        series.unwrap_or_else(|| panic!("no {q}")).to_owned()
+    };
+    parse(&format!("{head}[[series]]{}[[series]]{}", of("time_degree = 2"), of("time_degree = 3")))
+}
+
+#[test]
+fn orders_in_time_pass_and_planted_errors_fail() {
+    let study = time();
+    let sound = passes_but_not_without_each_case(&study);
+    // A floor, an error of the wrong order, a lucky run and numbers that are not finite, in each error by itself.
+    let errors: [fn(&mut Errors) -> &mut f64; 3] = [|e| &mut e.fields, |e| &mut e.inside_u, |e| &mut e.inside_u_t];
+    for (k, error) in errors.into_iter().enumerate() {
+        let floor = changed::<AnyOrder>(&sound, |_, found| *error(found) += 1e-4);
+        assert_eq!(study.judge(&floor).verdict, Verdict::Fail, "a floor under error {k}");
+        let slow = changed::<AnyOrder>(&sound, |index, found| {
+            let coarser = sound[index].case.data.steps as f64 / 10.0;
+            *error(found) *= coarser;
+        });
+        assert_eq!(study.judge(&slow).verdict, Verdict::Fail, "one order less in error {k}");
+        for index in 0..sound.len() {
+            for wrong in [f64::NAN, f64::INFINITY] {
+                assert_eq!(verdict_with(&study, &sound, index, |found| *error(found) = wrong), Verdict::Fail);
+            }
+        }
+    }
+}
+
+#[test]
+fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
+    let text = text("any-order-space.toml");
+    let (head, rest) = text.split_once("[[series]]").expect("series");
+    let series = rest.split("[[series]]").find(|series| series.contains("degree = 3")).expect("p = 3");
+    let study = parse(&format!("{head}[[series]]{series}"));
+    let sound = passes_but_not_without_each_case(&study);
+    let errors: [fn(&mut Errors) -> &mut f64; 2] = [|e| &mut e.fields, |e| &mut e.slopes];
+    for (k, error) in errors.into_iter().enumerate() {
+        for power in [-1.0, 1.0] {
+            let wrong = changed::<AnyOrder>(&sound, |index, found| {
+                *error(found) *= (sound[index].case.data.elements as f64).powf(power);
+            });
+            assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "error {k} by an order {power}");
+        }
+    }
+    // Errors inside steps are those of time and no matter here.
+    let inside = changed::<AnyOrder>(&sound, |_, found| found.inside_u = 1.0);
+    assert_eq!(study.judge(&inside).verdict, Verdict::Pass);
+}
+
+#[test]
+fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
+    let study = read("any-order-degree.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    let with = |change: &dyn Fn(usize, &mut Errors)| {
+        let runs = changed::<AnyOrder>(&sound, |index, found| change(index, found));
+        study.judge(&runs).verdict
+    };
+    assert_eq!(with(&|_, _| ()), Verdict::Pass);
+    assert_eq!(with(&|_, found| found.fields += 1e-11), Verdict::Fail, "a floor above round-off");
+    assert_eq!(with(&|index, found| found.fields *= if index == 3 { 1e4 } else { 1.0 }), Verdict::Fail, "a bump");
+    let algebraic = |index: usize, found: &mut Errors| found.fields = ((index + 1) as f64).powi(-6);
+    assert_eq!(with(&algebraic), Verdict::Fail, "an algebraic fall");
+    let last = sound.len() - 1;
+    assert_eq!(with(&|index, found| found.fields *= if index == last { 1e4 } else { 1.0 }), Verdict::Fail, "the end");
+}
+
+#[test]
+fn the_control_table_makes_a_study_fail() {
+    let text = text("any-order-coefficients.toml");
+    assert_eq!(run_here(&parse(&text)).verdict, Verdict::Pass);
+    for control in
+        ["zeta = 0.10001", "a = 0.50005", "rho = 2.0002", "beta = 0.50005", "theta_a = 20.002", "epsilon = 0.010001"]
+    {
+        let off = text.replace("[run]", &format!("[control]\n{control}\n\n[run]"));
+        assert_eq!(run_here(&parse(&off)).verdict, Verdict::Fail, "{control}");
+    }
+}
+
+#[test]
+fn a_failed_run_is_told_with_its_reason_and_an_empty_study_does_not_pass() {
+    let study = read("any-order-coefficients.toml");
+    let mut runs: Runs<AnyOrder> = run_cases_here(&study);
+    runs[0].found = Err(CaseFailure { reason: "the iteration diverged".into() });
+    let outcome = study.judge(&runs);
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert!(report(&outcome).contains("the iteration diverged"));
+    assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+}
+
+#[test]
+fn files_with_errors_are_refused_with_the_field() {
+    for (name, from, to, message) in [
+        ("any-order-space.toml", "over = \"space\"", "over = \"mesh\"", "run.over"),
+        ("any-order-space.toml", "t_end = 0.3", "t_end = -0.3", "run.t_end"),
+        ("any-order-space.toml", "time_degree = 4", "time_degree = 6", "run.time_degree"),
+        ("any-order-space.toml", "degree = 1\n", "degree = 41\n", "degree"),
+        ("any-order-space.toml", "[16, 32, 64, 128, 256]", "[16, 32]", "elements"),
+        ("any-order-space.toml", "[16, 32, 64, 128, 256]", "[16, 64, 32]", "elements"),
+        ("any-order-space.toml", "tolerance = 0.05", "tolerance = 0", "tolerance"),
+        ("any-order-space.toml", "0.8*s + 0.2*s^2", "0.8*s", "run.map"),
+        ("any-order-time.toml", "degree = 3", "degree = 3\ntime_degree = 1", "time_degree"),
+        ("any-order-degree.toml", "factor = 5.0", "factor = 1.0", "factor"),
+        ("any-order-degree.toml", "factor = 5.0", "tolerance = 0.1", "tolerance"),
+        ("any-order-degree.toml", "[run]", "[control]\n[run]", "control"),
+        ("any-order-degree.toml", "[run]", "[control]\na = 0.5\n[run]", "control.a"),
+        ("any-order-degree.toml", "[run]", "[control]\nepsilon = 0.5\n[run]", "control.epsilon"),
+    ] {
+        let error = refusal(&ROW, name, from, to);
+        assert!(error.contains(message), "{to}: {error}");
+    }
+}

@@ -1,0 +1,53 @@
+//! Laws of the matrix of wrong coefficients in the solver of any order.
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
+use thermobeam_study::kinds::controls::ROW;
+use thermobeam_study::kinds::controls::any_order::AnyOrderControls;
+
+use crate::file;
+use crate::planted::verdict_with;
+use crate::refused::refusal;
+use crate::typed::report;
+
+#[test]
+fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
+    let study = AnyOrderControls::read(file("any-order-controls.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let sound = run_cases_here(&study);
+    let outcome = study.judge(&sound);
+    assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
+    assert_eq!(sound.len(), 8, "the honest solver and seven coefficients");
+    assert_eq!(sound[0].case.data.coefficient, None);
+    for (index, ran) in sound.iter().enumerate() {
+        let judged = ran.ok().expect("a verdict");
+        // The error of a wrong coefficient is far from round-off, that of none is round-off.
+        assert!(if index == 0 { judged.error < 2e-12 } else { judged.error > 1e-8 }, "{}: {judged:?}", ran.case.label);
+        let other = if index == 0 { Verdict::Fail } else { Verdict::Pass };
+        for wrong in [other, Verdict::Inconclusive] {
+            assert_eq!(verdict_with(&study, &sound, index, |found| found.verdict = wrong), Verdict::Fail, "{index}");
+        }
+        let mut failed = sound.clone();
+        failed[index].found = Err(CaseFailure { reason: "planted".into() });
+        let outcome = study.judge(&failed);
+        assert_eq!(outcome.verdict, Verdict::Fail);
+        assert!(report(&outcome).contains("planted"));
+    }
+    assert_ne!(study.judge(&sound[1..]).verdict, Verdict::Pass);
+    assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+}
+
+#[test]
+fn files_with_errors_are_refused_with_the_field() {
+    for (from, to, message) in [
+        ("relative = 1e-4", "relative = 0", "any-order.relative"),
+        ("\"any-order-coefficients.toml\"", "\"theorem-3.4-space.toml\"", "unknown key `refine`"),
+        ("[\"any-order-coefficients.toml\"]", "[]", "any-order.studies"),
+        // theta_a is zero there.
+        ("\"any-order-coefficients.toml\"", "\"any-order-space.toml\"", "theta_a, which any-order-space"),
+        ("\"zeta\", ", "\"zetta\", ", "any-order.coefficients"),
+        ("[any-order]", "[controls]\n[any-order]", "one of the tables"),
+    ] {
+        let error = refusal(&ROW, "any-order-controls.toml", from, to);
+        assert!(error.contains(message), "{to}: {error}");
+    }
+}

@@ -66,8 +66,11 @@ impl Separator {
     }
 }
 
+/// Whether two numbers stand side by side; between those of `1.2 \times 10^{-3}` stands a word.
 fn holds_two_numbers(cell: &str) -> bool {
-    cell.split_whitespace().filter(|word| number(word, true).is_some()).count() > 1
+    let mut is_number = cell.split_whitespace().map(|word| number(word, true).is_some());
+    let mut last = is_number.next();
+    is_number.any(|next| last.replace(next) == Some(true) && next)
 }
 
 /// Splits outside of quotes; a separator behind a backslash is a character like any other.

@@ -34,6 +34,7 @@ fn a_table_that_cannot_be_used_is_refused_with_its_place() {
         ("h,a\n0.1,1,2\n", "t.csv:2:1: expected 2 cells, one for each name, found 3 cells"),
         ("h,a\n-1,1\n", "t.csv:2:1: h: expected a step, a finite number > 0, found `-1`"),
         ("h a b\n0.1 1 2\n0.05 1\n", "t.csv:3:1: expected 3 cells, one for each name, found 2 cells"),
+        ("h a\n0.1 1\n0.05 2 3\n", "t.csv:3:1: expected 2 cells, one for each name, found 3 cells"),
         ("h    a b\n0.1  1 2\n0.05 1\n", "t.csv:3:8: b: expected a number, found ``"),
     ] {
         let message = refused(text);

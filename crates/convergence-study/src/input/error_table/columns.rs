@@ -211,9 +211,8 @@ impl Reader<'_, '_> {
                     continue;
                 }
             };
-            if !self.grid.names[k].text.is_empty() {
-                others.push((self.name(k), why));
-            }
+            let name = self.name(k);
+            others.push((if name.is_empty() { format!("column {}", k + 1) } else { name }, why));
         }
         if errors.is_empty() {
             let names: Vec<String> = others.iter().map(|(name, why)| format!("`{name}` ({why})")).collect();

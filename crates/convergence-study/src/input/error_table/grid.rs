@@ -85,12 +85,16 @@ impl<'t> Grid<'t> {
 
     /// What is wrong where no line has a name for each column.
     fn without_names(&self, file: &str, head: Option<&Head<'t>>, separator: Separator) -> InputError {
-        let row = &self.rows[0];
         let place = |row: &Row<'_>| Place { line: row.line, column: row.cells.first().map_or(1, |cell| cell.column) };
+        let row = &self.rows[0];
         match head {
             Some(head) => {
-                let expected = format!("{}, one for each name", plural(head.cells(separator).len(), "cell"));
-                complaint(file, Some(place(row)), &expected, &plural(row.cells.len(), "cell"))
+                let names = head.cells(separator).len();
+                // Cells that were put in for missing ones are empty.
+                let written = |row: &Row<'_>| row.cells.iter().filter(|cell| !cell.text.is_empty()).count();
+                let row = self.rows.iter().find(|row| written(row) != names).unwrap_or(row);
+                let expected = format!("{}, one for each name", plural(names, "cell"));
+                complaint(file, Some(place(row)), &expected, &plural(written(row), "cell"))
             }
             None => {
                 let expected = "a name in the first row, such as `h L2 H1`";
@@ -121,7 +125,7 @@ impl<'t> Grid<'t> {
             _ => std::slice::from_ref(&separator),
         };
         let indexed = self.first_counts_rows();
-        let dashed: Vec<bool> = (0..width).map(|column| self.has_dash(column)).collect();
+        let dashed: Vec<bool> = (0..width).map(|column| self.holds_rates(column)).collect();
         let dashes = dashed.iter().filter(|dash| **dash).count();
         let mut one_each = None;
         for cells in others.iter().map(|separator| head.cells(*separator)) {
@@ -179,6 +183,18 @@ impl<'t> Grid<'t> {
     /// Whether a row has no number in a column, and says so.
     pub(super) fn has_dash(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row.cells.get(column).is_some_and(|cell| is_dash(cell.text)))
+    }
+
+    /// Whether a column may hold rates without a name: a dash, written as such, in the first row or the last, and few decimals in all others.
+    fn holds_rates(&self, column: usize) -> bool {
+        let text = |row: &Row<'t>| row.cells.get(column).map_or("", |cell| cell.text);
+        let dashes = self.rows.iter().filter(|row| is_dash(text(row))).count();
+        let is_end = |row: Option<&Row<'t>>| row.is_some_and(|row| is_dash(text(row)) && !text(row).is_empty());
+        let is_rate = |row: &Row<'t>| {
+            let decimals = text(row).split_once('.').map_or("", |(_, decimals)| decimals);
+            is_dash(text(row)) || (decimals.len() < 5 && !text(row).contains(['e', 'E']))
+        };
+        dashes == 1 && (is_end(self.rows.first()) || is_end(self.rows.last())) && self.rows.iter().all(is_rate)
     }
 
     fn rows_match(&self, file: &str) -> Result<(), InputError> {

@@ -33,21 +33,22 @@ struct Reader<'g, 't> {
 
 /// Reads the step and the errors that are meant.
 pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let named = |k: usize| match (meaning(&name(grid.names[k])), grid.names[k].text) {
+    let by_name: Vec<Meaning> = grid.names.iter().map(|cell| meaning(&name(*cell))).collect();
+    let named = |k: usize| match (by_name[k], grid.names[k].text) {
         // Nameless are the number of the row and, behind an error, its rate.
         (_, "") => !(k == 0 && grid.first_counts_rows() && !grid.rows.is_empty()) && !grid.has_dash(k),
         (Meaning::Rate, _) => false,
         _ => true,
     };
     check_names(grid, named, file)?;
-    let meanings = (0..grid.names.len()).map(|k| meant(grid, k)).collect();
+    let meanings = by_name.iter().enumerate().map(|(k, by_name)| meant(grid, k, *by_name)).collect();
     Reader { grid, meanings, file, choice }.read()
 }
 
 /// What a column holds, by its name and, where that may be either, by its numbers.
-fn meant(grid: &Grid<'_>, column: usize) -> Meaning {
+fn meant(grid: &Grid<'_>, column: usize, by_name: Meaning) -> Meaning {
     let text = grid.names[column].text;
-    match meaning(&name(grid.names[column])) {
+    match by_name {
         Meaning::Index if text.is_empty() && column > 0 => Meaning::Rate,
         Meaning::Index | Meaning::Count(1) if grid.rows.len() > 1 && grid.counts_rows(column) => Meaning::Index,
         Meaning::Index if !text.is_empty() => Meaning::Unknown,

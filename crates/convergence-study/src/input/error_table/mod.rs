@@ -21,7 +21,9 @@ mod words;
 
 use std::collections::HashSet;
 use std::io::{self, Read};
+use std::panic::resume_unwind;
 use std::path::Path;
+use std::thread;
 
 use crate::input::{self, Complaint, InputError, Place};
 use crate::judge::verdict::{Judge, Level, RateVerdict};
@@ -79,11 +81,28 @@ impl RateTable {
         columns::read(&grid, file_name, choice)
     }
 
-    /// Judges every column against its order.
+    /// Judges every column against its order. Tables of many columns are shared out among the processors; the result is the same.
     pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
-        self.columns.iter().map(|(name, levels)| (name.clone(), judge.judge(levels, order(name)))).collect()
+        let orders: Vec<f64> = self.columns.iter().map(|(name, _)| order(name)).collect();
+        let part = &|columns: &[(String, Vec<Level>)], orders: &[f64]| -> Vec<(String, RateVerdict)> {
+            let columns = columns.iter().zip(orders);
+            columns.map(|((name, levels), order)| (name.clone(), judge.judge(levels, *order))).collect()
+        };
+        if orders.len() < MANY {
+            return part(&self.columns, &orders);
+        }
+        let processors = thread::available_parallelism().map_or(1, usize::from);
+        let share = orders.len().div_ceil(processors);
+        thread::scope(|scope| {
+            let parts = self.columns.chunks(share).zip(orders.chunks(share));
+            let running: Vec<_> = parts.map(|(columns, orders)| scope.spawn(move || part(columns, orders))).collect();
+            running.into_iter().flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+        })
     }
 }
+
+/// Columns from which on a table is judged on all processors.
+const MANY: usize = 1000;
 
 /// Standard input as messages name it.
 const STANDARD_INPUT: &str = "standard input";

@@ -18,6 +18,10 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
     if let Ok(value) = cell.parse() {
         return Some(value);
     }
+    // Most cells that are no numbers are words, of which there may be a hundred thousand.
+    if cell.starts_with(char::is_alphabetic) {
+        return None;
+    }
     // Two numbers with a blank between them are not one.
     if cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
         return None;

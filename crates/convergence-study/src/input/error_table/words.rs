@@ -59,6 +59,10 @@ const COSTS: [&str; 11] =
 pub(super) fn meaning(name: &str) -> Meaning {
     let lower = name.to_lowercase();
     let joined: String = lower.chars().filter(|c| c.is_alphanumeric() || *c == '∆').collect();
+    // No known name of one word has a digit; of many columns most have.
+    if joined.contains(|c: char| c.is_ascii_digit()) && !RATES.iter().any(|rate| lower.contains(rate)) {
+        return Meaning::Unknown;
+    }
     if STEPS.contains(&joined.as_str()) {
         return Meaning::Step;
     }

@@ -26,7 +26,7 @@ pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
 }
 
 /// The columns that are drawn: those with a claim first.
-fn drawn<'f>(findings: &'f Findings<'_>) -> Vec<usize> {
+fn drawn(findings: &Findings<'_>) -> Vec<usize> {
     let mut columns: Vec<usize> = (0..findings.columns.len()).collect();
     columns.sort_by_key(|k| !findings.columns[*k].decides);
     columns.truncate(DRAWN);

@@ -20,6 +20,9 @@ pub struct Choice {
     pub dim: Option<f64>,
 }
 
+/// Columns that are no errors, each with the reason.
+type NotErrors = Vec<(String, &'static str)>;
+
 /// Most names that a message lists.
 const LISTED: usize = 12;
 
@@ -36,7 +39,7 @@ pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateT
     let by_name: Vec<Meaning> = grid.names.iter().map(|cell| meaning(&name(*cell))).collect();
     let named = |k: usize| match (by_name[k], grid.names[k].text) {
         // Nameless are the number of the row and, behind an error, its rate.
-        (_, "") => !(k == 0 && grid.first_counts_rows() && !grid.rows.is_empty()) && !grid.has_dash(k),
+        (_, "") => !(grid.has_dash(k) || (k == 0 && grid.first_counts_rows())),
         (Meaning::Rate, _) => false,
         _ => true,
     };
@@ -185,7 +188,7 @@ impl Reader<'_, '_> {
     }
 
     /// The columns of errors, and those that are none.
-    fn errors(&self, step: usize) -> Result<(Vec<usize>, Vec<(String, &'static str)>), InputError> {
+    fn errors(&self, step: usize) -> Result<(Vec<usize>, NotErrors), InputError> {
         if let Some(wanted) = &self.choice.columns {
             let errors: Vec<usize> =
                 wanted.iter().map(|name| self.find(name, "--columns")).collect::<Result<_, _>>()?;

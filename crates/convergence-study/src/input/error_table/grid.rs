@@ -188,13 +188,14 @@ impl<'t> Grid<'t> {
     /// Whether a column may hold rates without a name: a dash, written as such, in the first row or the last, and few decimals in all others.
     fn holds_rates(&self, column: usize) -> bool {
         let text = |row: &Row<'t>| row.cells.get(column).map_or("", |cell| cell.text);
-        let dashes = self.rows.iter().filter(|row| is_dash(text(row))).count();
         let is_end = |row: Option<&Row<'t>>| row.is_some_and(|row| is_dash(text(row)) && !text(row).is_empty());
         let is_rate = |row: &Row<'t>| {
             let decimals = text(row).split_once('.').map_or("", |(_, decimals)| decimals);
             is_dash(text(row)) || (decimals.len() < 5 && !text(row).contains(['e', 'E']))
         };
-        dashes == 1 && (is_end(self.rows.first()) || is_end(self.rows.last())) && self.rows.iter().all(is_rate)
+        (is_end(self.rows.first()) || is_end(self.rows.last()))
+            && self.rows.iter().filter(|row| is_dash(text(row))).count() == 1
+            && self.rows.iter().all(is_rate)
     }
 
     fn rows_match(&self, file: &str) -> Result<(), InputError> {
@@ -239,7 +240,7 @@ fn lines(text: &str) -> (Vec<Head<'_>>, Separator, Vec<Row<'_>>) {
         Separator::Ampersand
     } else {
         let leads = |line: &&str| starts_with_number(line);
-        let line = text.lines().filter(content).find(leads).or_else(|| text.lines().filter(content).next_back());
+        let line = text.lines().filter(content).find(leads).or_else(|| text.lines().rfind(content));
         line.map_or(Separator::Blanks, Separator::of)
     };
     let (mut heads, mut rows) = (vec![], vec![]);

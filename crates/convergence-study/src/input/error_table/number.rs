@@ -8,7 +8,7 @@ const DASHES: [&str; 10] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "N
 
 /// Whether a cell says that it has no number.
 pub(super) fn is_dash(cell: &str) -> bool {
-    DASHES.contains(&cell.trim_matches('$'))
+    !cell.starts_with(|c: char| c.is_ascii_digit()) && DASHES.contains(&cell.trim_matches('$'))
 }
 
 /// The value of a cell; `None` where it is no number.
@@ -37,7 +37,7 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
 fn looks_like_thousands(cell: &str) -> bool {
     let (whole, rest) = cell.trim_start_matches(['+', '-']).split_once(',').unwrap_or((cell, ""));
     let digits = rest.chars().take_while(char::is_ascii_digit).count();
-    digits == 3 && digits == rest.len() && whole.trim_start_matches('0') != ""
+    digits == 3 && digits == rest.len() && !whole.trim_start_matches('0').is_empty()
 }
 
 /// The cell without markup of LaTeX and Markdown, with `*` for times, `^` for powers and `/` for fractions.

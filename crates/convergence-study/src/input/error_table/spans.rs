@@ -8,7 +8,7 @@ use super::words::{Meaning, meaning};
 
 /// The characters that each of the `width` columns takes, over the rows that have a cell in each.
 pub(super) fn spans(rows: &[Row<'_>], width: usize) -> Vec<Range<usize>> {
-    let mut spans: Vec<Range<usize>> = vec![usize::MAX..0; width];
+    let mut spans = vec![Range { start: usize::MAX, end: 0 }; width];
     for row in rows.iter().filter(|row| row.cells.len() == width) {
         for (span, cell) in spans.iter_mut().zip(&row.cells) {
             *span = span.start.min(cell.column)..span.end.max(end(cell));

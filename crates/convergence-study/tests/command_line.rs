@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 8] = [
+const TESTS: [Test; 11] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
     ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
@@ -36,6 +36,9 @@ const TESTS: [Test; 8] = [
     ("names_of_columns_and_files_are_no_commands", names_of_columns_and_files_are_no_commands),
     ("pipes_in_place_of_records_do_not_hang", pipes_in_place_of_records_do_not_hang),
     ("tables_and_studies_come_from_standard_input", tables_and_studies_come_from_standard_input),
+    ("rates_come_in_words_and_as_an_object", rates_come_in_words_and_as_an_object),
+    ("levels_set_aside_are_marked", levels_set_aside_are_marked),
+    ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
 ];
 
@@ -172,7 +175,7 @@ fn names_of_columns_and_files_are_no_commands() {
         write("table.csv", table(name));
         let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
         assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
-        assert!(err.contains("table.csv:1:3: found `") && err.contains("a name without control characters"), "{err}");
+        assert!(err.contains("table.csv:1:3: expected a name without control characters, found `"), "{err}");
         is_harmless(&err);
     }
     write("table.csv", table("::error title=x::forged"));
@@ -216,6 +219,7 @@ fn tables_and_studies_come_from_standard_input() {
     #[cfg(unix)]
     for (text, arguments) in [
         ("h,e\n0.4,0.4\n0.2,0.2\n0.1,0.1\n0.05,0.05\n".to_owned(), &["rates", "/dev/stdin", "--order", "1"][..]),
+        ("# h e\n0.4 0.4\n0.2 0.2\n0.1 0.1\n0.05 0.05\n".to_owned(), &["rates", "-", "--order", "1"]),
         (study("one", "c", 1.0), &["study", "/dev/stdin"]),
     ] {
         let root = workspace(false);
@@ -223,6 +227,90 @@ fn tables_and_studies_come_from_standard_input() {
         std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(0), "{arguments:?}");
     }
+}
+
+/// Errors of second and of first order, and a column without a claim that would fail.
+const RATES: &str = "h L2 H1 other\n0.4 0.16 0.4 1\n0.2 0.04 0.2 1\n0.1 0.01 0.1 1\n0.05 0.0025 0.05 1\n";
+
+fn rates_come_in_words_and_as_an_object() {
+    let root = workspace(false);
+    fs::write(root.path().join("t"), RATES).unwrap();
+    let claims = ["rates", "t", "--order", "L2=2", "--order", "H1=1"];
+    let with = |more: &[&str]| run(&root, &[&claims, more].concat());
+    let (status, out, err) = with(&[]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000, "), "{out}");
+    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000, "), "{out}");
+    assert!(out.contains("powers rates t: --order P") && !out.contains("xtask"), "{out}");
+    assert!(out.ends_with("pass: 2 of 2 columns agree with their orders\n"), "{out}");
+    assert_eq!(with(&["--all"]).0, Some(1));
+    assert_eq!(with(&["--quiet"]).1, "pass: 2 of 2 columns agree with their orders\n");
+    // A rate that disagrees is shown all the same.
+    let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
+    assert_eq!(status, Some(1));
+    assert!(
+        out.starts_with("H1: fail: the rate is too low; rate 1.000000, ") && out.contains("claimed 2 ± 0.05"),
+        "{out}"
+    );
+    let (_, out, _) = with(&["--format", "json"]);
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["schema"], &object["verdict"]), (&1.into(), &"pass".into()));
+    assert_eq!(
+        (&object["rates"][2]["decides"], &object["rates"][0]["levels"][3]["step"]),
+        (&false.into(), &0.05.into())
+    );
+    let (status, _, err) = run(&root, &["rates", "t", "--order", "l2=2"]);
+    assert!(status == Some(2) && err.contains("expected a column of errors: L2, H1, other; found `l2`"), "{err}");
+    let (status, _, err) = run(&root, &["rates", "t", "--columns", "L2,L3"]);
+    assert!(status == Some(2) && err.contains("t:1:1: expected a column for --columns"), "{err}");
+}
+
+fn levels_set_aside_are_marked() {
+    let root = workspace(false);
+    // The rates 0.3, 2, 2, 2, and a level at the floor.
+    let errors = [0.16, 0.13, 0.0325, 0.008125, 0.00203125, 1e-4];
+    let row = |(k, error): (usize, &f64)| format!("{} {error}\n", 0.4 / f64::powi(2.0, k as i32));
+    fs::write(root.path().join("t"), "h e\n".to_owned() + &errors.iter().enumerate().map(row).collect::<String>())
+        .unwrap();
+    let marks = |floor: &str| {
+        let (_, out, _) = run(&root, &["rates", "t", "--order", "2", "--floor", floor]);
+        let rows: Vec<&str> = out.lines().skip(1).take(errors.len()).collect();
+        let marked = |mark: char| rows.iter().map(|row| row.contains(mark)).collect::<Vec<bool>>();
+        (marked('~'), marked('_'), out.clone())
+    };
+    let (coarse, fine, out) = marks("2e-4");
+    assert_eq!(coarse, [true, false, false, false, false, false], "{out}");
+    assert_eq!(fine, [false, false, false, false, false, true], "{out}");
+    assert!(out.contains("_ set aside: not above the floor 2e-4") && out.contains("e: pass"), "{out}");
+    let (_, fine, out) = marks("0");
+    assert!(!fine.contains(&true) && !out.contains("e: pass"), "{out}");
+    let (_, fine, out) = marks("0.01");
+    assert_eq!(fine, [false, false, false, true, true, true], "{out}");
+}
+
+fn rates_write_figure_markdown_and_junit() {
+    let root = workspace(false);
+    fs::write(root.path().join("a&b|c"), RATES).unwrap();
+    let (status, _, err) = run(&root, &["rates", "a&b|c", "--order", "L2=2", "--order", "H1=2", "--out", "out/rates"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""));
+    let read = |name: &str| fs::read_to_string(root.path().join("out/rates").join(name)).unwrap();
+    let (svg, junit, page) = (read("rates.svg"), read("junit.xml"), read("rates.md"));
+    assert!(roxmltree::Document::parse(&svg).unwrap().descendants().any(|node| node.has_tag_name("svg")));
+    assert!(svg.contains("L2, order 2, rate 2.000"), "{svg}");
+    let document = roxmltree::Document::parse(&junit).unwrap();
+    let cases: Vec<_> = document.descendants().filter(|node| node.has_tag_name("testcase")).collect();
+    assert_eq!(cases.len(), 2);
+    assert!(cases.iter().all(|case| case.attribute("classname") == Some("a&b|c")));
+    let failure = document.descendants().find(|node| node.has_tag_name("failure")).unwrap();
+    assert_eq!(failure.parent().unwrap().attribute("name"), Some("H1: order 2"));
+    assert_eq!(document.root_element().attribute("failures"), Some("1"));
+    assert!(
+        page.starts_with("# Rates of a&b\\|c\n\n**fail**: 1 of 2 columns") && page.contains("](rates.svg)"),
+        "{page}"
+    );
+    assert!(page.contains("| 0.2 | 4.000e-2 | 2.000000 | 2.000e-1 | 1.000000 |"), "{page}");
+    fs::write(root.path().join("file"), "").unwrap();
+    assert_eq!(run(&root, &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]).0, Some(2));
 }
 
 fn every_command_is_in_the_help() {

@@ -25,14 +25,17 @@ fn a_table_is_read_coarse_to_fine_whatever_its_order_and_separator() {
 #[test]
 fn a_table_that_cannot_be_used_is_refused_with_its_place() {
     for (text, words) in [
-        ("", "t.csv: found an empty table"),
-        ("h\n0.1\n", "t.csv:1:1: found one column"),
-        ("h,a,b,a\n", "t.csv:1:7: found `a` a second time"),
-        ("h,1\n", "t.csv:1:3: found `1`; allowed is a name"),
-        ("h,a\x1b[31m\n", "t.csv:1:3: found `a [31m`; allowed is a name without control characters"),
-        ("h,a\n0.1,x\n", "t.csv:2:5: a: found `x`; allowed is a number"),
-        ("h,a\n0.1,1,2\n", "t.csv:2:1: found 3 cells; allowed is 2"),
-        ("h,a\n-1,1\n", "t.csv:2:1: h: found `-1`; allowed is a step"),
+        ("", "t.csv: expected a row of names, such as `h L2 H1`, then rows of numbers, found an empty table"),
+        ("h\n0.1\n", "t.csv:1:1: expected a column of steps and at least one of errors, found one column"),
+        ("h,a,b,a\n", "t.csv:1:7: expected each name once, found `a` a second time"),
+        ("h,1\n", "t.csv:1:3: expected a name in the first row, found `1`"),
+        ("h,a\x1b[31m\n", "t.csv:1:3: expected a name without control characters, found `a [31m`"),
+        ("h,a\n0.1,x\n", "t.csv:2:5: a: expected a number, found `x`"),
+        ("h,a\n0.1,1,2\n", "t.csv:2:1: expected 2 cells, one for each name, found 3 cells"),
+        ("h,a\n-1,1\n", "t.csv:2:1: h: expected a step, a finite number > 0, found `-1`"),
+        ("h a b\n0.1 1 2\n0.05 1\n", "t.csv:3:1: expected 3 cells, one for each name, found 2 cells"),
+        ("h a\n0.1 1\n0.05 2 3\n", "t.csv:3:1: expected 2 cells, one for each name, found 3 cells"),
+        ("h    a b\n0.1  1 2\n0.05 1\n", "t.csv:3:8: b: expected a number, found ``"),
     ] {
         let message = refused(text);
         assert!(message.starts_with(words), "{message}");
@@ -48,4 +51,38 @@ fn a_hundred_thousand_columns_are_read_in_time_proportional_to_their_number() {
     assert_eq!(table.columns.len(), 100_000);
     // A fraction of a second without optimisation; comparing each name with all others takes minutes.
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+}
+
+/// The error in a table of one row.
+fn read(cell: &str) -> Option<f64> {
+    let table = RateTable::parse(&format!("h;e\n1;{cell}\n"), "t.csv").ok()?;
+    Some(table.columns[0].1[0].error)
+}
+
+#[test]
+fn a_number_is_read_as_it_is_written() {
+    for (cell, value) in [
+        ("1/8", 0.125),
+        ("1.0D-01", 0.1),
+        ("2.5d0", 2.5),
+        ("0.125-101", 0.125e-101),
+        ("2^-3", 0.125),
+        ("2**-3", 0.125),
+        ("1/2^{3}", 0.125),
+        ("$1.2 \\times 10^{-3}$", 1.2e-3),
+        ("1.2·10^(-3)", 1.2e-3),
+        ("\\num{1e-3}", 1e-3),
+        ("**0.5**", 0.5),
+        ("$\\frac{1}{16}$", 0.0625),
+        ("\u{2212}0.5", -0.5),
+        ("10^{-2}", 0.01),
+        ("0,125", 0.125),
+        ("1,5e-3", 1.5e-3),
+    ] {
+        assert_eq!(read(cell), Some(value), "{cell}");
+    }
+    for cell in ["", "-", "x", "2*0.1", "1,024", "****", "1/2/4", "é-101", "1.5-10", "D-01", "infD2", "1e-3 4", "1,2,3"]
+    {
+        assert_eq!(read(cell), None, "{cell}");
+    }
 }

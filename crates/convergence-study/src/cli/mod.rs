@@ -55,7 +55,7 @@ impl Command {
             Self::Study(arguments) => study::run(project, arguments),
             Self::List(arguments) => list::run(project, arguments),
             Self::Explain(arguments) => explain::run(project, arguments),
-            Self::Rates(arguments) => rates::run(arguments),
+            Self::Rates(arguments) => rates::run(project, arguments),
             Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
         }
     }

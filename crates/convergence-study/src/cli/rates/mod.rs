@@ -1,0 +1,155 @@
+//! `rates FILE`: errors of any code, judged by the rule of the studies.
+
+mod files;
+mod object;
+mod text;
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
+
+use crate::input::error_table::{Choice, RateTable};
+use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
+use crate::project::Project;
+use clap::Args;
+
+use super::exit::{Outcome, Unusable};
+use crate::cli::output::{self, Format};
+
+/// Judge a table of step sizes and errors made elsewhere
+///
+/// One column is the step, h or dt, or a count such as cells; the others are errors. Exit status 0 where every rate with a claim agrees
+/// with its order, 1 where one does not, the data cannot tell or nothing is claimed, 2 where the table cannot be read.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The table, - for standard input: CSV, aligned columns, Markdown or LaTeX
+    file: PathBuf,
+    /// The order that theory claims, for all columns or as NAME=P for one; may be repeated. Without one nothing passes
+    #[arg(long, value_name = "[NAME=]P", value_parser = claim)]
+    order: Vec<(Option<String>, f64)>,
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
+    #[arg(long, value_name = "T", default_value_t = 0.05)]
+    tolerance: f64,
+    /// Round-off, in the unit of the errors: the finest levels have no say as long as their errors are not above E; 0 drops none
+    ///
+    /// A level above the floor keeps its say, and so do all levels coarser than it.
+    #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR)]
+    floor: f64,
+    /// The column of the step, or of a count; without it its name decides
+    #[arg(long, value_name = "COLUMN")]
+    step: Option<String>,
+    /// The columns of errors, separated by commas; without it all that are not steps, counts, rates or costs by their names
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
+    /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
+    #[arg(long, value_name = "D", value_parser = dimension)]
+    dim: Option<f64>,
+    /// Columns without a claim decide, too: with one of them nothing passes
+    #[arg(long)]
+    all: bool,
+    /// Also write rates.svg, rates.md and junit.xml to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// No table of errors: what did not pass and why, and the verdict
+    #[arg(long)]
+    quiet: bool,
+    /// How the result is printed
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+fn claim(text: &str) -> Result<(Option<String>, f64), String> {
+    let (name, order) = text.rsplit_once('=').map_or((None, text), |(name, order)| (Some(name.to_owned()), order));
+    match order.trim().parse() {
+        Ok(order) if order > 0.0 && f64::is_finite(order) => Ok((name, order)),
+        _ => Err("expected a number > 0, or NAME= and a number > 0".to_owned()),
+    }
+}
+
+fn dimension(text: &str) -> Result<f64, String> {
+    let dim = text.parse().ok().filter(|dim| *dim > 0.0 && f64::is_finite(*dim));
+    dim.ok_or_else(|| "expected a number > 0".to_owned())
+}
+
+/// A column, judged.
+struct Judged<'t> {
+    name: &'t str,
+    rate: &'t RateVerdict,
+    /// Whether its verdict counts.
+    decides: bool,
+}
+
+impl Judged<'_> {
+    fn is_claimed(&self) -> bool {
+        !self.rate.order.is_nan()
+    }
+
+    /// The judge reports an unusable order; here none was given.
+    fn reason(&self) -> &str {
+        if self.is_claimed() { self.rate.kind.text() } else { "no order is claimed" }
+    }
+}
+
+/// All that is printed and written.
+struct Findings<'t> {
+    project: &'t Project,
+    source: String,
+    table: &'t RateTable,
+    columns: Vec<Judged<'t>>,
+    floor: f64,
+    verdict: Verdict,
+}
+
+/// Judges the table, prints rates and verdicts, and writes what is asked for.
+///
+/// # Errors
+/// A table or claims that cannot be used, and a folder that cannot be written to.
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
+    let choice = Choice { step: arguments.step.clone(), columns: arguments.columns.clone(), dim: arguments.dim };
+    let table = RateTable::read_with(&arguments.file, &choice)?;
+    let orders = orders(arguments, &table)?;
+    // Where nothing is claimed the judge says so: no order is no number.
+    let rates = table.judge(&judge, |column| orders.get(column).copied().unwrap_or(f64::NAN));
+    let columns =
+        rates.iter().map(|(name, rate)| Judged { name, rate, decides: arguments.all || !rate.order.is_nan() });
+    let columns: Vec<Judged<'_>> = columns.collect();
+    let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
+    let source = arguments.file.display().to_string();
+    let findings = Findings { project, source, table: &table, columns, floor: arguments.floor, verdict };
+    if let Some(folder) = &arguments.out {
+        files::write(&findings, folder)?;
+    }
+    match arguments.format {
+        Format::Text => output::print(&text::text(&findings, arguments.quiet))?,
+        Format::Json => output::print_json(&object::Object::new(&findings))?,
+    }
+    Ok(verdict.into())
+}
+
+/// The order of each column for which one is claimed.
+fn orders<'a>(arguments: &'a Arguments, table: &'a RateTable) -> Result<BTreeMap<&'a str, f64>, Unusable> {
+    let columns = || table.columns.iter().map(|(column, _)| column.as_str());
+    let known: HashSet<&str> = columns().collect();
+    let mut orders = BTreeMap::new();
+    if let Some((_, order)) = arguments.order.iter().rfind(|(name, _)| name.is_none()) {
+        orders.extend(columns().map(|column| (column, *order)));
+    }
+    for (name, order) in &arguments.order {
+        let Some(name) = name else { continue };
+        let column = known.get(name.as_str()).ok_or_else(|| {
+            let known: Vec<&str> = columns().take(LISTED + 1).collect();
+            let more = if known.len() > LISTED { ", ..." } else { "" };
+            let known = known[..known.len().min(LISTED)].join(", ") + more;
+            let why = table.not_errors.iter().find(|(column, _)| column == name);
+            let why = why.map_or(String::new(), |(_, why)| format!(", which is {why} unless --columns names it"));
+            Unusable::because(&format!(
+                "--order {name}={order}: expected a column of errors: {known}; found `{name}`{why}"
+            ))
+        })?;
+        orders.insert(*column, *order);
+    }
+    Ok(orders)
+}
+
+/// Most names that a message lists.
+const LISTED: usize = 12;

@@ -1,0 +1,135 @@
+//! The result for people.
+
+use std::fmt::Write;
+
+use super::{Findings, Judged};
+use crate::cli::screen;
+use crate::judge::verdict::{Aside, Verdict};
+use crate::text::number::decimals;
+
+/// Fewest and most decimals of a rate.
+const PLACES: (i32, i32) = (2, 6);
+
+/// The mark of a level without a say.
+pub(super) fn mark(judged: &Judged<'_>, level: usize) -> &'static str {
+    match judged.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
+        Some(Aside::AtFloor) => "_",
+        Some(Aside::PreAsymptotic) => "~",
+        None => "",
+    }
+}
+
+/// What the marks mean, as far as they occur.
+pub(super) fn legend(findings: &Findings<'_>) -> String {
+    let occurs = |because| {
+        findings.columns.iter().any(|column| column.rate.set_aside.iter().any(|aside| aside.because == because))
+    };
+    let mut text = String::new();
+    if occurs(Aside::PreAsymptotic) {
+        text += "~ set aside: not yet asymptotic\n";
+    }
+    if occurs(Aside::AtFloor) {
+        let _ = writeln!(text, "_ set aside: not above the floor {:e}", findings.floor);
+    }
+    text
+}
+
+/// Decimals that the interval of a rate needs: two digits of its width.
+pub(super) fn places(judged: &Judged<'_>) -> usize {
+    let Some([low, high]) = judged.rate.interval else { return 3 };
+    let width = high - low;
+    let needed = if width > 0.0 { 1 - width.log10().floor() as i32 } else { PLACES.1 };
+    if width.is_finite() { needed.clamp(PLACES.0, PLACES.1) as usize } else { 3 }
+}
+
+/// The rate between a level and the one before; a dash where there is none.
+pub(super) fn pairwise(judged: &Judged<'_>, level: usize) -> String {
+    let rate = level.checked_sub(1).and_then(|before| judged.rate.pairwise.get(before));
+    rate.filter(|rate| rate.is_finite()).map_or_else(|| "-".to_owned(), |rate| decimals(*rate, places(judged)))
+}
+
+/// The rate with its interval; that between the finest levels where there is no interval.
+pub(super) fn rate(judged: &Judged<'_>) -> String {
+    let (rate, places) = (judged.rate, places(judged));
+    match (rate.fitted, rate.interval) {
+        (Some(fitted), Some([low, high])) => {
+            let [fitted, low, high] = [fitted, low, high].map(|value| decimals(value, places));
+            let (first, last, levels) = (rate.used.start + 1, rate.used.end, rate.pairwise.len() + 1);
+            format!("rate {fitted}, {low} to {high} from levels {first} to {last} of {levels}")
+        }
+        _ => match rate.pairwise.iter().rfind(|rate| rate.is_finite()) {
+            Some(finest) => format!("rate {} between the finest levels that have one", decimals(*finest, places)),
+            None => "no rate".to_owned(),
+        },
+    }
+}
+
+/// Verdict, reason, rate and claim of a column.
+fn line(judged: &Judged<'_>) -> String {
+    let claim = if judged.is_claimed() {
+        format!("; claimed {} ± {}", judged.rate.order, judged.rate.tolerance)
+    } else {
+        String::new()
+    };
+    format!("{}: {}: {}; {}{claim}\n", judged.name, screen::verdict(judged.rate.verdict), judged.reason(), rate(judged))
+}
+
+/// The errors with the rates beside them, a verdict for each column, and that of all.
+pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
+    let mut text = if quiet { String::new() } else { errors(findings) };
+    for judged in &findings.columns {
+        let is_told = !quiet || (judged.decides && judged.rate.verdict != Verdict::Pass);
+        if is_told {
+            text += &line(judged);
+        }
+    }
+    if !quiet {
+        for (name, why) in &findings.table.not_errors {
+            let _ = writeln!(text, "{name}: not judged: {why}");
+        }
+        if findings.columns.iter().any(|column| !column.is_claimed()) {
+            let command = findings.project.command;
+            let _ = writeln!(
+                text,
+                "\nclaim what theory says: {command} rates {}: --order P for all columns, --order NAME=P for one",
+                findings.source
+            );
+        }
+        text.push('\n');
+    }
+    text + &format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings))
+}
+
+/// The overall verdict in words.
+pub(super) fn sentence(findings: &Findings<'_>) -> String {
+    let deciding = findings.columns.iter().filter(|column| column.decides);
+    let (count, passed) = deciding.fold((0, 0), |(count, passed), column| {
+        (count + 1, passed + usize::from(column.rate.verdict == Verdict::Pass))
+    });
+    match count {
+        0 => "no order is claimed".to_owned(),
+        1 => format!("{passed} of 1 column agrees with its order"),
+        _ => format!("{passed} of {count} columns agree with their orders"),
+    }
+}
+
+/// Step, and each error with its rate and mark, coarsest level first.
+fn errors(findings: &Findings<'_>) -> String {
+    let table = findings.table;
+    let mut text = format!("{:>12}", table.step);
+    let rate_width: Vec<usize> = findings.columns.iter().map(|judged| places(judged) + 5).collect();
+    let rate_name = "rate";
+    for ((name, _), width) in table.columns.iter().zip(&rate_width) {
+        let _ = write!(text, "{name:>16}{rate_name:>width$}");
+    }
+    text.push('\n');
+    for level in 0..table.columns.first().map_or(0, |(_, levels)| levels.len()) {
+        let mut line = format!("{:>12.4e}", table.columns[0].1[level].step);
+        for (((_, levels), judged), width) in table.columns.iter().zip(&findings.columns).zip(&rate_width) {
+            let error = format!("{:.4e}{:1}", levels[level].error, mark(judged, level));
+            let _ = write!(line, "{error:>16}{:>width$}", pairwise(judged, level));
+        }
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text + &legend(findings) + "\n"
+}

@@ -40,12 +40,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         settings: Settings { tolerance: 1e-13, ..Settings::default() },
     };
     Ok(Convergence {
-        header: Header {
-            id: "my-own".to_owned(),
-            claim: "Second order to the interpolant".to_owned(),
-            tier: Tier::Quick,
-            kind: "convergence".to_owned(),
-        },
+        header: Header::new("my-own", "Second order to the interpolant"),
         beam: Beam::default(),
         obstacles: None,
         exact,

@@ -62,13 +62,7 @@ mod tests {
     use super::*;
 
     fn headers() -> Vec<Header> {
-        let header = |(id, tier): (&str, Tier)| Header {
-            id: id.to_owned(),
-            claim: "c".to_owned(),
-            tier,
-            kind: "k".to_owned(),
-            group: "k".to_owned(),
-        };
+        let header = |(id, tier): (&str, Tier)| Header { tier, ..Header::new(id, "c") };
         [("a-space", Tier::Quick), ("a-time", Tier::Quick), ("b-space", Tier::Full)].map(header).to_vec()
     }
 

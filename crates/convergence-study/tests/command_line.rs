@@ -203,6 +203,8 @@ fn claims_and_ids_with_control_characters_are_refused() {
         (r"a\u0007", "c", "study.id: found the text"),
         ("../a", "c", "study.id: found the text"),
         ("A", "c", "study.id: found the text"),
+        ("--bless", "c", "study.id: found the text"),
+        (&"a".repeat(5000), "c", "study.id: found the text"),
     ] {
         fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
         let (status, out, err) = run(&root, &["study", "a.toml"]);

@@ -58,7 +58,7 @@ fn where_no_study_is_meant_nothing_passes() {
     unusable(&root, &["verify"], "no study in the tier quick");
     unusable(&root, &["verify", "theorem*"], "`theorem*` matches no study");
     unusable(&root, &["verify", "--tier", "slow"], "slow");
-    unusable(&root, &["verify", "--jobs", "0"], "--jobs");
+    unusable(&root, &["verify", "--jobs", "0"], "allowed is a whole number >= 1");
     unusable(&root, &["study"], "FILE");
 }
 

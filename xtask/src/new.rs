@@ -1,7 +1,7 @@
 //! `new study NAME`, `new scene NAME`: a file to begin with.
 
 use std::fs::OpenOptions;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -9,6 +9,7 @@ use thermobeam_study::scene::template::{Template, is_name};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::output;
+use convergence_study::text::visible;
 
 /// Write a commented study or scene that runs as it is
 #[derive(Debug, Args)]
@@ -36,11 +37,7 @@ enum What {
 }
 
 fn name(text: &str) -> Result<String, String> {
-    if is_name(text) {
-        Ok(text.to_owned())
-    } else {
-        Err("allowed are small letters a-z, digits, `.` and `-`".to_owned())
-    }
+    if is_name(text) { Ok(text.to_owned()) } else { Err("expected small letters a-z, digits, `.` and `-`".to_owned()) }
 }
 
 /// Runs the command. A file that is there is never written over.
@@ -51,7 +48,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     };
     let file = format!("{}.toml", arguments.name);
     let path = arguments.dir.as_ref().map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file));
-    let unusable = |error: std::io::Error| Unusable::file(&path, &error);
+    let unusable = |error: std::io::Error| match error.kind() {
+        ErrorKind::AlreadyExists => Unusable::because(&format!(
+            "{}: expected a new file, found one of that name; take another name, or remove the file first",
+            visible::path(&path)
+        )),
+        _ => Unusable::file(&path, &error),
+    };
     let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(unusable)?;
     file.write_all(template.text(&arguments.name).as_bytes()).map_err(unusable)?;
     if !arguments.quiet {

@@ -39,13 +39,13 @@ pub(crate) struct Arguments {
     #[arg(long)]
     estimate_error: bool,
     /// Choose scheme, elements and steps so that the error is no larger than this; for scheme = "dg" degrees, elements and steps
-    #[arg(long, value_name = "ERROR")]
+    #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
     target_error: Option<f64>,
     /// What the target error is about
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
     /// The longest that the run may take; what was done until then is told, and the exit status is 1 [default: as long as it takes]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     /// Show no progress bar
     #[arg(long, short)]
@@ -112,6 +112,14 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     if let Err(reason) = budget {
         output::complain(&format!("{}: {reason}", arguments.scene.display()));
+        return Ok(Ended::Badly);
+    }
+    if let Some(rise) = run.energy.rise(run.steps) {
+        output::complain(&format!(
+            "{}: the energy rose by {rise:.3e} in a step, where no exactly solved step raises it: expected coefficients of less \
+             extreme size, or a smaller tolerance; the numbers of this run mean nothing",
+            arguments.scene.display()
+        ));
         return Ok(Ended::Badly);
     }
     Ok(match &run.failure {

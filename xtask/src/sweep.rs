@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::ProgressBar;
-use thermobeam_study::sweep::{self, InOrder, Journal, Line, Manifest, Share, Sweep};
+use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
 use convergence_study::cli::exit::{Ended, Outcome};
 use convergence_study::cli::interrupt;
@@ -81,7 +81,7 @@ fn to_folder(
     mine: Vec<usize>,
     folder: &Path,
 ) -> Result<usize, sweep::SweepError> {
-    let journal = Journal::open(folder, &Manifest::new(sweep, arguments.partition), arguments.resume)?;
+    let journal = Journal::open(folder, sweep, arguments.partition, arguments.resume)?;
     let cases = mine.len();
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
     let begun = pending.len();

@@ -41,7 +41,7 @@ fn study(id: &str, kind: &str) -> String {
 fn an_unknown_kind_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", &study("a", "nonsense"))]);
     for arguments in [&["verify"][..], &["verify", "--bless"], &["study", "studies/a.toml"], &["list"]] {
-        unusable(&root, arguments, "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; allowed is ");
+        unusable(&root, arguments, "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; expected ");
     }
 }
 
@@ -58,7 +58,7 @@ fn where_no_study_is_meant_nothing_passes() {
     unusable(&root, &["verify"], "no study in the tier quick");
     unusable(&root, &["verify", "theorem*"], "`theorem*` matches no study");
     unusable(&root, &["verify", "--tier", "slow"], "slow");
-    unusable(&root, &["verify", "--jobs", "0"], "--jobs");
+    unusable(&root, &["verify", "--jobs", "0"], "expected a whole number >= 1");
     unusable(&root, &["study"], "FILE");
 }
 

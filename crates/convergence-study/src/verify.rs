@@ -1,6 +1,5 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless, write the report.
 
-use std::collections::BTreeSet;
 use std::io;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -18,7 +17,7 @@ use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record;
 use crate::store::writing;
-use crate::study::{Study, Tier};
+use crate::study::{Header, Study, Tier};
 use crate::text::visible;
 
 /// Which studies were asked for. It decides where the report goes: one on a selection never replaces that on a tier.
@@ -30,8 +29,8 @@ use crate::text::visible;
 /// | a selection | `reports/local/partial/`, which git ignores |
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scope {
-    /// All studies of a tier; the ids of all studies that there are, whatever their tier.
-    Tier(Tier, BTreeSet<String>),
+    /// All studies of a tier; the headers of all studies that there are, whatever their tier: the claims of all are compared.
+    Tier(Tier, Vec<Header>),
     /// Some studies, as they were asked for on the command line.
     Selection(Vec<String>),
 }
@@ -58,7 +57,7 @@ impl Scope {
         }
     }
 
-    fn known(&self) -> Option<&BTreeSet<String>> {
+    fn known(&self) -> Option<&[Header]> {
         match self {
             Self::Tier(_, known) => Some(known),
             Self::Selection(_) => None,
@@ -96,6 +95,8 @@ pub struct Request {
     pub effort: Effort,
     /// Whether to take the new numbers for the baseline.
     pub bless: bool,
+    /// Why claims have changed, for a blessing of them.
+    pub reason: Option<String>,
     /// The workspace: `reports/` and `studies/baseline.json` are below.
     pub root: PathBuf,
 }
@@ -157,7 +158,7 @@ pub fn verify(
     // Another run may have blessed in the meantime: under the lock it is read again.
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
-    let blessing = request.bless.then(|| baseline.bless(&finished, known));
+    let blessing = request.bless.then(|| baseline.bless(&finished, known, request.reason.as_deref()));
     if let Some(Ok(())) = &blessing {
         baseline.write(&baseline_file)?;
     }
@@ -207,7 +208,7 @@ fn tidy(request: &Request) -> io::Result<()> {
     let _writing = writing::begin();
     atomic::remove_leftovers(&request.root.join("studies").join("baseline.json"))?;
     atomic::remove_leftovers(&local.join("provenance.json"))?;
-    let whole = |tier| Scope::Tier(tier, BTreeSet::new());
+    let whole = |tier| Scope::Tier(tier, vec![]);
     [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
         .iter()
         .try_for_each(|scope| scope.report_folder(&reports).tidy())

@@ -28,8 +28,13 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 11] = [
+const TESTS: [Test; 13] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
+    (
+        "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
+        a_changed_claim_fails_until_it_is_blessed_with_a_reason,
+    ),
+    ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
     ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
     ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
     ("claims_and_ids_with_control_characters_are_refused", claims_and_ids_with_control_characters_are_refused),
@@ -110,6 +115,53 @@ fn verify_ends_with_0_1_or_2() {
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
 }
 
+fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
+    let root = workspace(false);
+    let file = root.path().join("studies/one.toml");
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    // The same number in other digits is the same claim.
+    fs::write(&file, study("one", "c", 1.0).replace("1.0", "10e-1")).unwrap();
+    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    fs::write(&file, study("one", "another claim", 1.0)).unwrap();
+    let change = r#"one: claim study.claim: was "c", is "another claim""#;
+    let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true").output().unwrap());
+    assert_eq!(status, Some(1));
+    assert!(
+        out.contains(&format!("baseline: {change}\nif that is meant: powers verify --bless --reason TEXT\n")),
+        "{out}"
+    );
+    assert!(out.contains(&format!("::error title=baseline::{change}\n")), "{out}");
+    let (status, out, _) = run(&root, &["verify", "--bless"]);
+    assert!(status == Some(1) && out.contains(&format!("--bless --reason TEXT\n  {change}\n")), "{out}");
+    for arguments in [&["verify", "--bless", "--reason", " "][..], &["verify", "--reason", "because"]] {
+        assert_eq!(run(&root, arguments).0, Some(2), "{arguments:?}");
+    }
+    assert_eq!(run(&root, &["verify", "--bless", "--reason", "said better"]).0, Some(0));
+    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    assert!(baseline.contains("\"reason\": \"said better\""), "{baseline}");
+    assert_eq!(run(&root, &["verify"]).0, Some(0));
+}
+
+fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
+    let root = workspace(true);
+    let file = root.path().join("studies/two.toml");
+    let full = |exponent| study("two", "c", exponent).replace("\"quick\"", "\"full\"");
+    fs::write(&file, full(1.0)).unwrap();
+    assert_eq!(run(&root, &["verify", "--tier", "full", "--bless"]).0, Some(0));
+    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    fs::write(&file, full(1.001)).unwrap();
+    let (status, out, _) = run(&root, &["verify"]);
+    assert!(status == Some(1) && out.contains("two: claim exponent: was 1, is 1.001\n"), "{out}");
+    assert!(out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"), "{out}");
+    // A blessing of the quick tier leaves the claim of a study that was not run as it was.
+    assert_eq!(run(&root, &["verify", "--bless", "--reason", "x"]).0, Some(1));
+    // To another tier.
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0).replace("\"quick\"", "\"full\"")).unwrap();
+    fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
+    let (status, out, _) = run(&root, &["verify"]);
+    assert!(status == Some(1) && out.contains(r#"one: claim study.tier: was "quick", is "full""#), "{out}");
+}
+
 fn an_unwritable_job_summary_keeps_the_exit_status() {
     for (with_a_failure, status) in [(false, 0), (true, 1)] {
         let root = workspace(with_a_failure);
@@ -154,6 +206,8 @@ fn claims_and_ids_with_control_characters_are_refused() {
         (r"a\u0007", "c", "study.id: found the text"),
         ("../a", "c", "study.id: found the text"),
         ("A", "c", "study.id: found the text"),
+        ("--bless", "c", "study.id: found the text"),
+        (&"a".repeat(5000), "c", "study.id: found the text"),
     ] {
         fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
         let (status, out, err) = run(&root, &["study", "a.toml"]);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::time::Duration;
 
-use thermobeam_study::sweep::{self, Line, Sweep};
+use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
 
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
     [initial]\nu_t = \"x\"\n[mesh]\nelements = 7\n[time]\ndt = 0.1\nt_end = 50.0\n";
@@ -58,4 +58,75 @@ fn an_error_of_who_takes_the_lines_ends_the_sweep() {
         Err(std::io::Error::other("full"))
     });
     assert_eq!((ended.unwrap_err().to_string(), *count.lock().unwrap()), ("full".to_owned(), 1));
+}
+
+/// A small sweep, and the lines of its cases.
+fn small(folder: &std::path::Path) -> (Sweep, Vec<String>) {
+    std::fs::write(folder.join("base.toml"), BASE).unwrap();
+    let grid = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = [0.0, 1.0, 2.0]\ntime.t_end = [0.1]\n";
+    std::fs::write(folder.join("sweep.toml"), grid).unwrap();
+    let sweep = Sweep::read(folder.join("sweep.toml")).unwrap();
+    let lines = (0..sweep.cases()).map(|case| Line::compute(&sweep, case, None).json + "\n").collect();
+    (sweep, lines)
+}
+
+#[test]
+fn a_line_that_was_changed_is_refused_on_resume_and_on_merging() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sweep, lines) = small(folder.path());
+    let share = folder.path().join("share");
+    let open = |journal: &str| {
+        let _ = std::fs::remove_dir_all(&share);
+        std::fs::create_dir(&share).unwrap();
+        let manifest = serde_json::to_string(&Manifest::new(&sweep, Share::ALL)).unwrap();
+        std::fs::write(share.join("sweep.json"), manifest).unwrap();
+        std::fs::write(share.join("journal.jsonl"), journal).unwrap();
+        Journal::open(&share, &sweep, Share::ALL, true).map(|journal| (0..3).filter(|&case| journal.has(case)).count())
+    };
+    assert_eq!(open(&lines[..2].concat()).unwrap(), 2);
+    let altered = |from: &str, to: &str| {
+        let line = lines[1].replacen(from, to, 1);
+        assert_ne!(line, lines[1], "{from}");
+        lines[0].clone() + &line
+    };
+    for (from, to) in [
+        ("\"case\":1", "\"case\":2"),
+        ("\"beam.beta\":1.0", "\"beam.beta\":1.5"),
+        ("\"steps\":1", "\"steps\":2"),
+        ("\"status\":\"done\"", "\"status\":\"failed\""),
+        ("\"hash\":\"", "\"hash\":\"0"),
+    ] {
+        let refused = open(&altered(from, to)).unwrap_err().to_string();
+        let expected = format!("{}:2: expected the hash ", share.join("journal.jsonl").display());
+        assert!(refused.starts_with(&expected), "{from}: {refused}");
+        let out = folder.path().join("merged.jsonl");
+        let merged = sweep::merge(std::slice::from_ref(&share), &out).unwrap_err().to_string();
+        assert!(merged.starts_with(&expected) && !out.exists(), "{merged}");
+    }
+}
+
+#[test]
+fn a_whole_line_of_another_sweep_or_share_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sweep, lines) = small(folder.path());
+    let other = tempfile::tempdir().unwrap();
+    std::fs::write(other.path().join("base.toml"), BASE).unwrap();
+    let text =
+        std::fs::read_to_string(folder.path().join("sweep.toml")).unwrap().replace("[0.0, 1.0, 2.0]", "[0.0, 1.5]");
+    std::fs::write(other.path().join("sweep.toml"), text).unwrap();
+    let foreign = Line::compute(&Sweep::read(other.path().join("sweep.toml")).unwrap(), 1, None).json + "\n";
+    let half: Share = "1/2".parse().unwrap();
+    let not_held = (0..3).find(|&case| !half.holds(sweep.case(case).hash())).unwrap();
+    for (share, line, words) in [
+        (Share::ALL, &foreign, ":1: expected a line that begins with {\"case\":1,\"status\":\"done\",\"parameters\":{"),
+        (half, &lines[not_held], ":1: expected a case of the share 1/2, found "),
+    ] {
+        let place = folder.path().join(format!("share-{}", share.to_string().replace('/', "-of-")));
+        std::fs::create_dir(&place).unwrap();
+        let manifest = serde_json::to_string(&Manifest::new(&sweep, share)).unwrap();
+        std::fs::write(place.join("sweep.json"), manifest).unwrap();
+        std::fs::write(place.join("journal.jsonl"), line).unwrap();
+        let refused = Journal::open(&place, &sweep, share, true).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
 }

@@ -15,7 +15,7 @@ const SECTIONS: usize = 90;
 ///   vanishes on one side of the point, the boundary of the zero set is returned.
 /// * `lo` may be larger than `hi`. f is evaluated at `lo` and inside the bracket, not at `hi`.
 /// * Returns one of the two floats between which the sign changes.
-pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
+pub(crate) fn bisect(mut f: impl FnMut(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
     let starts_positive = f(lo) > 0.0;
     for _ in 0..HALVINGS {
         let middle = lo + 0.5 * (hi - lo);

@@ -60,8 +60,7 @@ pub enum StepFailure {
     /// The matrix of the step is not positive definite, or not quasi-definite with the temperature.
     #[error(
         "the matrix of the step is not positive definite: expected a pivot of the right sign, found {pivot:.3e} at \
-         node {node} for the axial force {n_value:.6}: take a smaller dt, because the beam is loaded beyond its \
-         buckling force"
+         node {node} for the axial force {n_value:.6}: {}", advice(*pivot)
     )]
     Indefinite {
         /// Node of the pivot.
@@ -71,6 +70,16 @@ pub enum StepFailure {
         /// The mean axial force of the matrix.
         n_value: f64,
     },
+}
+
+/// What to change where a pivot was lost: one that is not a number tells of an overflow, not of buckling.
+fn advice(pivot: f64) -> &'static str {
+    if pivot.is_finite() {
+        "take a smaller dt, because the beam is loaded beyond its buckling force"
+    } else {
+        "take coefficients, dt and elements of less extreme size, because an entry of the matrix is too large for a \
+         floating-point number"
+    }
 }
 
 /// A simulation that cannot be set up.
@@ -130,4 +139,19 @@ pub enum SetupError {
         /// The values allowed, in words.
         allowed: &'static str,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn buckling_is_blamed_for_a_pivot_of_the_wrong_sign_only() {
+        let said = |pivot| StepFailure::Indefinite { node: 1, pivot, n_value: 0.0 }.to_string();
+        assert!(said(-1.0).ends_with("the beam is loaded beyond its buckling force"), "{}", said(-1.0));
+        for pivot in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let said = said(pivot);
+            assert!(!said.contains("buckling") && said.contains("too large for a floating-point number"), "{said}");
+        }
+    }
 }

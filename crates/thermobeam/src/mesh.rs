@@ -31,6 +31,19 @@ pub enum MeshError {
         /// Position of the second node.
         found: f64,
     },
+    /// An element so short that its slopes, differences over h, are beyond floating-point numbers.
+    #[error(
+        "nodes {} and {index}: expected a distance whose inverse is finite, found {previous:?} and {found:?}: put them further \
+         apart", index - 1
+    )]
+    TooClose {
+        /// Index of the second of the two nodes.
+        index: usize,
+        /// Position of the first node.
+        previous: f64,
+        /// Position of the second node.
+        found: f64,
+    },
 }
 
 /// A mesh of n elements with nodes 0 = x_0 < x_1 < ... < x_n = 1.
@@ -72,7 +85,7 @@ impl Mesh {
     /// The mesh with the given nodes, which must increase strictly from 0 to 1.
     ///
     /// # Errors
-    /// [`MeshError`] for fewer than two nodes, wrong ends, or nodes that do not increase.
+    /// [`MeshError`] for fewer than two nodes, wrong ends, nodes that do not increase, or an element whose 1/h overflows.
     pub fn from_nodes(nodes: Vec<f64>) -> Result<Self, MeshError> {
         if nodes.len() < 2 {
             return Err(MeshError::TooFew { elements: nodes.len().saturating_sub(1) });
@@ -88,6 +101,9 @@ impl Mesh {
             // NaN is not ordered, and is rejected here too.
             if previous.partial_cmp(&found) != Some(std::cmp::Ordering::Less) {
                 return Err(MeshError::NotIncreasing { index, previous, found });
+            }
+            if !(found - previous).recip().is_finite() {
+                return Err(MeshError::TooClose { index, previous, found });
             }
         }
         Ok(Self { nodes })
@@ -128,6 +144,18 @@ mod tests {
         assert!(matches!(ends(16.0), Err(MeshError::Ends { index: 0, .. })));
         let beyond = Mesh::mapped(4, |s| s * (1.0 + 16.0 * f64::EPSILON));
         assert!(matches!(beyond, Err(MeshError::Ends { index: 4, .. })), "{beyond:?}");
+    }
+
+    #[test]
+    fn an_element_whose_inverse_length_overflows_is_refused() {
+        for length in [5e-324, 1e-310] {
+            let mesh = Mesh::from_nodes(vec![0.0, length, 0.5, 1.0]);
+            assert_eq!(mesh, Err(MeshError::TooClose { index: 1, previous: 0.0, found: length }));
+            assert!(
+                mesh.unwrap_err().to_string().starts_with("nodes 0 and 1: expected a distance whose inverse is finite")
+            );
+        }
+        assert!(Mesh::from_nodes(vec![0.0, 1e-300, 1.0]).is_ok());
     }
 
     #[test]

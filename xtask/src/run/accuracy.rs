@@ -19,6 +19,12 @@ pub(crate) enum Quantity {
     Theorem34,
 }
 
+/// A target error, as it is given on the command line.
+pub(super) fn target(text: &str) -> Result<f64, String> {
+    let target = text.parse().ok().filter(|target: &f64| *target > 0.0 && target.is_finite());
+    target.ok_or_else(|| "expected a finite number > 0".to_owned())
+}
+
 /// What was asked for, and the run that was chosen.
 pub(crate) struct Planned {
     quantity: evaluator::ErrorMeasure,

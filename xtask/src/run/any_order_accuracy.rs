@@ -28,7 +28,7 @@ pub(super) fn choose_any_order(
     target: f64,
 ) -> Result<PlannedAnyOrder, NotChosen> {
     if quantity != Quantity::Tip {
-        let reason = "--quantity: found theorem-3.4; allowed is tip where time.scheme is \"dg\"";
+        let reason = "--quantity: found theorem-3.4; expected tip where time.scheme is \"dg\"";
         return Err(NotChosen::Refused(reason.to_owned()));
     }
     match choose(scene, target) {

@@ -34,8 +34,22 @@ fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     let far = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-14"]));
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
     assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
-    for arguments in [&["--target-error", "0"][..], &["--target-error", "nan"], &["--quantity", "tip"]] {
+    for arguments in
+        [&["--target-error", "0"][..], &["--target-error", "-1"], &["--target-error", "nan"], &["--quantity", "tip"]]
+    {
         let ended = ended(xtask().arg("run").arg(&scene).args(arguments));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
+        let says = ended.stderr.contains("expected a finite number > 0");
+        assert_eq!(says, arguments[0] == "--target-error", "{}", ended.stderr);
     }
+}
+
+#[test]
+fn a_run_whose_energy_rose_ends_with_status_1() {
+    let folder = Folder::new();
+    let extreme = "[beam]\nzeta = 1e300\n[obstacles]\nepsilon = 1e-300\ng1 = -0.01\ng2 = 0.1\n[initial]\n\
+        u = \"0.01*x*(x-2)\"\nu_t = \"x\"\n[mesh]\nelements = 8\n[time]\ndt = 1e-2\nt_end = 0.1\n";
+    let ended = ended(xtask().arg("run").arg(folder.file("extreme.toml", extreme)));
+    assert_eq!(ended.status, Some(1), "{}", ended.stdout);
+    assert!(ended.stderr.contains("the energy rose by "), "{}", ended.stderr);
 }

@@ -86,7 +86,7 @@ fn bad_input_is_refused_with_file_and_field() {
         (
             "",
             "dt = 0.01\nrestart_dt = 0.02",
-            "time.restart_dt: found 0.02; allowed is a number > 0 and at most dt = 0.01",
+            "time.restart_dt: found 0.02; expected a number > 0 and at most dt = 0.01",
         ),
         ("", "growth = 0.9", "time.growth: found 0.9"),
         ("", "solver = \"newton\"", "unknown key `solver`"),
@@ -137,7 +137,7 @@ fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
     ] {
         let ended = ended(xtask().arg("run").arg(&scene).args(arguments));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
-        assert!(ended.stderr.contains("allowed is"), "{}", ended.stderr);
+        assert!(ended.stderr.contains("expected"), "{}", ended.stderr);
     }
 }
 

@@ -6,23 +6,28 @@ use crate::text::visible::visible;
 /// Changes of a study that are listed one by one.
 const LISTED: usize = 3;
 
-/// One line for each change; of a study with many, their number and those of most weight, unless all are wanted.
+/// One line for each change of a claim. Of numbers one line each, too; of a study with many, their number and those of most
+/// weight, unless all are wanted.
 pub(super) fn lines(changes: &[Change], all: bool) -> String {
     let studies = changes.chunk_by(|one, next| one.study == next.study);
-    studies.map(|of_study| if all || of_study.len() <= LISTED { each(of_study) } else { condensed(of_study) }).collect()
+    studies.map(|of_study| of_one_study(of_study, all)).collect()
+}
+
+fn of_one_study(changes: &[Change], all: bool) -> String {
+    let (claims, numbers): (Vec<_>, Vec<_>) = changes.iter().partition(|change| change.movement.is_of_claims());
+    each(claims) + &if all || numbers.len() <= LISTED { each(numbers) } else { condensed(numbers) }
 }
 
 fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {
     changes.into_iter().map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect()
 }
 
-fn condensed(changes: &[Change]) -> String {
-    let mut heaviest: Vec<&Change> = changes.iter().collect();
+fn condensed(changes: Vec<&Change>) -> String {
+    let (study, rest) = (&changes[0].study, changes.len() - LISTED);
+    let mut heaviest = changes.clone();
     // A stable order: of equals the first ones.
     heaviest.sort_by(|a, b| b.movement.weight().total_cmp(&a.movement.weight()));
     heaviest.truncate(LISTED);
-    let study = &changes[0].study;
-    let rest = changes.len() - LISTED;
     each(heaviest) + &format!("baseline: {study}: and {rest} more; --verbose and the report list all\n")
 }
 

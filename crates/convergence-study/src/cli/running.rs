@@ -15,17 +15,22 @@ use crate::cli::screen;
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Limits {
     /// Number of threads [default: all of the machine]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     jobs: Option<NonZeroUsize>,
     /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     case_limit: Option<Duration>,
 }
 
 /// A limit on time, as it is given on the command line.
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
-    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("allowed is a number > 0".to_owned())
+    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("expected a number > 0".to_owned())
+}
+
+/// A number of threads, as it is given on the command line.
+pub fn jobs(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "expected a whole number >= 1".to_owned())
 }
 
 impl Limits {

@@ -54,7 +54,7 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &s
     const FEW: usize = 12;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
     let allowed = if ids.len() <= FEW { ids.join(", ") } else { format!("what `{list}` shows") };
-    format!("`{word}` matches no study; allowed is {allowed}, or a pattern such as '*-space'")
+    format!("`{word}` matches no study; expected {allowed}, or a pattern such as '*-space'")
 }
 
 #[cfg(test)]
@@ -62,13 +62,7 @@ mod tests {
     use super::*;
 
     fn headers() -> Vec<Header> {
-        let header = |(id, tier): (&str, Tier)| Header {
-            id: id.to_owned(),
-            claim: "c".to_owned(),
-            tier,
-            kind: "k".to_owned(),
-            group: "k".to_owned(),
-        };
+        let header = |(id, tier): (&str, Tier)| Header { tier, ..Header::new(id, "c") };
         [("a-space", Tier::Quick), ("a-time", Tier::Quick), ("b-space", Tier::Full)].map(header).to_vec()
     }
 
@@ -97,7 +91,7 @@ mod tests {
     #[test]
     fn a_word_without_a_match_is_an_error_even_beside_others() {
         for (asked, words) in [
-            (&["a-space", "a-spice"][..], "`a-spice` matches no study; allowed is a-space, a-time, b-space"),
+            (&["a-space", "a-spice"][..], "`a-spice` matches no study; expected a-space, a-time, b-space"),
             (&["b*"], "`b*` matches no study in the tier quick, and 1 with --tier full"),
             (&["["], "`[` is not a pattern"),
             (&[""], "`` matches no study"),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::project::Project;
-use crate::report::{can_be_blessed, key_numbers, sentence, text_of_failures};
+use crate::report::{blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
@@ -26,6 +26,9 @@ pub struct Arguments {
     /// Take the new numbers for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
+    /// Why claims of study files have changed; a changed claim is not blessed without, and the baseline keeps it
+    #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
+    reason: Option<String>,
     /// No progress bar, no table: what did not pass and why, and the verdict
     #[arg(long)]
     quiet: bool,
@@ -51,7 +54,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
-    let request = Request { scope, effort: arguments.limits.effort(), bless: arguments.bless, root };
+    let Arguments { bless, reason, .. } = arguments;
+    let request = Request { scope, effort: arguments.limits.effort(), bless: *bless, reason: reason.clone(), root };
     let watched = Watched::new(&studies, !arguments.quiet);
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
@@ -61,9 +65,16 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(verification.verdict.into())
 }
 
+/// A reason: it is kept in a file that people read, one line of text.
+fn reason(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    let is_line = !text.is_empty() && !text.contains(char::is_control);
+    if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
+}
+
 fn scope(arguments: &Arguments, all: &[StudyFile]) -> Scope {
     if arguments.ids.is_empty() {
-        Scope::Tier(arguments.tier, all.iter().map(|file| file.study.header().id.clone()).collect())
+        Scope::Tier(arguments.tier, all.iter().map(|file| file.study.header().clone()).collect())
     } else {
         Scope::Selection(arguments.ids.clone())
     }
@@ -76,9 +87,10 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
-        Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::visible(&refusal.to_string())),
+        Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::lines(&refusal.to_string())),
         None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
-            text += &format!("if that is meant: {} --bless\n", request.scope.command(project));
+            let command = request.scope.command(project);
+            text += &format!("if that is meant: {}\n", blessing(project, &command, &found.finished, &found.changes));
         }
         None => {}
     }

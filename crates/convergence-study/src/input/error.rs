@@ -42,7 +42,7 @@ pub enum Complaint {
         reason: String,
     },
     /// The file is larger than any file that people write by hand.
-    #[error("found more than {allowed} bytes; allowed is a file of at most {allowed} bytes")]
+    #[error("found more than {allowed} bytes; expected a file of at most {allowed} bytes")]
     TooLarge {
         /// Bytes allowed.
         allowed: u64,
@@ -54,7 +54,7 @@ pub enum Complaint {
         reason: String,
     },
     /// A key that has no meaning here.
-    #[error("unknown key `{found}`{}; allowed is {allowed}", did_you_mean(.suggestion))]
+    #[error("unknown key `{found}`{}; expected {allowed}", did_you_mean(.suggestion))]
     UnknownKey {
         /// The key.
         found: String,
@@ -64,13 +64,13 @@ pub enum Complaint {
         allowed: String,
     },
     /// A key without default is missing.
-    #[error("missing; allowed is {allowed}")]
+    #[error("missing; expected {allowed}")]
     Missing {
         /// What would have to be there, in words.
         allowed: String,
     },
     /// A value of the wrong type, out of range, or in conflict with another.
-    #[error("found {found}; allowed is {allowed}")]
+    #[error("found {found}; expected {allowed}")]
     NotAllowed {
         /// The value, as written or in words.
         found: String,

@@ -176,7 +176,8 @@ impl<'a> Field<'a> {
     }
 }
 
-fn whole(integer: &DeInteger<'_>) -> Option<i128> {
+/// The value of an integer in any notation.
+pub(super) fn whole(integer: &DeInteger<'_>) -> Option<i128> {
     i128::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 

@@ -6,6 +6,7 @@
 mod error;
 mod field;
 mod section;
+mod settings;
 
 use std::fs::File;
 use std::io::Read;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use super::error::{Complaint, InputError};
-use super::{Field, Source};
+use super::{Field, Source, settings};
 use crate::text::names::nearest;
 
 /// A table of the document, with its dotted name.
@@ -35,6 +35,13 @@ impl<'a> Section<'a> {
     /// The name of the document's file, as messages have it.
     pub fn file(&self) -> &'a str {
         self.source.file
+    }
+
+    /// Every value of the table and of the tables in it: its dotted path, such as `expect[0].tolerance`, and its text.
+    ///
+    /// Numbers have one text however they are written: 0.05 and 5e-2 are equal. A list of plain values is one value.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        settings::of_table(self.table)
     }
 
     /// Refuses every key but these.

@@ -33,16 +33,16 @@ const CONFIDENCE: f64 = 0.95;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JudgeError {
     /// See [`WIDEST_TOLERANCE`].
-    #[error("tolerance = {0}: the tolerance is too wide to tell anything, allowed is less than 0.5")]
+    #[error("tolerance = {0}: the tolerance is too wide to tell anything, expected less than 0.5")]
     ToleranceTooWide(f64),
     /// Zero, negative or NaN.
-    #[error("tolerance = {0}: allowed is a number > 0")]
+    #[error("tolerance = {0}: expected a number > 0")]
     ToleranceNotPositive(f64),
     /// Not between 0 and 1.
-    #[error("confidence = {0}: allowed is 0 < confidence < 1")]
+    #[error("confidence = {0}: expected 0 < confidence < 1")]
     Confidence(f64),
     /// Negative, infinite or NaN.
-    #[error("floor = {0}: allowed is a finite number >= 0")]
+    #[error("floor = {0}: expected a finite number >= 0")]
     Floor(f64),
 }
 

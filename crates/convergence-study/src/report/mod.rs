@@ -27,7 +27,7 @@ use markdown::{cell, text};
 pub use failures::{NotPassed, not_passed, text_of_failures};
 pub use section::markdown;
 pub use tables::tables;
-pub use words::{can_be_blessed, key_numbers, sentence};
+pub use words::{blessing, can_be_blessed, key_numbers, sentence};
 
 /// What is reported on.
 #[derive(Debug, Clone, Copy)]
@@ -134,11 +134,12 @@ impl Findings<'_> {
         if self.changes.is_empty() {
             return String::new();
         }
-        let row = |change: &Change| vec![cell(&change.study), cell(&change.name), cell(&change.movement.to_string())];
+        let row =
+            |change: &Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
         let rows = self.changes.iter().map(row).collect();
-        let table = section::untitled(&["study", "quantity", "change"], rows, "numbers");
+        let table = section::untitled(&["study", "what", "change"], rows, "numbers");
         let bless = if can_be_blessed(self.finished) {
-            format!("\nIf it is meant: `{} --bless`.\n", self.command)
+            format!("\nIf it is meant: `{}`.\n", blessing(self.project, self.command, self.finished, self.changes))
         } else {
             String::new()
         };

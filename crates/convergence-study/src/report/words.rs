@@ -1,8 +1,9 @@
 //! Verdicts in words, the same ones for report and terminal.
 
 use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::project::Project;
 use crate::run::Finished;
-use crate::store::baseline::Change;
+use crate::store::baseline::{Change, Movement};
 use crate::study::outcome::Outcome;
 use crate::text::number::{committed_rate, plain_text, rate_text};
 
@@ -34,12 +35,31 @@ pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
+    let claims = changes.iter().filter(|change| change.movement.is_of_claims()).count();
+    let count = |n: usize, what: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {what} changed")),
+        n => Some(format!("{n} {what}s changed")),
+    };
+    let changed = [count(claims, "claim"), count(changes.len() - claims, "baseline value")];
     match (changes.len(), guarded) {
         (0, 0) => "no baseline values".to_owned(),
         (0, n) => format!("all {n} baseline values unchanged"),
-        (1, _) => "1 baseline value changed".to_owned(),
-        (n, _) => format!("{n} baseline values changed"),
+        _ => changed.into_iter().flatten().collect::<Vec<_>>().join(", "),
     }
+}
+
+/// The command that blesses these changes: of the full tier where a study changed that was not run, with a reason where a claim did.
+///
+/// * `command`: what was run.
+pub fn blessing(project: &Project, command: &str, finished: &[Finished], changes: &[Change]) -> String {
+    let was_run = |change: &Change| finished.iter().any(|finished| finished.header.id == change.study);
+    let is_gone =
+        |change: &Change| matches!(change.movement, Movement::VanishedFile { .. } | Movement::Vanished { .. });
+    let all_run = changes.iter().all(|change| was_run(change) || is_gone(change));
+    let full = format!("{} verify --tier full", project.command);
+    let reason = if changes.iter().any(|change| change.movement.needs_a_reason()) { " --reason TEXT" } else { "" };
+    format!("{} --bless{reason}", if all_run { command } else { &full })
 }
 
 /// Whether `--bless` would be accepted: it is refused where a study does not pass.

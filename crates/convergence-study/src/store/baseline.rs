@@ -1,15 +1,24 @@
-//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance.
+//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance, and what the study files
+//! claimed when they were blessed: every value of every file.
 //!
 //! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among the files that a run
 //! writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
-//! { "schema": 1, "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } } }
+//! {
+//!   "schema": 2,
+//!   "claims": { "heat-equation-space": { "expect[0].tolerance": { "value": "0.02", "reason": "levels are few" } } },
+//!   "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } }
+//! }
 //! ```
+//!
+//! A claim that changed is blessed with a reason only, which is kept beside it; one that was withdrawn stays as `null` with the
+//! reason. A blessing takes the claims of the studies that were run: a claim is not changed without a run that passes.
 //!
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
 
 mod change;
+mod claims;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -21,18 +30,23 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::{atomic, regular};
+use crate::study::Header;
 use crate::text::visible;
 
 pub use change::{Change, Movement};
+pub use claims::Claim;
+use claims::Claims;
 
 /// Version of the file's form.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
-/// The committed numbers.
+/// The committed numbers and claims.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
     schema: u32,
+    /// Sorted by id and path.
+    claims: BTreeMap<String, Claims>,
     /// Sorted by id and name, so that a blessing changes only the lines that moved.
     studies: BTreeMap<String, BTreeMap<String, Guarded>>,
 }
@@ -47,6 +61,12 @@ pub struct Guarded {
     /// The relative change that is tolerated.
     #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
+}
+
+/// What every version of the file has.
+#[derive(Deserialize)]
+struct Version {
+    schema: u32,
 }
 
 fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
@@ -73,7 +93,12 @@ pub enum BaselineError {
         error: serde_json::Error,
     },
     /// Written for another version of the harness.
-    #[error("{}: schema: found {found}; allowed is {SCHEMA}", visible::path(.path))]
+    #[error(
+        "{}: schema: found {found}; expected {SCHEMA}, which also guards what study files claim; remove the file and run \
+         `verify --bless`, then `verify --tier full --bless`; to keep the numbers of schema 1, write `\"schema\": {SCHEMA}, \
+         \"claims\": {{}}` in place of its version first",
+        visible::path(.path)
+    )]
     Schema {
         /// The file.
         path: PathBuf,
@@ -105,11 +130,17 @@ pub enum Refusal {
         /// Its tolerance.
         tolerance: f64,
     },
+    /// Claims changed, and nobody said why.
+    #[error("not blessed: a changed claim needs a reason; repeat it with --bless --reason TEXT\n  {}", .claims.join("\n  "))]
+    NoReason {
+        /// The changes in words.
+        claims: Vec<String>,
+    },
 }
 
 impl Default for Baseline {
     fn default() -> Self {
-        Self { schema: SCHEMA, studies: BTreeMap::new() }
+        Self { schema: SCHEMA, claims: BTreeMap::new(), studies: BTreeMap::new() }
     }
 }
 
@@ -124,12 +155,11 @@ impl Baseline {
             Err(error) => return Err(BaselineError::File { path: path.to_owned(), error }),
             Ok(text) => text,
         };
-        let baseline: Self =
-            serde_json::from_str(&text).map_err(|error| BaselineError::Malformed { path: path.to_owned(), error })?;
-        if baseline.schema == SCHEMA {
-            Ok(baseline)
-        } else {
-            Err(BaselineError::Schema { path: path.to_owned(), found: baseline.schema })
+        let malformed = |error| BaselineError::Malformed { path: path.to_owned(), error };
+        // Another schema has other keys, so its version is read alone.
+        match serde_json::from_str(&text).map_err(malformed)? {
+            Version { schema: SCHEMA } => serde_json::from_str(&text).map_err(malformed),
+            Version { schema } => Err(BaselineError::Schema { path: path.to_owned(), found: schema }),
         }
     }
 
@@ -143,30 +173,67 @@ impl Baseline {
             .map_err(|error| BaselineError::File { path: path.to_owned(), error })
     }
 
-    /// Every guarded number of these studies that is not what it was: moved, new or vanished.
+    /// Every guarded number of these studies that is not what it was, and every claim: moved, changed, new or vanished.
     ///
-    /// * `known`: the ids of all studies that there are, run or not. A study of the baseline that is not among
-    ///   them has vanished; `None` where only a selection is of interest.
-    pub fn compare(&self, finished: &[Finished], known: Option<&BTreeSet<String>>) -> Vec<Change> {
+    /// * `known`: the headers of all studies that there are, run or not: claims are compared for all of them, numbers for those
+    ///   that were run. A study of the baseline that is not among them has vanished; `None` where only a selection is of interest.
+    pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
         for Finished { header, outcome, .. } in finished {
+            changes.extend(self.changed_claims(header));
             let expected = self.studies.get(&header.id).unwrap_or(&none);
             changes.extend(change::between(&header.id, expected, &outcome.quantities));
         }
-        let vanished = self.studies.iter().filter(|(id, _)| known.is_some_and(|known| !known.contains(*id)));
-        vanished.for_each(|(id, expected)| changes.extend(change::between(id, expected, &[])));
+        let was_run = |id: &str| finished.iter().any(|finished| finished.header.id == id);
+        let others = known.unwrap_or_default().iter().filter(|header| !was_run(&header.id));
+        changes.extend(others.flat_map(|header| self.changed_claims(header)));
+        for id in self.vanished(known) {
+            changes.extend(self.claims.get(&id).and_then(|claims| claims::vanished(&id, claims)));
+            changes.extend(change::between(&id, self.studies.get(&id).unwrap_or(&none), &[]));
+        }
         changes
     }
 
-    /// Takes the numbers of these studies that have moved, or are new, for the baseline; all others keep their digits.
+    fn changed_claims(&self, header: &Header) -> Vec<Change> {
+        claims::changes(header, self.claims.get(&header.id))
+    }
+
+    /// The ids of studies that the baseline has and that there are no more.
+    fn vanished(&self, known: Option<&[Header]>) -> Vec<String> {
+        let Some(known) = known else { return vec![] };
+        let known: BTreeSet<&String> = known.iter().map(|header| &header.id).collect();
+        let blessed: BTreeSet<&String> = self.claims.keys().chain(self.studies.keys()).collect();
+        blessed.difference(&known).map(|id| (*id).clone()).collect()
+    }
+
+    /// Takes the numbers of these studies that have moved, or are new, for the baseline; all others keep their digits. So do
+    /// the claims of these studies, which keep their reasons.
     ///
-    /// * `known`: as for [`Baseline::compare`]; studies that have vanished are forgotten.
+    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are forgotten, their claims withdrawn.
+    /// * `reason`: why claims have changed or vanished; not asked for where none has, nor for a study that is new.
     ///
     /// # Errors
     /// [`Refusal`], and the baseline stays as it was.
-    pub fn bless(&mut self, finished: &[Finished], known: Option<&BTreeSet<String>>) -> Result<(), Refusal> {
+    pub fn bless(
+        &mut self,
+        finished: &[Finished],
+        known: Option<&[Header]>,
+        reason: Option<&str>,
+    ) -> Result<(), Refusal> {
         finished.iter().try_for_each(acceptable)?;
+        let vanished = self.vanished(known);
+        if reason.is_none() {
+            self.without_a_reason(finished, &vanished)?;
+        }
+        for id in &vanished {
+            self.studies.remove(id);
+            self.claims.get_mut(id).into_iter().for_each(|claims| claims::withdraw(claims, reason));
+        }
+        for Finished { header, .. } in finished {
+            claims::bless(header, self.claims.entry(header.id.clone()).or_default(), reason);
+        }
+        self.claims.retain(|_, claims| !claims.is_empty());
         for Finished { header, outcome, .. } in finished {
             let former = self.studies.remove(&header.id).unwrap_or_default();
             // A number that has not moved keeps its digits: a blessing changes what it is asked to change.
@@ -177,8 +244,24 @@ impl Baseline {
             });
             self.studies.insert(header.id.clone(), guarded.collect());
         }
-        self.studies.retain(|id, guarded| !guarded.is_empty() && known.is_none_or(|known| known.contains(id)));
+        self.studies.retain(|_, guarded| !guarded.is_empty());
         Ok(())
+    }
+
+    /// Refuses every change of a claim.
+    fn without_a_reason(&self, finished: &[Finished], vanished: &[String]) -> Result<(), Refusal> {
+        let changed = finished.iter().flat_map(|finished| self.changed_claims(&finished.header));
+        let gone = vanished.iter().filter_map(|id| claims::vanished(id, self.claims.get(id)?));
+        let changes: Vec<Change> = changed.chain(gone).filter(|change| change.movement.needs_a_reason()).collect();
+        if changes.is_empty() {
+            return Ok(());
+        }
+        Err(Refusal::NoReason { claims: changes.iter().map(|change| visible::visible(&change.to_string())).collect() })
+    }
+
+    /// A claim as it was blessed: of a study, by its dotted path.
+    pub fn claim(&self, id: &str, path: &str) -> Option<&Claim> {
+        self.claims.get(id)?.get(path)
     }
 
     /// Number of guarded numbers of a study.

@@ -60,7 +60,7 @@ fn baseline(changes: &[Change]) -> TestSuite {
         suite.add_test_case(case("baseline", "all baseline values unchanged", Verdict::Pass, ""));
     }
     for change in changes {
-        let name = format!("{}: {}", change.study, change.name);
+        let name = format!("{}: {}", change.study, change.subject());
         suite.add_test_case(case("baseline", &name, Verdict::Fail, &change.movement.to_string()));
     }
     suite

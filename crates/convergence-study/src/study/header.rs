@@ -45,6 +45,9 @@ pub struct Header {
     pub kind: String,
     /// What sort of thing is claimed, under which reports list the study; the kind where the file does not say.
     pub group: String,
+    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of [`Section::settings`]: the
+    /// baseline keeps them, so that no claim changes unseen. Empty for a study that no file describes.
+    pub settings: Vec<(String, String)>,
 }
 
 impl Header {
@@ -59,6 +62,7 @@ impl Header {
             tier: Tier::Quick,
             kind: DEFAULT_KIND.to_owned(),
             group: DEFAULT_KIND.to_owned(),
+            settings: Vec::new(),
         }
     }
 
@@ -79,7 +83,7 @@ impl Header {
         input::parse(text, file_name, Self::from_document)
     }
 
-    /// Reads `[study]` of a document.
+    /// Reads `[study]` of a document, and takes down every value of the document.
     ///
     /// # Errors
     /// As [`Header::parse`].
@@ -94,6 +98,7 @@ impl Header {
             tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
             group: if study.get("group").is_some() { line(&study, "group")? } else { kind.clone() },
             kind,
+            settings: root.settings(),
         })
     }
 }

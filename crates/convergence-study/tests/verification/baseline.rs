@@ -8,7 +8,7 @@ use crate::fake::{Does, Fake, fake, finished, ids, study};
 
 fn blessed(studies: Vec<Fake>) -> Baseline {
     let mut baseline = Baseline::default();
-    baseline.bless(&run(studies), None).unwrap();
+    baseline.bless(&run(studies), None, None).unwrap();
     baseline
 }
 
@@ -19,7 +19,7 @@ fn run(studies: Vec<Fake>) -> Vec<Finished> {
 /// The changes in words.
 fn changes(baseline: &Baseline, studies: Vec<Fake>, known: Option<&[&str]>) -> Vec<String> {
     let known = known.map(ids);
-    baseline.compare(&run(studies), known.as_ref()).iter().map(ToString::to_string).collect()
+    baseline.compare(&run(studies), known.as_deref()).iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_changed_tolerance_is_reported_and_not_applied() {
 fn nan_in_the_baseline_meets_nothing_not_even_nan() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("baseline.json");
-    let text = r#"{ "schema": 1, "studies": { "a": { "finest error": { "value": null, "tolerance": 0.001 } } } }"#;
+    let text = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": null, "tolerance": 0.001 } } } }"#;
     fs::write(&file, text).unwrap();
     let baseline = Baseline::read(&file).unwrap();
     for scale in [1.0, f64::NAN] {
@@ -89,7 +89,8 @@ fn a_run_that_does_not_pass_is_not_blessed() {
     for (does, verdict) in [(Does::Stay, "fail"), (Does::TooShort, "inconclusive"), (Does::Nothing, "inconclusive")] {
         let mut baseline = blessed(vec![fake("a", Does::Converge)]);
         let before = baseline.clone();
-        let refused = baseline.bless(&finished(vec![study("b", Does::Converge), study("a", does)]), None).unwrap_err();
+        let refused =
+            baseline.bless(&finished(vec![study("b", Does::Converge), study("a", does)]), None, None).unwrap_err();
         assert!(refused.to_string().contains(&format!("the verdict on `a` is {verdict}")), "{refused}");
         assert_eq!(baseline, before);
     }
@@ -102,7 +103,7 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
     {
         let mut run = run(vec![fake("a", Does::Converge)]);
         run[0].outcome.quantities.push(Quantity { name: "odd".into(), value, tolerance });
-        let refused = Baseline::default().bless(&run, None).unwrap_err();
+        let refused = Baseline::default().bless(&run, None, None).unwrap_err();
         assert!(matches!(&refused, Refusal::NotComparable { name, .. } if name == "odd"), "{refused}");
     }
 }
@@ -110,14 +111,32 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
 #[test]
 fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
     let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
-    baseline.bless(&run(vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }]), None).unwrap();
+    baseline.bless(&run(vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }]), None, None).unwrap();
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 1));
     assert!(
         changes(&baseline, vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }, fake("b", Does::Converge)], None)
             .is_empty()
     );
-    baseline.bless(&run(vec![fake("a", Does::Converge)]), Some(&ids(&["a"]))).unwrap();
+    baseline.bless(&run(vec![fake("a", Does::Converge)]), Some(&ids(&["a"])), None).unwrap();
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 0));
+}
+
+#[test]
+fn a_number_that_did_not_move_keeps_its_digits_when_others_are_blessed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    let text = |baseline: &Baseline| {
+        baseline.write(&file).unwrap();
+        fs::read_to_string(&file).unwrap()
+    };
+    let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
+    let before = text(&baseline);
+    assert_eq!(before.matches("0.00234375,").count(), 2, "{before}");
+    // Within the tolerance of 1e-3, `a` has other digits; `b` has moved.
+    let scaled = |id, scale| Fake { scale, ..fake(id, Does::Converge) };
+    baseline.bless(&run(vec![scaled("a", 1.0005), scaled("b", 2.0)]), None, None).unwrap();
+    let after = text(&baseline);
+    assert_eq!(after, before.replacen("0.00234375,", "0.0046875,", 2).replacen("0.0046875,", "0.00234375,", 1));
 }
 
 #[test]
@@ -134,14 +153,18 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("baseline.json");
     assert_eq!(Baseline::read(&file).unwrap(), Baseline::default());
-    for text in ["", "{}", "[1", r#"{ "schema": 1, "studies": {}, "more": 1 }"#] {
+    for text in ["", "{}", "[1", r#"{ "schema": 2, "claims": {}, "studies": {}, "more": 1 }"#] {
         fs::write(&file, text).unwrap();
         let refused = Baseline::read(&file).unwrap_err();
         assert!(matches!(refused, BaselineError::Malformed { .. }), "{text}");
         assert!(refused.to_string().contains("baseline.json: "), "{refused}");
     }
-    fs::write(&file, r#"{ "schema": 2, "studies": {} }"#).unwrap();
-    assert!(Baseline::read(&file).unwrap_err().to_string().ends_with("schema: found 2; allowed is 1"));
+    for version in [1, 3] {
+        fs::write(&file, format!(r#"{{ "schema": {version}, "studies": {{}} }}"#)).unwrap();
+        let refused = Baseline::read(&file).unwrap_err().to_string();
+        assert!(refused.contains(&format!("schema: found {version}; expected 2")), "{refused}");
+        assert!(refused.contains("run `verify --bless`, then `verify --tier full --bless`"), "{refused}");
+    }
 }
 
 #[cfg(unix)]

@@ -1,6 +1,5 @@
 //! Small studies with a prescribed behaviour.
 
-use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -142,11 +141,13 @@ pub(crate) fn finished(studies: Vec<Box<dyn Study>>) -> Vec<Finished> {
     run::run(&studies, jobs(2), &|_| {}).unwrap()
 }
 
-pub(crate) fn ids(ids: &[&str]) -> BTreeSet<String> {
-    ids.iter().map(|id| (*id).to_owned()).collect()
+/// Headers of studies with these ids.
+pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
+    ids.iter().map(|id| fake(id, Does::Converge).header).collect()
 }
 
 /// A verification of the quick tier in which there are these studies.
 pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
-    Request { scope: Scope::Tier(Tier::Quick, ids(known)), effort: jobs(2).into(), bless: false, root: root.to_owned() }
+    let scope = Scope::Tier(Tier::Quick, ids(known));
+    Request { scope, effort: jobs(2).into(), bless: false, reason: None, root: root.to_owned() }
 }

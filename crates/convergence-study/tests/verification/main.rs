@@ -2,6 +2,7 @@
 
 mod baseline;
 mod browser;
+mod claims;
 mod fake;
 mod file_set;
 mod page;

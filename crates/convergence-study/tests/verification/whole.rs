@@ -53,7 +53,7 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
     assert!(failing.blessing.unwrap().is_err());
     assert_eq!(fs::read(&file).unwrap(), before);
     // Nor does a baseline that agrees with what the failing study finds.
-    let agreeing = r#"{ "schema": 1, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
+    let agreeing = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
     fs::write(&file, agreeing).unwrap();
     let agreed = run(vec![study("a", Does::Stay)], &request(root.path(), &["a"]));
     assert_eq!((agreed.changes.len(), agreed.verdict), (0, Verdict::Fail));

@@ -122,7 +122,7 @@ impl Choice {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unreachable {
     /// The target is not a positive number.
-    #[error("target error {target}: allowed is a finite number > 0")]
+    #[error("target error {target}: expected a finite number > 0")]
     Target {
         /// As asked for.
         target: f64,

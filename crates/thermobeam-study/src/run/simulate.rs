@@ -126,6 +126,19 @@ pub struct EnergySummary {
     pub largest_balance_residual: f64,
 }
 
+/// The rise of the energy in one step that is no longer taken for round-off or a loose tolerance, in parts of the initial
+/// energy, or of 1 where that is less: every step of both schemes lowers the energy, or leaves it.
+const RISE: f64 = 1e-3;
+
+impl EnergySummary {
+    /// The largest rise of the energy in a step where it is far beyond what rounding and tolerance explain: the numbers of such a
+    /// run mean nothing. `None` for a sound run, and where no step was done.
+    pub fn rise(&self, steps: usize) -> Option<f64> {
+        let is_sound = self.largest_increase <= RISE * self.initial.abs().max(1.0);
+        (steps > 0 && !is_sound).then_some(self.largest_increase)
+    }
+}
+
 /// What to keep beside the summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Recording {
@@ -352,6 +365,19 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rise_of_the_energy_beyond_rounding_is_told_and_nan_is_one() {
+        let rise = |initial, largest_increase, steps| {
+            EnergySummary { initial, last: 0.0, largest_increase, largest_balance_residual: 0.0 }.rise(steps)
+        };
+        for sound in [-1.0, 0.0, 1e-12, 9e-4] {
+            assert_eq!(rise(0.5, sound, 1), None, "{sound}");
+        }
+        assert_eq!([rise(0.5, 2e-3, 1), rise(100.0, 2e-3, 1), rise(0.5, 1e264, 7)], [Some(2e-3), None, Some(1e264)]);
+        assert!(rise(0.5, f64::NAN, 1).is_some_and(f64::is_nan));
+        assert_eq!(rise(0.5, f64::NAN, 0), None, "no step was done");
+    }
 
     #[test]
     fn the_middle_is_interpolated_where_it_is_no_node() {

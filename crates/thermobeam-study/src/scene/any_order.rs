@@ -217,7 +217,7 @@ mod tests {
             (
                 "",
                 "dt = 0.1\nrestart_dt = 0.2",
-                "time.restart_dt: found 0.2; allowed is a number > 0 and at most dt = 0.1",
+                "time.restart_dt: found 0.2; expected a number > 0 and at most dt = 0.1",
             ),
             ("", "growth = 0.5", "time.growth"),
             ("", "solver = \"newton\"", "unknown key `solver`"),

@@ -192,6 +192,9 @@ fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {
         MeshError::NotIncreasing { index, previous, .. } => {
             items[index].refuse_as_written(format!("a number > {previous:?}, the node before"))
         }
+        MeshError::TooClose { index, previous, .. } => {
+            items[index].refuse_as_written(format!("a node further from {previous:?}, the one before: 1/h overflows"))
+        }
     })
 }
 

@@ -107,6 +107,10 @@ pub(crate) fn checked_mesh(mesh: Result<Mesh, MeshError>, field: &Field<'_>) -> 
             let nodes = format!("nodes {} and {index} at {previous:?} and {found:?}", index - 1);
             field.refuse(nodes, "a map that increases strictly")
         }
+        MeshError::TooClose { index, previous, found } => {
+            let nodes = format!("nodes {} and {index} at {previous:?} and {found:?}", index - 1);
+            field.refuse(nodes, "a map whose nodes are far enough apart: 1/h overflows")
+        }
         MeshError::TooFew { elements } => field.refuse(format!("{elements} elements"), "at least 1"),
     })
 }

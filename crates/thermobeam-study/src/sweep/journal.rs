@@ -133,11 +133,12 @@ pub struct Journal {
 impl Journal {
     /// Opens the folder of a share, and creates it if necessary.
     ///
-    /// * `resume`: whether to continue what the folder holds.
+    /// * `resume`: whether to continue what the folder holds, every line of which must be one of a case of this share.
     ///
     /// # Errors
     /// [`SweepError`]; nothing has been written then, except where the disk fails.
-    pub fn open(folder: &Path, manifest: &Manifest, resume: bool) -> Result<Self, SweepError> {
+    pub fn open(folder: &Path, sweep: &Sweep, share: Share, resume: bool) -> Result<Self, SweepError> {
+        let manifest = &Manifest::new(sweep, share);
         let found = Manifest::read(folder)?;
         if let Some(found) = &found {
             if !resume {
@@ -170,15 +171,21 @@ impl Journal {
         }
         let mut journal =
             Self { path, results, file, done: vec![false; manifest.cases], failed: 0, is_complete: false };
-        journal.read_done()?;
+        journal.read_done(sweep, share)?;
         Ok(journal)
     }
 
     /// Reads which cases are done, and removes an incomplete last line.
-    fn read_done(&mut self) -> Result<(), SweepError> {
+    fn read_done(&mut self, sweep: &Sweep, share: Share) -> Result<(), SweepError> {
         self.is_complete = self.results.exists();
         let source = if self.is_complete { &self.results } else { &self.path };
-        let (mut places, end) = lines::places(source, 0, self.done.len())?;
+        let is_of_the_share = |place: &Place, line: &[u8]| {
+            let case = sweep.case(place.case);
+            let is_held = share.holds(case.hash());
+            place.is_of(line, &case)?;
+            if is_held { Ok(()) } else { Err(format!("expected a case of the share {share}, found {}", place.case)) }
+        };
+        let (mut places, end) = lines::places(source, 0, self.done.len(), is_of_the_share)?;
         lines::sort(&mut places, std::slice::from_ref(source))?;
         // A process killed after writing the results leaves a journal beside them, all of which they hold.
         let keep = if self.is_complete { 0 } else { end };
@@ -226,7 +233,7 @@ impl Journal {
             [&self.results, &self.path].into_iter().filter(|file| file.exists()).cloned().collect();
         let mut places = vec![];
         for (index, file) in files.iter().enumerate() {
-            places.extend(lines::places(file, index, self.done.len())?.0);
+            places.extend(lines::places(file, index, self.done.len(), |_, _| Ok(()))?.0);
         }
         lines::sort(&mut places, &files)?;
         lines::copy(&places, &files, &self.results)?;

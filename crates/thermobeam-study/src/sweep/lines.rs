@@ -1,4 +1,6 @@
-//! Lines of results in files: finding, sorting and copying them.
+//! Lines of results in files: finding, checking, sorting and copying them.
+//!
+//! A line ends with the hash of what comes before, so that one that was changed since it was written is noticed.
 //!
 //! The lines stay on disk; memory holds their positions, 40 bytes a case.
 
@@ -8,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::SweepError;
+use super::{SweepCase, SweepError, content_hash};
 use convergence_study::store::atomic;
 
 /// Where a line is.
@@ -28,8 +30,50 @@ struct Head<'a> {
     status: &'a str,
 }
 
+/// A JSON object with the hash of its text as the last key.
+pub(super) fn sealed(object: &str) -> String {
+    let content = object.strip_suffix('}').unwrap_or(object);
+    format!("{content},\"hash\":\"{:016x}\"}}", content_hash(content.as_bytes()))
+}
+
+/// Refuses a line whose hash is not that of its content.
+fn is_as_written(line: &[u8]) -> Result<(), String> {
+    const BESIDES: usize = ",\"hash\":\"0123456789abcdef\"}\n".len();
+    let content = &line[..line.len().saturating_sub(BESIDES)];
+    let expected = format!("{:016x}", content_hash(content));
+    if line[content.len()..] == *format!(",\"hash\":\"{expected}\"}}\n").as_bytes() {
+        return Ok(());
+    }
+    Err(format!(
+        "expected the hash {expected} of the line's content at its end, found another: the line was changed since it was \
+         written; remove it, and --resume computes its case again"
+    ))
+}
+
+impl Place {
+    /// Refuses a line that is not one of this case: the numbers that vary are those of the sweep.
+    pub(super) fn is_of(&self, line: &[u8], case: &SweepCase<'_>) -> Result<(), String> {
+        let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
+        let status = if self.passed { "done" } else { "failed" };
+        let expected = format!("{{\"case\":{},\"status\":\"{status}\",\"parameters\":{parameters}", case.index);
+        let found = line.strip_prefix(expected.as_bytes()).and_then(|rest| rest.first());
+        if found == Some(&b',') {
+            Ok(())
+        } else {
+            Err(format!("expected a line that begins with {expected}, which is case {} of this sweep", case.index))
+        }
+    }
+}
+
 /// The places of all complete lines of a file, and the offset at which they end; an incomplete line may follow.
-pub(super) fn places(path: &Path, file: usize, cases: usize) -> Result<(Vec<Place>, u64), SweepError> {
+///
+/// * `check`: what else a line has to meet, or what is wrong with it.
+pub(super) fn places(
+    path: &Path,
+    file: usize,
+    cases: usize,
+    check: impl Fn(&Place, &[u8]) -> Result<(), String>,
+) -> Result<(Vec<Place>, u64), SweepError> {
     let mut reader = BufReader::new(File::open(path).map_err(|error| atomic::naming(path, &error))?);
     let (mut places, mut offset, mut line) = (vec![], 0, vec![]);
     loop {
@@ -45,7 +89,9 @@ pub(super) fn places(path: &Path, file: usize, cases: usize) -> Result<(Vec<Plac
         if head.case >= cases {
             return Err(damaged(format!("expected a case below {cases}, the number of cases, found {}", head.case)));
         }
-        places.push(Place { case: head.case, passed: head.status == "done", file, offset, bytes });
+        let place = Place { case: head.case, passed: head.status == "done", file, offset, bytes };
+        is_as_written(&line).and_then(|()| check(&place, &line)).map_err(damaged)?;
+        places.push(place);
         offset += bytes;
     }
 }

@@ -9,7 +9,7 @@ use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
-use super::{Sweep, SweepCase};
+use super::{Sweep, SweepCase, lines};
 use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use crate::scene::Scene;
 use convergence_study::run::time_limit;
@@ -62,7 +62,7 @@ impl Line {
     fn of(content: &Content<'_>) -> Self {
         // Structs of numbers and texts always serialise.
         let json = serde_json::to_string(content).unwrap_or_else(|error| unreachable!("{error}"));
-        Self { case: content.case, passed: content.reason.is_none(), json }
+        Self { case: content.case, passed: content.reason.is_none(), json: lines::sealed(&json) }
     }
 }
 

@@ -45,7 +45,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         missed += 1;
         assert!(error.place.is_some() && error.field.is_some(), "{error}");
         let begin = format!("{}:", alone.display());
-        says(&error.to_string(), &[&begin, "found the text \"", "allowed is the name of a file, relative to this"]);
+        says(&error.to_string(), &[&begin, "found the text \"", "expected the name of a file, relative to this"]);
     }
     assert!(missed > 10, "{missed} studies name files");
 }
@@ -54,7 +54,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
 fn bytes_that_are_not_text_are_shown_where_they_are() {
     let path = file("latin-1.toml", b"[beam]\n# \xe4\n");
     let message = Scene::read(&path).expect_err("not UTF-8").to_string();
-    says(&message, &["latin-1.toml:2:3: found the byte 0xe4; allowed is UTF-8 text"]);
+    says(&message, &["latin-1.toml:2:3: found the byte 0xe4; expected UTF-8 text"]);
 }
 
 #[test]

@@ -39,9 +39,9 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
         // Times of events may differ by ten times as much.
         fails("the time of an event", &|found| found.events[1].t += 10.0 * by);
     }
-    fails("a missing event", &|found| drop(found.events.pop()));
+    fails("a missing event", &|found| _ = found.events.pop());
     fails("an event the other way round", &|found| found.events[0].to = found.events[0].from);
-    fails("a missing state", &|found| drop(found.states.pop()));
+    fails("a missing state", &|found| _ = found.states.pop());
     fails("a balance that does not close", &|found| found.balance[0] = 1e-11);
     fails("an energy that grows", &|found| found.balance[1] = 1e-15);
     fails("a curve with a hole", &|found| found.tip[7].1 = f64::NAN);

@@ -94,7 +94,7 @@ fn the_closed_form_can_fail() {
 fn a_file_that_makes_no_sense_is_refused_where_it_does_not() {
     refused(|text| text.replace("a = 0.0", "a = 0.1"), "beam.a: found 0.1");
     refused(|text| text.replace("rho = 0.0\n", ""), "beam.rho: found 1.0");
-    refused(|text| text.replace("index = 2", "index = 17"), "found 17; allowed is a whole number >= 1 and <= 16");
+    refused(|text| text.replace("index = 2", "index = 17"), "found 17; expected a whole number >= 1 and <= 16");
     refused(|text| text.replace("amplitude = 0.1", "amplitude = 0.0"), "a mode that does not move");
     refused(|text| text.replace("[[mode]]", "[[modes]]"), "unknown key `modes`, did you mean `mode`?");
     refused(|text| text.replace("isolate", "isolated"), "isolated");

@@ -1,5 +1,7 @@
 //! Frequencies of the beam with P1 elements on any mesh.
 
+use std::convert::Infallible;
+
 use crate::bracket::bisect;
 use crate::mesh::Mesh;
 use thiserror::Error;
@@ -35,18 +37,42 @@ struct Symmetric {
 /// # Errors
 /// [`SpectrumError`] if `count` is more than 2n.
 pub fn discrete_frequencies(mesh: &Mesh, count: usize) -> Result<Vec<f64>, SpectrumError> {
+    let whole = discrete_frequencies_until(mesh, count, |_| Ok::<(), Infallible>(()))?;
+    Ok(whole.unwrap_or_else(|never| match never {}))
+}
+
+/// As [`discrete_frequencies`], and `may_go_on` is asked before each count of the bisection, which takes O(n) operations.
+///
+/// * `may_go_on(i)`: i frequencies are known; its error ends the computation.
+/// * Returns the frequencies, or the error of `may_go_on`.
+///
+/// # Errors
+/// [`SpectrumError`] if `count` is more than 2n.
+pub fn discrete_frequencies_until<E>(
+    mesh: &Mesh,
+    count: usize,
+    mut may_go_on: impl FnMut(usize) -> Result<(), E>,
+) -> Result<Result<Vec<f64>, E>, SpectrumError> {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let available = 2 * lengths.len();
     if count > available {
         return Err(SpectrumError { count, available });
     }
     let highest = spectral_bound(&lengths);
-    let below = |index: usize| {
+    let mut stopped = None;
+    let mut below = |index: usize| {
         // Positive if more than `index` frequencies lie below omega.
-        let excess = |omega: f64| if count_below(&lengths, omega * omega) > index { 1.0 } else { -1.0 };
-        bisect(excess, 0.0, highest)
+        let excess = |omega: f64| {
+            if stopped.is_none() {
+                stopped = may_go_on(index).err();
+            }
+            // After the end, bisection runs out without a count, which takes no time.
+            if stopped.is_none() && count_below(&lengths, omega * omega) > index { 1.0 } else { -1.0 }
+        };
+        let found = bisect(excess, 0.0, highest);
+        stopped.take().map_or(Ok(found), Err)
     };
-    Ok((0..count).map(below).collect())
+    Ok((0..count).map(&mut below).collect())
 }
 
 /// An upper bound of all ω: on each element `‖w'‖² <= 12/h² ‖w‖²` and `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`.
@@ -128,6 +154,28 @@ mod tests {
         assert_eq!((negative, inverse.a, inverse.d * square), (2, 0.0, -0.25));
         let (negative, inverse) = invert(Symmetric { a: 0.0, b: 0.0, d: 0.0 });
         assert_eq!((negative, inverse.a, inverse.d), (0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn the_bisection_ends_when_it_is_told_to_and_changes_nothing_else() {
+        let mesh = Mesh::uniform(8).unwrap();
+        let whole = discrete_frequencies(&mesh, 3).unwrap();
+        let mut asked = vec![];
+        let counted = discrete_frequencies_until(&mesh, 3, |known| -> Result<(), ()> {
+            asked.push(known);
+            Ok(())
+        });
+        assert_eq!(counted, Ok(Ok(whole)));
+        assert!(asked.is_sorted() && asked.len() > 3 * 50 && asked.last() == Some(&2), "{asked:?}");
+        for most in [0, 1, asked.len() / 2, asked.len() - 1] {
+            let mut calls = 0;
+            let stopped = discrete_frequencies_until(&mesh, 3, |known| {
+                calls += 1;
+                if calls > most { Err(known) } else { Ok(()) }
+            });
+            assert_eq!(stopped, Ok(Err(asked[most])), "{most}");
+            assert_eq!(calls, most + 1, "it is not asked again");
+        }
     }
 
     #[test]

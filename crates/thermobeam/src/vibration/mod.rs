@@ -68,7 +68,7 @@ use crate::stumpff::{c0, c1};
 use std::f64::consts::FRAC_PI_2;
 
 pub use damped::{DampedMode, TimeFactor};
-pub use discrete::{SpectrumError, discrete_frequencies};
+pub use discrete::{SpectrumError, discrete_frequencies, discrete_frequencies_until};
 
 /// The `count` lowest frequencies ω, in increasing order.
 pub fn frequencies(count: usize) -> Vec<f64> {

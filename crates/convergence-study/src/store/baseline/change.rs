@@ -7,19 +7,30 @@ use super::Guarded;
 use crate::study::outcome::Quantity;
 use crate::text::number::plain_text;
 
-/// A guarded number that changed.
+/// A guarded number or a claim that changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// The study.
     pub study: String,
-    /// The quantity.
+    /// The quantity, or the dotted path of the claim.
     pub name: String,
     /// What happened to it.
     pub movement: Movement,
 }
 
-/// What happened to a guarded number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl Change {
+    pub(super) fn new(study: &str, name: &str, movement: Movement) -> Self {
+        Self { study: study.to_owned(), name: name.to_owned(), movement }
+    }
+
+    /// What changed, in words: the quantity, or `claim PATH`.
+    pub fn subject(&self) -> String {
+        if self.movement.is_of_one_claim() { format!("claim {}", self.name) } else { self.name.clone() }
+    }
+}
+
+/// What happened to a guarded number or to a claim.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Movement {
     /// It changed by more than is tolerated.
     Moved {
@@ -47,11 +58,43 @@ pub enum Movement {
         /// The baseline's value.
         value: f64,
     },
+    /// A value of the study's file is another one, is new or has vanished.
+    Claim {
+        /// The value that was blessed; nothing where there was none.
+        from: Option<String>,
+        /// The value in the file; nothing where there is none.
+        to: Option<String>,
+    },
+    /// The baseline knows no claim of the study.
+    NewFile {
+        /// How many values its file has.
+        values: usize,
+    },
+    /// The study's file is no longer there.
+    VanishedFile {
+        /// How many values it had.
+        values: usize,
+    },
 }
 
 impl Movement {
+    /// Whether it is about one value of a study file.
+    pub fn is_of_one_claim(&self) -> bool {
+        matches!(self, Self::Claim { .. })
+    }
+
+    /// Whether it is about what study files claim, not about a guarded number.
+    pub fn is_of_claims(&self) -> bool {
+        matches!(self, Self::Claim { .. } | Self::NewFile { .. } | Self::VanishedFile { .. })
+    }
+
+    /// Whether a blessing has to say why: a claim was changed or withdrawn.
+    pub fn needs_a_reason(&self) -> bool {
+        matches!(self, Self::Claim { .. } | Self::VanishedFile { .. })
+    }
+
     /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite where old and new
-    /// value cannot be compared, 0 for a new number.
+    /// value cannot be compared, 0 for what is new.
     pub fn weight(&self) -> f64 {
         match *self {
             Self::Moved { from, to, tolerance } => {
@@ -59,7 +102,8 @@ impl Movement {
                 if times.is_nan() { f64::INFINITY } else { times }
             }
             Self::Tolerance { .. } | Self::Vanished { .. } => f64::INFINITY,
-            Self::New { .. } => 0.0,
+            Self::Claim { .. } | Self::VanishedFile { .. } => f64::INFINITY,
+            Self::New { .. } | Self::NewFile { .. } => 0.0,
         }
     }
 }
@@ -71,7 +115,7 @@ pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
 
 /// The changes of one study: in the run's order, then what has vanished.
 pub(super) fn between(study: &str, expected: &BTreeMap<String, Guarded>, found: &[Quantity]) -> Vec<Change> {
-    let change = |name: &String, movement| Change { study: study.to_owned(), name: name.clone(), movement };
+    let change = |name: &String, movement| Change::new(study, name, movement);
     let mut changes = Vec::new();
     for quantity in found {
         match expected.get(&quantity.name) {
@@ -102,17 +146,24 @@ fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} {}", self.study, self.name, self.movement)
+        let colon = if self.movement.is_of_one_claim() { ":" } else { "" };
+        write!(f, "{}: {}{colon} {}", self.study, self.subject(), self.movement)
     }
 }
 
 impl fmt::Display for Movement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Moved { from, to, tolerance } => moved(f, from, to, tolerance),
+        match self {
+            Self::Moved { from, to, tolerance } => moved(f, *from, *to, *tolerance),
             Self::Tolerance { from, to } => write!(f, "has another tolerance: was {from:e}, is {to:e}"),
-            Self::New { value } => write!(f, "is new: {}", plain_text(value)),
-            Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(value)),
+            Self::New { value } => write!(f, "is new: {}", plain_text(*value)),
+            Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(*value)),
+            Self::Claim { from, to } => {
+                let [from, to] = [from, to].map(|value| value.as_deref().unwrap_or("absent"));
+                write!(f, "was {from}, is {to}")
+            }
+            Self::NewFile { values } => write!(f, "is new: {values} values"),
+            Self::VanishedFile { values } => write!(f, "has vanished: had {values} values"),
         }
     }
 }

@@ -3,7 +3,7 @@
 use convergence_study::run::time_limit::Patience;
 use convergence_study::study::{Case, CaseFailure};
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::vibration::discrete_frequencies;
+use thermobeam::vibration::discrete_frequencies_until;
 
 use super::Frequencies;
 
@@ -20,7 +20,7 @@ pub(super) fn cases(study: &Frequencies) -> Vec<Case<usize>> {
 }
 
 pub(super) fn run(study: &Frequencies, elements: usize) -> Result<Vec<f64>, CaseFailure> {
-    // The solver knows no clock: a time limit is noticed before the mesh is taken up, not within it.
-    Patience::of_long_rounds().check(0, || 0.0)?;
-    Ok(discrete_frequencies(&study.mesh(elements)?, study.count)?)
+    // Each count of the bisection goes over all elements, as a step does.
+    let mut patience = Patience::new(elements);
+    Ok(discrete_frequencies_until(&study.mesh(elements)?, study.count, |known| patience.check(known, || 0.0))??)
 }

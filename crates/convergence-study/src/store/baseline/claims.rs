@@ -1,0 +1,84 @@
+//! What study files claim, value by value: a claim changes only where a reason is given.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::change::{Change, Movement};
+use crate::study::Header;
+
+/// The name under which a study file is new or has vanished as a whole.
+const WHOLE_FILE: &str = "study file";
+
+/// The value that stands for a whole file after it has vanished.
+const ID: &str = "study.id";
+
+/// A value of a study file as it was blessed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// Its text in the form of [`Header::settings`]; `null` where it was withdrawn.
+    pub value: Option<String>,
+    /// Why it was changed or withdrawn; nothing for the first value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// The claims of one study, by the dotted path of the value.
+pub(super) type Claims = BTreeMap<String, Claim>;
+
+/// What differs between the claims as they were blessed and the file as it is: by path; one change for a file that is new.
+pub(super) fn changes(header: &Header, blessed: Option<&Claims>) -> Vec<Change> {
+    let Header { id, settings, .. } = header;
+    let standing = standing(blessed);
+    if standing.is_empty() {
+        let new = Change::new(id, WHOLE_FILE, Movement::NewFile { values: settings.len() });
+        return if settings.is_empty() { vec![] } else { vec![new] };
+    }
+    let mut paths: BTreeMap<&str, [Option<&str>; 2]> =
+        standing.into_iter().map(|(path, value)| (path, [Some(value), None])).collect();
+    for (path, value) in settings {
+        paths.entry(path).or_default()[1] = Some(value);
+    }
+    let changed = paths.into_iter().filter(|(_, [from, to])| from != to);
+    let change = |(path, [from, to]): (&str, [Option<&str>; 2])| {
+        Change::new(id, path, Movement::Claim { from: from.map(str::to_owned), to: to.map(str::to_owned) })
+    };
+    changed.map(change).collect()
+}
+
+/// The change of a study whose file has vanished; nothing where its claims were withdrawn before.
+pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<Change> {
+    let values = standing(Some(blessed)).len();
+    (values > 0).then(|| Change::new(id, WHOLE_FILE, Movement::VanishedFile { values }))
+}
+
+/// The values that have not been withdrawn.
+fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
+    let claims = blessed.into_iter().flatten();
+    claims.filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?))).collect()
+}
+
+/// Takes the values of a study's file. Those that have not changed keep the reason of an earlier change; the reason is that of
+/// the others, unless the whole file is new.
+pub(super) fn bless(header: &Header, blessed: &mut Claims, reason: Option<&str>) {
+    let reason = reason.filter(|_| !standing(Some(blessed)).is_empty()).map(str::to_owned);
+    for change in changes(header, Some(blessed)) {
+        if let Movement::Claim { to, .. } = change.movement {
+            blessed.insert(change.name, Claim { value: to, reason: reason.clone() });
+        }
+    }
+    if standing(Some(blessed)).is_empty() {
+        let first =
+            |(path, value): &(String, String)| (path.clone(), Claim { value: Some(value.clone()), reason: None });
+        blessed.extend(header.settings.iter().map(first));
+    }
+}
+
+/// Withdraws the claims of a study whose file has vanished: what stays is the reason.
+pub(super) fn withdraw(blessed: &mut Claims, reason: Option<&str>) {
+    if !standing(Some(blessed)).is_empty() {
+        blessed.clear();
+        blessed.insert(ID.to_owned(), Claim { value: None, reason: reason.map(str::to_owned) });
+    }
+}

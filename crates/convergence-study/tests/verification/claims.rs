@@ -1,0 +1,165 @@
+//! Claims: what a study file says is kept by the baseline, value by value.
+
+use std::fs;
+use std::path::Path;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::report::{blessing, sentence};
+use convergence_study::store::baseline::{Baseline, Change, Claim, Refusal};
+use convergence_study::store::junit::junit;
+use convergence_study::study::{Header, Study, Tier, erased};
+use convergence_study::verify::{Request, Scope, Verification, verify};
+
+use crate::fake::{Does, Fake, PROJECT, fake, finished, request};
+
+const CLAIMS: [(&str, &str); 3] =
+    [("study.tier", "\"quick\""), ("expect[0].order", "1"), ("expect[0].tolerance", "0.002")];
+
+/// The header of a study whose file has these values.
+fn header(id: &str, settings: &[(&str, &str)]) -> Header {
+    let settings = settings.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+    Header { settings, ..fake(id, Does::Converge).header }
+}
+
+fn study(header: &Header) -> Box<dyn Study> {
+    erased(Fake { header: header.clone(), ..fake("", Does::Converge) })
+}
+
+/// The claims with another value at a path; `None`: without that path.
+fn with(path: &str, value: Option<&'static str>) -> Header {
+    let mut settings = CLAIMS.to_vec();
+    settings.retain(|(of, _)| *of != path);
+    settings.extend(value.map(|value| (path.to_owned().leak() as &str, value)));
+    header("a", &settings)
+}
+
+fn blessed(headers: &[Header]) -> Baseline {
+    let mut baseline = Baseline::default();
+    baseline.bless(&finished(headers.iter().map(study).collect()), None, None).unwrap();
+    baseline
+}
+
+fn words(changes: &[Change]) -> Vec<String> {
+    changes.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn every_value_that_changed_is_named() {
+    let baseline = blessed(&[header("a", &CLAIMS)]);
+    for (path, value, expected) in [
+        ("expect[0].tolerance", Some("0.002"), None),
+        ("expect[0].tolerance", Some("0.49"), Some("a: claim expect[0].tolerance: was 0.002, is 0.49")),
+        ("study.tier", Some("\"full\""), Some("a: claim study.tier: was \"quick\", is \"full\"")),
+        ("expect[0].order", None, Some("a: claim expect[0].order: was 1, is absent")),
+        ("planted", Some("0.5"), Some("a: claim planted: was absent, is 0.5")),
+    ] {
+        let changes = baseline.compare(&finished(vec![study(&with(path, value))]), None);
+        assert_eq!(words(&changes), expected.map(str::to_owned).into_iter().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn claims_of_studies_that_are_not_run_are_compared_too() {
+    let [a, b, gone] = ["a", "b", "gone"].map(|id| header(id, &CLAIMS));
+    let baseline = blessed(&[a.clone(), b, gone]);
+    let loose = header("b", &[("expect[0].tolerance", "0.49"), CLAIMS[0], CLAIMS[1]]);
+    let known = [a.clone(), loose, header("new", &CLAIMS)];
+    let ran = finished(vec![study(&a)]);
+    let expected = [
+        "b: claim expect[0].tolerance: was 0.002, is 0.49",
+        "new: study file is new: 3 values",
+        "gone: study file has vanished: had 3 values",
+        "gone: finest error has vanished: was 0.00234375",
+    ];
+    let changes = baseline.compare(&ran, Some(&known));
+    assert_eq!(words(&changes), expected);
+    assert!(baseline.compare(&ran, None).is_empty(), "a selection looks at itself alone");
+    assert!(sentence(&ran, &changes).ends_with("; 3 claims changed, 1 baseline value changed"));
+    // What was not run is blessed by the tier that runs it.
+    assert_eq!(
+        blessing(&PROJECT, "cargo xtask verify", &ran, &changes),
+        "cargo xtask verify --tier full --bless --reason TEXT"
+    );
+    assert_eq!(blessing(&PROJECT, "c", &ran, &changes[2..]), "c --bless --reason TEXT");
+    assert_eq!(blessing(&PROJECT, "c", &ran, &changes[3..]), "c --bless");
+}
+
+#[test]
+fn a_changed_claim_is_blessed_with_a_reason_which_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    let mut baseline = blessed(&[header("a", &CLAIMS)]);
+    let before = baseline.clone();
+    let loose = with("expect[0].tolerance", Some("0.49"));
+    let ran = || finished(vec![study(&loose)]);
+    let refused = baseline.bless(&ran(), None, None).unwrap_err();
+    let listed = vec!["a: claim expect[0].tolerance: was 0.002, is 0.49".to_owned()];
+    assert_eq!(refused, Refusal::NoReason { claims: listed });
+    let said = refused.to_string();
+    assert!(said.contains("--bless --reason TEXT\n  a: claim expect[0].tolerance: was 0.002, is 0.49"), "{said}");
+    assert_eq!(baseline, before);
+
+    baseline.bless(&ran(), None, Some("three levels only")).unwrap();
+    // Another blessing leaves value and reason, whatever it is for.
+    baseline.bless(&ran(), None, Some("another")).unwrap();
+    baseline.bless(&ran(), None, None).unwrap();
+    baseline.write(&file).unwrap();
+    let baseline = Baseline::read(&file).unwrap();
+    let kept = Claim { value: Some("0.49".to_owned()), reason: Some("three levels only".to_owned()) };
+    assert_eq!(baseline.claim("a", "expect[0].tolerance"), Some(&kept));
+    assert_eq!(baseline.claim("a", "expect[0].order"), Some(&Claim { value: Some("1".to_owned()), reason: None }));
+    assert!(baseline.compare(&ran(), None).is_empty());
+}
+
+#[test]
+fn a_claim_or_a_study_is_withdrawn_with_a_reason_which_stays() {
+    let [a, b] = ["a", "b"].map(|id| header(id, &CLAIMS));
+    let mut baseline = blessed(&[a.clone(), b]);
+    let ran = || finished(vec![study(&a)]);
+    let refused = baseline.bless(&ran(), Some(std::slice::from_ref(&a)), None).unwrap_err();
+    assert!(refused.to_string().ends_with("\n  b: study file has vanished: had 3 values"), "{refused}");
+    baseline.bless(&ran(), Some(std::slice::from_ref(&a)), Some("b is a special case of a")).unwrap();
+    assert!(baseline.compare(&ran(), Some(std::slice::from_ref(&a))).is_empty());
+    let withdrawn = |reason: &str| Claim { value: None, reason: Some(reason.to_owned()) };
+    assert_eq!(baseline.claim("b", "study.id"), Some(&withdrawn("b is a special case of a")));
+    assert_eq!(baseline.guards("b"), 0);
+
+    let less = with("expect[0].order", None);
+    baseline.bless(&finished(vec![study(&less)]), None, Some("no theory")).unwrap();
+    assert_eq!(baseline.claim("a", "expect[0].order"), Some(&withdrawn("no theory")));
+    let back = baseline.compare(&ran(), None);
+    assert_eq!(words(&back), ["a: claim expect[0].order: was absent, is 1"]);
+}
+
+fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {
+    let scope = Scope::Tier(Tier::Quick, vec![header.clone()]);
+    let request = Request { scope, bless, reason: reason.map(str::to_owned), ..request(root, &[]) };
+    verify(&PROJECT, &[study(header)], &request, &|_| {}).unwrap()
+}
+
+#[test]
+fn a_changed_claim_fails_the_run_and_is_in_every_report() {
+    let root = tempfile::tempdir().unwrap();
+    let first = header("a", &CLAIMS);
+    assert_eq!(run(root.path(), &first, true, None).verdict, Verdict::Pass);
+    let baseline = root.path().join("studies/baseline.json");
+    let before = fs::read(&baseline).unwrap();
+
+    let loose = with("expect[0].tolerance", Some("0.49"));
+    for bless in [false, true] {
+        let found = run(root.path(), &loose, bless, None);
+        assert_eq!((found.finished[0].outcome.verdict, found.verdict), (Verdict::Pass, Verdict::Fail));
+        assert!(found.blessing.is_none_or(|blessing| blessing.is_err()));
+        assert_eq!(fs::read(&baseline).unwrap(), before);
+        let report = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
+        assert!(report("README.md").contains("| a     | claim expect[0].tolerance | was 0.002, is 0.49 |"));
+        assert!(report("README.md").contains("`cargo xtask verify --bless --reason TEXT`"));
+        assert!(report("index.html").contains("claim expect[0].tolerance"), "{}", report("index.html"));
+        assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
+        let xml = junit(PROJECT.name, &found.finished, &found.changes).unwrap();
+        assert_eq!(report("junit.xml"), xml);
+        assert!(xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"), "{xml}");
+    }
+    assert_eq!(run(root.path(), &loose, true, Some("three levels only")).verdict, Verdict::Pass);
+    assert_eq!(run(root.path(), &loose, false, None).verdict, Verdict::Pass);
+}

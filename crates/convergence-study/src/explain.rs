@@ -65,9 +65,10 @@ fn reason_text(reason: Reason) -> (&'static str, &'static str) {
         Reason::ToleranceTooWide => {
             ("tolerance", "Half an order or more on either side accepts two integer orders. Claim more narrowly.")
         }
-        Reason::TooFewLevels => {
-            ("levels", "A rate with an interval needs three levels above the round-off floor, and five to be believed.")
-        }
+        Reason::TooFewLevels => (
+            "levels",
+            "A rate with an interval needs three levels above the round-off floor; four or more make the interval narrow.",
+        ),
         Reason::NotAsymptotic => {
             ("asymptotic", "The rates are still changing, or change more and more. Add finer levels.")
         }

@@ -52,7 +52,7 @@ pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(S
 pub(super) struct Object {
     quantity: &'static str,
     target_error: f64,
-    /// The error that the run is believed to have made.
+    /// The error that the run is estimated to have made.
     believed_error: f64,
     space_error: f64,
     time_error: f64,

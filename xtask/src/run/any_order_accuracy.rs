@@ -43,7 +43,7 @@ pub(super) fn choose_any_order(
 pub(super) struct Object {
     quantity: &'static str,
     target_error: f64,
-    /// The error that the run is believed to have made: the sum of the two below.
+    /// The error that the run is estimated to have made: the sum of the two below.
     believed_error: f64,
     space_error: f64,
     time_error: f64,

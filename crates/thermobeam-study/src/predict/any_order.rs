@@ -112,7 +112,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The error that the run is believed to make.
+    /// The error that the run is estimated to make.
     pub fn believed(&self) -> f64 {
         self.space + self.time
     }

@@ -77,6 +77,15 @@ fn the_history_and_the_pictures_are_written() {
 }
 
 #[test]
+fn a_misspelt_scheme_is_named_before_the_keys_that_depend_on_it() {
+    let text = thrown("degree = 8", "degree = 3\ndt = 0.01").replace("\"dg\"", "\"dgx\"");
+    let ended = ended(xtask().arg("run").arg(Folder::new().file("bad.toml", &text)));
+    assert_eq!(ended.status, Some(2));
+    let message = "time.scheme: found the text \"dgx\" (did you mean \"dg\"?)";
+    assert!(ended.stderr.contains(message), "{}", ended.stderr);
+}
+
+#[test]
 fn bad_input_is_refused_with_file_and_field() {
     let folder = Folder::new();
     for (mesh, time, message) in [

@@ -19,6 +19,7 @@ use std::path::Path;
 use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::SCHEMES;
 
 use super::{Initial, Scene, stem, tables};
 use crate::expression::Expression;
@@ -101,9 +102,14 @@ impl SceneFile {
 }
 
 /// Whether `time.scheme` is `dg`.
+///
+/// # Errors
+///
+/// No scheme has that name: said first, since the keys of `[time]` depend on it.
 pub(super) fn is_any_order(root: &Section<'_>) -> Result<bool, InputError> {
     let Some(time) = root.section("time")? else { return Ok(false) };
-    Ok(time.get("scheme").is_some_and(|field| field.text().is_ok_and(|name| name == SCHEME)))
+    let names: Vec<_> = SCHEMES.iter().map(|scheme| (scheme.name, false)).chain([(SCHEME, true)]).collect();
+    time.get("scheme").map_or(Ok(false), |field| field.choice(&names))
 }
 
 fn from_document(root: &Section<'_>, name: String) -> Result<AnyOrderScene, InputError> {

@@ -114,7 +114,7 @@ fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrd
     let number = summary::number;
     let work = vec![
         ("steps", run.steps.to_string(), format!("{} of them end where contact begins or ends", run.events.len())),
-        ("iterations", run.iterations.0.to_string(), format!("at most {} a step", run.iterations.1)),
+        ("iterations", run.iterations.total.to_string(), format!("at most {} a step", run.iterations.max)),
         ("linear solves", run.work.solves.to_string(), String::new()),
         ("factorizations", run.work.factorizations.to_string(), String::new()),
         ("time loop", format!("{:.2} ms", 1e3 * run.wall.as_secs_f64()), "observing left out".to_owned()),

@@ -6,11 +6,11 @@
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::{Patience, TimeUp};
-use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
 use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Simulation, StepError};
 use thiserror::Error;
 
+use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::figures::SceneMotion;
 use crate::scene::any_order::{AnyOrderScene, SCHEME};
 
@@ -54,29 +54,6 @@ pub struct State {
     pub energy: f64,
 }
 
-/// The free end's range over the whole time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Extremes {
-    /// Smallest u(1).
-    pub u_tip_min: f64,
-    /// Largest u(1).
-    pub u_tip_max: f64,
-}
-
-/// Energy and balance over all steps.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct EnergyOverSteps {
-    /// At t = 0.
-    pub initial: f64,
-    /// At the end.
-    #[serde(rename = "final")]
-    pub last: f64,
-    /// Largest change in a step; negative where the energy always falls, NaN without a step.
-    pub largest_increase: f64,
-    /// Largest residual of the balance in a step, in absolute value.
-    pub largest_balance_residual: f64,
-}
-
 /// Displacement over space and time, for pictures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frames {
@@ -93,8 +70,8 @@ pub struct Frames {
 pub struct AnyOrderRun {
     /// Steps done.
     pub steps: usize,
-    /// Iterations of all steps, and of the step that took most.
-    pub iterations: (usize, usize),
+    /// Iterations of all steps.
+    pub iterations: Iterations,
     /// Time spent in steps.
     pub wall: Duration,
     /// The start and the last level.
@@ -102,7 +79,7 @@ pub struct AnyOrderRun {
     /// The free end's range.
     pub extremes: Extremes,
     /// Energy and balance.
-    pub energy: EnergyOverSteps,
+    pub energy: EnergySummary,
     /// Where contact began and ended.
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
@@ -170,10 +147,7 @@ struct Observed<'s> {
     scene: &'s AnyOrderScene,
     level: Level,
     first: State,
-    extremes: Extremes,
-    iterations: (usize, usize),
-    largest_increase: f64,
-    largest_residual: f64,
+    tally: Tally,
     at: &'s [f64],
     at_times: Vec<State>,
     times: usize,
@@ -190,10 +164,7 @@ impl<'s> Observed<'s> {
             scene,
             level,
             first,
-            extremes: Extremes { u_tip_min: first.u_tip, u_tip_max: first.u_tip },
-            iterations: (0, 0),
-            largest_increase: f64::NAN,
-            largest_residual: 0.0,
+            tally: Tally::new(first.u_tip),
             at,
             at_times: vec![],
             times,
@@ -208,21 +179,12 @@ impl<'s> Observed<'s> {
     }
 
     fn step(&mut self, simulation: &Simulation, iterations: usize) {
-        self.iterations = (self.iterations.0 + iterations, self.iterations.1.max(iterations));
         let Balance { change, residual, .. } = simulation.balance();
-        let increase = if self.largest_increase.is_nan() && simulation.work().steps == 1 {
-            change
-        } else {
-            max_or_nan(self.largest_increase, change)
-        };
-        self.largest_increase = increase;
-        self.largest_residual = max_or_nan(self.largest_residual, residual.abs());
+        self.tally.add(iterations, change, residual);
         let (from, to) = (simulation.old_level().t, simulation.t());
         for k in 1..=POINTS_PER_STEP {
             let t = if k == POINTS_PER_STEP { to } else { from + (to - from) * k as f64 / POINTS_PER_STEP as f64 };
-            let u = simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN);
-            self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u);
-            self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u);
+            self.tally.include(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
         }
         self.sample(simulation, from, to);
     }
@@ -259,16 +221,11 @@ impl<'s> Observed<'s> {
         let last = state(simulation, self.scene, simulation.level());
         AnyOrderRun {
             steps: simulation.work().steps,
-            iterations: self.iterations,
+            iterations: self.tally.iterations,
             wall,
             ends: [self.first, last],
-            extremes: self.extremes,
-            energy: EnergyOverSteps {
-                initial: self.first.energy,
-                last: last.energy,
-                largest_increase: self.largest_increase,
-                largest_balance_residual: self.largest_residual,
-            },
+            extremes: self.tally.extremes,
+            energy: self.tally.energy(self.first.energy, last.energy),
             events: simulation.events().to_vec(),
             work: simulation.work(),
             at_times: self.at_times,
@@ -361,7 +318,7 @@ pub struct AnyOrderObject<'r> {
     #[serde(rename = "final")]
     last: State,
     extremes: Extremes,
-    energy: EnergyOverSteps,
+    energy: EnergySummary,
     scheme: &'static str,
     degree: usize,
     time_degree: usize,
@@ -371,12 +328,6 @@ pub struct AnyOrderObject<'r> {
     events: Vec<Event>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
-}
-
-#[derive(Debug, Serialize)]
-struct Iterations {
-    total: usize,
-    max: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -418,7 +369,7 @@ impl<'r> AnyOrderObject<'r> {
             steps: run.steps,
             dt: scene.stepping.dt,
             t_end: scene.t_end,
-            iterations: Iterations { total: run.iterations.0, max: run.iterations.1 },
+            iterations: run.iterations,
             wall_seconds: run.wall.as_secs_f64(),
             last: run.ends[1],
             extremes: run.extremes,

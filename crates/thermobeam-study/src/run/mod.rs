@@ -8,3 +8,4 @@ pub mod family;
 pub(crate) mod rerun;
 pub mod simulate;
 pub mod step_time;
+pub mod tally;

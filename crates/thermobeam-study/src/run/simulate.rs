@@ -35,11 +35,12 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{self, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport, Work};
 
+use super::tally::Tally;
 use crate::expression::Expression;
 use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
-use convergence_study::text::number::max_or_nan;
 
+pub use super::tally::{EnergySummary, Extremes, Iterations};
 pub use figures::figures;
 pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
 pub use object::Object;
@@ -92,51 +93,6 @@ pub struct Sample {
     pub contact_force: f64,
     /// E^n, with the term of θ_A.
     pub energy: f64,
-}
-
-/// Iterations of all steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Iterations {
-    /// Their sum.
-    pub total: usize,
-    /// Those of the step that took most.
-    pub max: usize,
-}
-
-/// The free end's range over all time levels, the start included.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Extremes {
-    /// Smallest u(1).
-    pub u_tip_min: f64,
-    /// Largest u(1).
-    pub u_tip_max: f64,
-}
-
-/// The energy over a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct EnergySummary {
-    /// E^0.
-    pub initial: f64,
-    /// E^n of the last level.
-    #[serde(rename = "final")]
-    pub last: f64,
-    /// Largest `E^n - E^{n-1}`; negative where the energy always falls, NaN where no step was done.
-    pub largest_increase: f64,
-    /// Largest defect of the exact discrete balance, over all steps.
-    pub largest_balance_residual: f64,
-}
-
-/// The rise of the energy in one step that is no longer taken for round-off or a loose tolerance, in parts of the initial
-/// energy, or of 1 where that is less: every step of both schemes lowers the energy, or leaves it.
-const RISE: f64 = 1e-3;
-
-impl EnergySummary {
-    /// The largest rise of the energy in a step where it is far beyond what rounding and tolerance explain: the numbers of such a
-    /// run mean nothing. `None` for a sound run, and where no step was done.
-    pub fn rise(&self, steps: usize) -> Option<f64> {
-        let is_sound = self.largest_increase <= RISE * self.initial.abs().max(1.0);
-        (steps > 0 && !is_sound).then_some(self.largest_increase)
-    }
 }
 
 /// What to keep beside the summary.
@@ -240,11 +196,11 @@ impl Simulator {
         let first = sampler.sample(driver.simulation(), &start).at_the_start(obstacles);
         let nodes = driver.simulation().problem().mesh.nodes();
         let mut history = (recording == Recording::History).then(|| RunHistory::new(nodes, steps, first, &start.u));
-        let mut tally = Tally::new(first.u_tip);
+        let mut sums = Sums::new(first.u_tip);
         let ended = driver.run(steps, |step| {
             let Step { report, old, new, simulation } = step;
             let balance = simulation.balance(old, new);
-            tally.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
+            sums.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
             if let Some(history) = &mut history {
                 history.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
             }
@@ -261,7 +217,7 @@ impl Simulator {
         Run {
             failure: ended.err(),
             history,
-            ..tally.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
+            ..sums.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
         }
     }
 }
@@ -305,55 +261,34 @@ impl Sample {
     }
 }
 
-/// What is summed up over the steps.
-struct Tally {
-    iterations: Iterations,
-    extremes: Extremes,
+/// What is summed up over the steps of a one-step scheme.
+struct Sums {
+    tally: Tally,
     contact_steps: usize,
-    largest_increase: Option<f64>,
-    largest_residual: f64,
 }
 
-impl Tally {
+impl Sums {
     fn new(u_tip: f64) -> Self {
-        Self {
-            iterations: Iterations::default(),
-            extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
-            contact_steps: 0,
-            largest_increase: None,
-            largest_residual: 0.0,
-        }
+        Self { tally: Tally::new(u_tip), contact_steps: 0 }
     }
 
     fn add(&mut self, report: &StepReport, balance: &Balance, u_tip: f64, contact_force: f64) {
-        self.iterations.total += report.iterations;
-        self.iterations.max = self.iterations.max.max(report.iterations);
-        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u_tip);
-        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u_tip);
+        self.tally.add(report.iterations, balance.change, balance.residual);
+        self.tally.include(u_tip);
         self.contact_steps += usize::from(contact_force != 0.0);
-        // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
-        self.largest_increase =
-            Some(self.largest_increase.map_or(balance.change, |most| max_or_nan(most, balance.change)));
-        self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
     }
 
-    /// The run that it is of, without failure and history.
+    /// The run that they are of, without failure and history.
     fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
-        let energy = EnergySummary {
-            initial: first.energy,
-            last: last.energy,
-            largest_increase: self.largest_increase.unwrap_or(f64::NAN),
-            largest_balance_residual: self.largest_residual,
-        };
         Run {
             steps,
-            iterations: self.iterations,
+            iterations: self.tally.iterations,
             wall,
             first,
             last,
-            extremes: self.extremes,
+            extremes: self.tally.extremes,
             contact_steps: self.contact_steps,
-            energy,
+            energy: self.tally.energy(first.energy, last.energy),
             work,
             is_heated,
             failure: None,
@@ -365,19 +300,6 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_rise_of_the_energy_beyond_rounding_is_told_and_nan_is_one() {
-        let rise = |initial, largest_increase, steps| {
-            EnergySummary { initial, last: 0.0, largest_increase, largest_balance_residual: 0.0 }.rise(steps)
-        };
-        for sound in [-1.0, 0.0, 1e-12, 9e-4] {
-            assert_eq!(rise(0.5, sound, 1), None, "{sound}");
-        }
-        assert_eq!([rise(0.5, 2e-3, 1), rise(100.0, 2e-3, 1), rise(0.5, 1e264, 7)], [Some(2e-3), None, Some(1e264)]);
-        assert!(rise(0.5, f64::NAN, 1).is_some_and(f64::is_nan));
-        assert_eq!(rise(0.5, f64::NAN, 0), None, "no step was done");
-    }
 
     #[test]
     fn the_middle_is_interpolated_where_it_is_no_node() {

@@ -44,6 +44,13 @@ pub(super) struct Task<'a> {
     pub(super) max_iterations: usize,
 }
 
+impl<'a> Task<'a> {
+    fn equations<const S: usize>(&self, forms: &'a TimeForms<S>, forcing: Option<&'a Forcing<S>>) -> Equations<'a, S> {
+        let Self { space, beam, obstacles, level, h, phase, .. } = *self;
+        Equations { space, forms, beam, obstacles, level, h, phase, forcing }
+    }
+}
+
 /// The step for any degree q in time, q being no parameter of the type.
 pub(super) trait Stages: Send {
     /// Starts from velocities and a temperature that are constant in time.
@@ -228,16 +235,7 @@ impl<const S: usize> Stages for Stepper<S> {
         let mut previous = f64::INFINITY;
         let mut replaced = false;
         for iteration in 1..=task.max_iterations {
-            let equations = Equations {
-                space: task.space,
-                forms: &self.forms,
-                beam: task.beam,
-                obstacles: task.obstacles,
-                level: task.level,
-                h: task.h,
-                phase: task.phase,
-                forcing: self.forcing.as_ref(),
-            };
+            let equations = task.equations(&self.forms, self.forcing.as_ref());
             let axial = equations.displace(&self.trial.x, &mut self.trial.terms);
             equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
             let n_value = axial.low[0][0];
@@ -265,16 +263,7 @@ impl<const S: usize> Stages for Stepper<S> {
             let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
             let known = iteration > 1 && rest <= task.tolerance;
             if increment <= task.tolerance || known || increment <= FLOOR * size {
-                let equations = Equations {
-                    space: task.space,
-                    forms: &self.forms,
-                    beam: task.beam,
-                    obstacles: task.obstacles,
-                    level: task.level,
-                    h: task.h,
-                    phase: task.phase,
-                    forcing: self.forcing.as_ref(),
-                };
+                let equations = task.equations(&self.forms, self.forcing.as_ref());
                 equations.displace(&self.trial.x, &mut self.trial.terms);
                 return Ok(iteration);
             }

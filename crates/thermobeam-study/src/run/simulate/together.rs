@@ -6,7 +6,7 @@ use thermobeam::ensemble::Ensemble;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::{Level, Settings, Solver};
 
-use super::{Middle, Run, Sample, Tally, problem};
+use super::{Middle, Run, Sample, Sums, problem};
 use crate::run::driver::RunError;
 use crate::run::ensemble::EnsembleDriver;
 use crate::scene::Scene;
@@ -49,22 +49,22 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     };
     let start = |k: usize| sample(driver.ensemble(), &mut level, k, 0).at_the_start(scenes[k].obstacles);
     let firsts: Vec<Sample> = (0..scenes.len()).map(start).collect();
-    let mut tallies: Vec<Tally> = firsts.iter().map(|first| Tally::new(first.u_tip)).collect();
+    let mut sums: Vec<Sums> = firsts.iter().map(|first| Sums::new(first.u_tip)).collect();
     driver.run(common.steps, |ensemble, balances| {
-        for (k, (tally, balance)) in tallies.iter_mut().zip(balances).enumerate() {
+        for (k, (sums, balance)) in sums.iter_mut().zip(balances).enumerate() {
             if let Ok(report) = ensemble.report(k) {
-                tally.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
+                sums.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
             }
         }
         ControlFlow::Continue(())
     })?;
     let (ensemble, share) = (driver.ensemble(), driver.wall() / scenes.len() as u32);
-    let end = |(k, tally): (usize, Tally)| {
+    let end = |(k, sums): (usize, Sums)| {
         let failure = ensemble.report(k).err().filter(|_| common.steps > 0);
         let steps = failure.as_ref().map_or(common.steps, |error| error.step - 1);
         let last = if steps == 0 { firsts[k] } else { sample(ensemble, &mut level, k, steps) };
-        let run = tally.run(steps, [firsts[k], last], share, ensemble.work_of(k), ensemble.is_heated(k));
+        let run = sums.run(steps, [firsts[k], last], share, ensemble.work_of(k), ensemble.is_heated(k));
         Run { failure: failure.map(Into::into), ..run }
     };
-    Ok(tallies.into_iter().enumerate().map(end).collect())
+    Ok(sums.into_iter().enumerate().map(end).collect())
 }

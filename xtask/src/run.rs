@@ -5,6 +5,7 @@ mod any_order;
 mod any_order_accuracy;
 mod summary;
 
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -15,6 +16,7 @@ use convergence_study::store::atomic;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
+use thermobeam_study::run::tally::Unsound;
 use thermobeam_study::scene::any_order::SceneFile;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
@@ -114,21 +116,18 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         output::complain(&format!("{}: {reason}", arguments.scene.display()));
         return Ok(Ended::Badly);
     }
-    if let Some(rise) = run.energy.rise(run.steps) {
-        output::complain(&format!(
-            "{}: the energy rose by {rise:.3e} in a step, where no exactly solved step raises it: expected coefficients of less \
-             extreme size, or a smaller tolerance; the numbers of this run mean nothing",
-            arguments.scene.display()
-        ));
-        return Ok(Ended::Badly);
-    }
-    Ok(match &run.failure {
-        None => Ended::Well,
-        Some(failure) => {
-            output::complain(&format!("{}: {failure}", arguments.scene.display()));
-            Ended::Badly
-        }
-    })
+    Ok(ending(&arguments.scene, run.failure.as_ref(), run.energy.sound(run.steps)))
+}
+
+/// How a run ended, with a complaint where it failed or its numbers mean nothing.
+fn ending(scene: &Path, failure: Option<&impl Display>, sound: Result<(), Unsound>) -> Ended {
+    let complaint = match (sound, failure) {
+        (Err(unsound), _) => unsound.to_string(),
+        (Ok(()), Some(failure)) => failure.to_string(),
+        (Ok(()), None) => return Ended::Well,
+    };
+    output::complain(&format!("{}: {complaint}", scene.display()));
+    Ended::Badly
 }
 
 /// Writes files into a folder; returns their paths.

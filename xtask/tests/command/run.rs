@@ -57,24 +57,27 @@ fn the_summary_says_what_was_left_out() {
 }
 
 #[test]
-fn the_history_and_the_pictures_are_written() {
+fn the_history_and_the_pictures_of_every_scheme_are_written() {
     let folder = Folder::new();
-    let scene = folder.file("scene.toml", &thrown("dt = 1e-2"));
-    let out = folder.path("deep/results");
-    let ended = ended(xtask().arg("run").arg(scene).arg("--out").arg(&out));
-    assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    let mut names: Vec<String> = std::fs::read_dir(&out)
-        .expect("the folder")
-        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    let pictures =
-        ["energy.svg", "history.csv", "motion.svg", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
-    assert_eq!(names, pictures);
-    for name in names {
-        assert!(ended.stdout.contains(&name), "{}", ended.stdout);
-        let text = std::fs::read_to_string(out.join(&name)).expect("text");
-        assert!(if name.ends_with("csv") { text.lines().count() == 102 } else { text.starts_with("<svg") }, "{name}");
+    let any_order = crate::any_order::thrown("degree = 8", "");
+    for (scene, lines) in [(thrown("dt = 1e-2"), 102), (any_order, 4002)] {
+        let (scene, out) = (folder.file("scene.toml", &scene), folder.path(&format!("deep/results-{lines}")));
+        let ended = ended(xtask().arg("run").arg(scene).arg("--out").arg(&out));
+        assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
+        let mut names: Vec<String> = std::fs::read_dir(&out)
+            .expect("the folder")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        let pictures =
+            ["energy.svg", "history.csv", "motion.svg", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
+        assert_eq!(names, pictures);
+        for name in names {
+            assert!(ended.stdout.contains(&name), "{}", ended.stdout);
+            let text = std::fs::read_to_string(out.join(&name)).expect("text");
+            let is_whole = if name.ends_with("csv") { text.lines().count() == lines } else { text.starts_with("<svg") };
+            assert!(is_whole, "{name}");
+        }
     }
 }
 

@@ -11,7 +11,7 @@ fn values(steps: &[f64], value: impl Fn(f64) -> f64) -> Vec<Value> {
 }
 
 fn estimate(order: f64, values: &[Value]) -> Estimate {
-    Estimator::new(order, 0.1).unwrap().estimate(values)
+    Estimator::new(0.1).unwrap().estimate(values, order)
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
     assert_eq!(refused(&RATIO_2[..3], &|h| 1.0 / h), Refusal::Diverging);
     assert!(matches!(refused(&RATIO_2, &|h| h.ln()), Refusal::RateMayBeZero(_)));
     assert_eq!(refused(&RATIO_2, &|h| h * h / (1.0 + 30.0 * h * h)), Refusal::NotAsymptotic(Reason::NotAsymptotic));
-    let claim = Estimator::new(0.0, 0.1).unwrap().estimate(&values(&RATIO_2, |h| h));
+    let claim = Estimator::new(0.1).unwrap().estimate(&values(&RATIO_2, |h| h), 0.0);
     assert_eq!(claim.bar, Err(Refusal::NotAsymptotic(Reason::ClaimUnusable)));
     assert_eq!(claim.gci.unwrap_err(), claim.bar.unwrap_err());
 }
@@ -115,9 +115,9 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
 #[test]
 fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
     let printed = values(&RATIO_2, |h| ((1.0 + 1e-4 * h * h) * 1e6).round() / 1e6);
-    let found = Estimator::new(2.0, 0.1).unwrap().with_floor(1e-4).unwrap().estimate(&printed);
+    let found = Estimator::new(0.1).unwrap().with_floor(1e-4).unwrap().estimate(&printed, 2.0);
     assert!(matches!(found.bar, Err(Refusal::RoundOff { .. } | Refusal::NoChange)), "{:?}", found.bar);
-    assert!(Estimator::new(2.0, 0.1).unwrap().with_floor(-1.0).is_err() && Estimator::new(2.0, 0.6).is_err());
+    assert!(Estimator::new(0.1).unwrap().with_floor(-1.0).is_err() && Estimator::new(0.6).is_err());
 }
 
 #[test]

@@ -109,6 +109,7 @@ pub struct Bars {
 /// # Errors
 /// [`CalibrationError`].
 pub fn calibrate_bars(samples: usize, seed: u64) -> Result<Bars, CalibrationError> {
+    let estimator = Estimator::new(TOLERANCE)?;
     let mut random = SplitMix::new(seed);
     let mut patience = Patience::new(ELEMENTS_OF_A_SAMPLE);
     let by_values = (0..LEVEL_COUNTS).map(|k| Tally::named(&format!("{} values", FEWEST_LEVELS + k), true));
@@ -126,7 +127,7 @@ pub fn calibrate_bars(samples: usize, seed: u64) -> Result<Bars, CalibrationErro
         let (limit, sign) = (random.within([-1.0, 1.0]), [1.0, -1.0][random.below(2)]);
         let value = |level: &super::Level| Value { step: level.step, value: limit + sign * level.error };
         let values: Vec<Value> = table.levels.iter().map(value).collect();
-        let estimate = Estimator::new(table.shown, TOLERANCE)?.estimate(&values);
+        let estimate = estimator.estimate(&values, table.shown);
         let error = sign * table.levels[count - 1].error;
         bars.laws[k % LAWS.len()].count(&estimate, error);
         if declared(law) {

@@ -99,17 +99,16 @@ pub struct Estimate {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
     judge: Judge,
-    order: f64,
     floor: Option<f64>,
 }
 
 impl Estimator {
-    /// * `order`, `tolerance`: what is claimed of the values, as of errors.
+    /// * `tolerance`: half-width of the band about the order, as for errors.
     ///
     /// # Errors
     /// [`JudgeError`] for a tolerance that tells nothing.
-    pub fn new(order: f64, tolerance: f64) -> Result<Self, JudgeError> {
-        Ok(Self { judge: Judge::new(tolerance)?, order, floor: None })
+    pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
+        Ok(Self { judge: Judge::new(tolerance)?, floor: None })
     }
 
     /// Differences that are not above this have no say. Without it, [`FLOOR_MARGIN`] times 1e-13 of the largest value.
@@ -124,21 +123,24 @@ impl Estimator {
     }
 
     /// Estimates the error of the finest of the values, which come coarsest first.
-    pub fn estimate(&self, values: &[Value]) -> Estimate {
+    ///
+    /// * `order`: what theory claims of them.
+    pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
         let largest = values.iter().map(|level| level.value.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
         let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
         // A finite number >= 0, which no judge refuses.
         let judge = self.judge.clone().with_floor(floor).unwrap_or_else(|_| self.judge.clone());
-        let levels = differences(&judge, values, self.order);
-        let judged = judge.judge(&levels, self.order);
-        let scatter = judge.read(&levels).fit.map_or(0.0, |fit| fit.scatter);
-        let usable = if self.order > 0.0 && self.order.is_finite() {
+        let levels = differences(&judge, values, order);
+        let reading = judge.read(&levels);
+        let judged = judge.judge_read(&reading, order);
+        let scatter = reading.fit.map_or(0.0, |fit| fit.scatter);
+        let usable = if order > 0.0 && order.is_finite() {
             usable(values, floor)
         } else {
             Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
         };
         let bar = usable.and_then(|()| bar(values, &judged, scatter, floor / FLOOR_MARGIN));
-        let gci = usable.and_then(|()| Gci::of(values, self.order, judge.tolerance()));
+        let gci = usable.and_then(|()| Gci::of(values, order, judge.tolerance()));
         Estimate { judged, bar, gci }
     }
 }

@@ -38,6 +38,8 @@ pub struct Findings<'f> {
     pub scope: &'f str,
     /// The command that runs it again.
     pub command: &'f str,
+    /// Whether that is `verify`, which can run each study by its id.
+    pub by_id: bool,
     /// The studies.
     pub finished: &'f [Finished],
     /// What moved away from the baseline.
@@ -93,7 +95,7 @@ impl Findings<'_> {
             page += &section::figure(&figure);
         }
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
+        page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
@@ -109,6 +111,15 @@ impl Findings<'_> {
         let folded =
             section::folded(&format!("{passes} of {} studies pass", self.finished.len()), &self.overview(cell), false);
         title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
+    }
+
+    /// The command that runs a study again.
+    pub(super) fn again(&self, finished: &Finished) -> String {
+        if self.by_id {
+            format!("{} verify {}", self.project.command, finished.header.id)
+        } else {
+            self.command.to_owned()
+        }
     }
 
     fn verdict_line(&self) -> String {

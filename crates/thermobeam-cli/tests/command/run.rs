@@ -69,7 +69,7 @@ fn the_history_and_the_pictures_are_written() {
         .collect();
     names.sort();
     let pictures =
-        ["energy.svg", "history.csv", "motion.svg", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
+        ["energy.svg", "history.csv", "motion.svg", "run.json", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
     assert_eq!(names, pictures);
     for name in names {
         assert!(ended.stdout.contains(&name), "{}", ended.stdout);

@@ -185,33 +185,33 @@ pub fn run_and_report(
     folder: &Path,
 ) -> Result<Verification, VerificationError> {
     let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    report_on(project, run::run(studies, jobs, &|_| {})?, project.command, folder)
+    let finished = run::run(studies, jobs, &|_| {})?;
+    let found = findings(project, &finished, project.command);
+    publish(&found, folder)?;
+    let verdict = found.verdict;
+    Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
 }
 
-/// Writes a report on studies that have run, without a baseline.
+/// What is reported on studies that have run without a baseline.
 ///
-/// * `command`: what ran them, for the report.
-/// * Returns the verdict with the studies; there are no changes and no blessing.
+/// * `command`: what ran them.
+pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f str) -> Findings<'f> {
+    let (scope, verdict) = (Scope::Selection(vec![]).name(), verdict(finished, &[]));
+    Findings { project, scope, command, by_verify: false, finished, changes: &[], verdict, see_also: None }
+}
+
+/// Writes the report on them into a folder of their own; missing folders are made.
 ///
 /// # Errors
 /// [`VerificationError::Reports`].
-pub fn report_on(
-    project: &Project,
-    finished: Vec<Finished>,
-    command: &str,
-    folder: &Path,
-) -> Result<Verification, VerificationError> {
-    let verdict = verdict(&finished, &[]);
-    let found = Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() };
-    let scope = Scope::Selection(vec![]);
+pub fn publish(found: &Findings<'_>, folder: &Path) -> Result<(), VerificationError> {
+    let local = folder.join("local");
     let publish = || {
-        let local = folder.join("local");
         let _lock = lock(&local.join("lock"))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        target.publish(&Findings { by_id: false, ..found.findings(project, &scope, command) }.files()?)
+        target.publish(&found.files()?)
     };
-    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })?;
-    Ok(found)
+    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
 }
 
 /// Completes or removes what killed runs have left, of any scope.
@@ -241,8 +241,8 @@ impl Verification {
     /// What is reported on.
     pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
         let Self { finished, changes, verdict, .. } = self;
-        let (scope, by_id) = (scope.name(), true);
-        Findings { project, scope, command, by_id, finished, changes, verdict: *verdict, see_also: None }
+        let (scope, by_verify) = (scope.name(), true);
+        Findings { project, scope, command, by_verify, finished, changes, verdict: *verdict, see_also: None }
     }
 
     /// The same as data, with all digits.

@@ -5,6 +5,7 @@ mod any_order;
 mod any_order_accuracy;
 mod summary;
 
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -16,6 +17,7 @@ use serde::Serialize;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
+use thermobeam_study::run::tally::Unsound;
 use thermobeam_study::scene::any_order::SceneFile;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
@@ -51,15 +53,20 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Shows the result, as verdict on the run: whether it came to its end, and the energy did not rise.
+    /// Shows the result, and then the complaint if there is one: the verdict is fail.
     fn show(
         &self,
-        verdict: Verdict,
+        complaint: Option<String>,
         object: &impl Serialize,
         sentence: &str,
         text: impl FnOnce() -> String,
-    ) -> io::Result<()> {
-        self.flags.show("run", verdict, object, &self.flags.words(verdict, sentence, text))
+    ) -> Outcome {
+        let verdict = if complaint.is_none() { Verdict::Pass } else { Verdict::Fail };
+        self.flags.show("run", verdict, object, &self.flags.words(verdict, sentence, text))?;
+        if let Some(complaint) = complaint {
+            output::complain(&format!("{}: {complaint}", self.scene.display()));
+        }
+        Ok(verdict.into())
     }
 }
 
@@ -109,37 +116,26 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     })?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted.then(|| estimate(&scene)).transpose().map_err(|error| format!("error budget: {error}"));
+    let budget = wanted.then(|| estimate(&scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let rise = run.energy.rise(run.steps);
-    let is_sound = budget.is_ok() && rise.is_none() && run.failure.is_none();
-    let verdict = if is_sound { Verdict::Pass } else { Verdict::Fail };
+    let complaint = complaint(run.energy.sound(run.steps), run.failure.as_ref(), budget.as_ref().err());
     let object = Object::new(&scene, &run).with_budget(known);
     let object = Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) };
     let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps, run.last.t);
-    arguments.show(verdict, &object, &sentence, || {
+    arguments.show(complaint, &object, &sentence, || {
         let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
         summary::summary(&scene, &run, planned.as_ref(), &written) + &budget
-    })?;
-    if let Err(reason) = budget {
-        output::complain(&format!("{}: {reason}", arguments.scene.display()));
-        return Ok(Ended::Badly);
-    }
-    if let Some(rise) = rise {
-        output::complain(&format!(
-            "{}: the energy rose by {rise:.3e} in a step, where no exactly solved step raises it: expected coefficients of less \
-             extreme size, or a smaller tolerance; the numbers of this run mean nothing",
-            arguments.scene.display()
-        ));
-        return Ok(Ended::Badly);
-    }
-    Ok(match &run.failure {
-        None => Ended::Well,
-        Some(failure) => {
-            output::complain(&format!("{}: {failure}", arguments.scene.display()));
-            Ended::Badly
-        }
     })
+}
+
+/// Why the numbers of a run mean nothing, or less than was asked for; none where all is well.
+fn complaint(
+    sound: Result<(), Unsound>,
+    failure: Option<&impl Display>,
+    no_budget: Option<&impl Display>,
+) -> Option<String> {
+    let no_budget = no_budget.map(|reason| format!("error budget: {reason}"));
+    no_budget.or(sound.err().map(|unsound| unsound.to_string())).or(failure.map(ToString::to_string))
 }
 
 /// Writes files into a folder; returns their paths.
@@ -150,5 +146,7 @@ fn write_files(folder: &Path, files: impl Iterator<Item = (&'static str, String)
         atomic::write(&path, content)?;
         written.push(path);
     }
+    // Written with the result.
+    written.push(folder.join("run.json"));
     Ok(written)
 }

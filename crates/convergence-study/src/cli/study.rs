@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{sentence, tables, text_of_failures};
+use crate::report::{tables, text_of_failures};
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile};
 use crate::text::visible::visible;
-use crate::verify::{quoted, report_on};
+use crate::verify::{findings, publish, quoted};
 
 use super::exit::Outcome;
 use super::flags::Flags;
+use super::github;
 use super::output::{self, Format};
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
@@ -42,21 +42,22 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let finished = run::run(&studies, effort, &|progress| watched.show(progress));
     watched.clear();
     let finished = finished?;
-    let verdict = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
+    let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
+    let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
+    let findings = findings(project, &finished, &command);
+    let verdict = findings.verdict;
     let text = match flags.format {
         Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
         Format::Text if flags.quiet => {
-            let sentence = sentence(&finished, &[]);
-            format!("{}{}: {sentence}\n", text_of_failures(&finished), screen::verdict(verdict))
+            format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
         }
         Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
     };
     if let Some(folder) = &flags.out {
-        let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
-        let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
-        report_on(project, finished, &command, folder)?;
+        publish(&findings, folder)?;
     }
     output::print(&text)?;
+    github::announce(&findings, flags.format);
     Ok(verdict.into())
 }
 

@@ -4,7 +4,7 @@
 
 use super::Findings;
 use super::html::{escape, html, phrase};
-use super::words::{key_numbers, sentence};
+use super::words::key_numbers;
 use super::{failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
@@ -38,7 +38,7 @@ fn head(findings: &Findings<'_>) -> String {
         "<header>\n<h1>Verification report</h1>\n<p class=\"verdict\">{} {}</p>\n\
          <p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
         badge(findings.verdict),
-        phrase(&sentence(findings.finished, findings.changes)),
+        phrase(&findings.sentence()),
         escape(findings.command),
     );
     if let Some((title, folder)) = findings.see_also {

@@ -16,7 +16,7 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
         project: &PROJECT,
         scope: "quick",
         command,
-        by_id: true,
+        by_verify: true,
         finished,
         changes: &[],
         verdict: Verdict::Fail,

@@ -20,7 +20,7 @@ fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
         project: &PROJECT,
         scope: "quick",
         command,
-        by_id: true,
+        by_verify: true,
         finished,
         changes: &changes,
         verdict: Verdict::Fail,

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::{interrupt, output, progress};
-use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use thermobeam_study::predict::any_order::{Budget, estimate};
@@ -12,7 +11,7 @@ use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIME
 use thermobeam_study::scene::any_order::AnyOrderScene;
 
 use super::any_order_accuracy::{self as accuracy, NotChosen, PlannedAnyOrder};
-use super::{Arguments, summary, write_files};
+use super::{Arguments, complaint, summary, write_files};
 
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
@@ -63,28 +62,17 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     let wanted = arguments.estimate_error && found.failure.is_none();
     let budget = wanted.then(|| estimate(scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let verdict = if budget.is_ok() && found.failure.is_none() { Verdict::Pass } else { Verdict::Fail };
+    let complaint = complaint(found.energy.sound(found.steps), found.failure.as_ref(), budget.as_ref().err());
     let accuracy = planned.as_ref().map(|planned| planned.object());
     let object = Printed { object: AnyOrderObject::new(scene, &found), error_budget: known, accuracy };
     let sentence = format!("{}: {} steps, to t = {} of {t_end}", scene.name, found.steps, found.ends[1].t);
-    arguments.show(verdict, &object, &sentence, || {
+    arguments.show(complaint, &object, &sentence, || {
         let mut text = text(scene, &found, planned.as_ref());
         summary::list(&mut text, &written);
         if let Some(budget) = known {
             let _ = writeln!(text, "\n{budget}");
         }
         text
-    })?;
-    if let Err(reason) = budget {
-        output::complain(&format!("{}: error budget: {reason}", arguments.scene.display()));
-        return Ok(Ended::Badly);
-    }
-    Ok(match &found.failure {
-        None => Ended::Well,
-        Some(failure) => {
-            output::complain(&format!("{}: {failure}", arguments.scene.display()));
-            Ended::Badly
-        }
     })
 }
 
@@ -108,7 +96,6 @@ fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrd
     if let Some(planned) = planned {
         summary::section(&mut text, "accuracy", planned.lines(run));
     }
-    let number = summary::number;
     let work = vec![
         ("steps", run.steps.to_string(), format!("{} of them end where contact begins or ends", run.events.len())),
         ("iterations", run.iterations.total.to_string(), format!("at most {} a step", run.iterations.max)),
@@ -117,39 +104,14 @@ fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrd
         ("time loop", format!("{:.2} ms", 1e3 * run.wall.as_secs_f64()), "observing left out".to_owned()),
     ];
     summary::section(&mut text, "work", work);
-    let state = vec![
-        ("u(1)", number(last.u_tip), "displacement of the free end".to_owned()),
-        ("phi(1)", number(last.phi_tip), "its rotation".to_owned()),
-        ("u_t(1)", number(last.u_t_tip), "its velocity".to_owned()),
-        ("phi_t(1)", number(last.phi_t_tip), "its rate of rotation".to_owned()),
-        ("theta(1/2)", number(last.theta_mid), "temperature in the middle".to_owned()),
-    ];
-    summary::section(&mut text, &format!("at t = {}", last.t), state);
-    let range = vec![
-        ("smallest u(1)", number(run.extremes.u_tip_min), String::new()),
-        ("largest u(1)", number(run.extremes.u_tip_max), String::new()),
-    ];
-    summary::section(&mut text, "over the whole time", range);
+    summary::section(&mut text, &format!("at t = {}", last.t), summary::state(last, scene.obstacles));
+    summary::section(&mut text, "over the whole time", summary::range(&run.extremes, scene.obstacles));
     if !run.events.is_empty() {
         let event = |event: &thermobeam::dg::ContactEvent| {
             ("", format!("{:.12}", event.t), format!("{} -> {}", phase_name(event.from), phase_name(event.to)))
         };
         summary::section(&mut text, "contact events", run.events.iter().map(event).collect());
     }
-    let energy = vec![
-        ("initial", number(run.energy.initial), String::new()),
-        ("final", number(run.energy.last), String::new()),
-        (
-            "largest increase",
-            format!("{:.3e}", run.energy.largest_increase),
-            "in a step; negative: it always falls".to_owned(),
-        ),
-        (
-            "largest residual",
-            format!("{:.3e}", run.energy.largest_balance_residual),
-            "of the exact balance of a step".to_owned(),
-        ),
-    ];
-    summary::section(&mut text, "energy", energy);
+    summary::section(&mut text, "energy", summary::energy(&scene.beam, &run.energy));
     text
 }

@@ -4,8 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use super::accuracy::Planned;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_study::figures::energy_at_rest;
 use thermobeam_study::run::simulate::Run;
+use thermobeam_study::run::tally::{EnergySummary, Extremes, Sample};
 use thermobeam_study::scene::Scene;
 
 /// A line of the summary: name, value, meaning.
@@ -19,9 +21,13 @@ pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, writt
     }
     let last = format!("at t = {}", run.last.t);
     section(&mut text, "work", work(scene, run));
-    section(&mut text, &last, final_state(scene, run));
-    section(&mut text, "over all time levels", extremes(scene, run));
-    section(&mut text, "energy", energy(scene, run));
+    section(&mut text, &last, state(&run.last, scene.obstacles));
+    let mut range = range(&run.extremes, scene.obstacles);
+    if scene.obstacles.is_some() {
+        range.push(("steps in contact", run.contact_steps.to_string(), String::new()));
+    }
+    section(&mut text, "over all time levels", range);
+    section(&mut text, "energy", energy(&scene.beam, &run.energy));
     let skipped = left_out(scene, run);
     if !skipped.is_empty() {
         section(&mut text, "left out", skipped);
@@ -92,12 +98,12 @@ fn work(scene: &Scene, run: &Run) -> Vec<Line> {
     lines
 }
 
-pub(super) fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     format!("{value:.12e}")
 }
 
-fn final_state(scene: &Scene, run: &Run) -> Vec<Line> {
-    let last = &run.last;
+/// The free end, and the temperature in the middle, at one time.
+pub(super) fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
     let mut lines = vec![
         ("u(1)", number(last.u_tip), "displacement of the free end".to_owned()),
         ("phi(1)", number(last.phi_tip), "its rotation".to_owned()),
@@ -105,7 +111,7 @@ fn final_state(scene: &Scene, run: &Run) -> Vec<Line> {
         ("phi_t(1)", number(last.phi_t_tip), "its rate of rotation".to_owned()),
         ("theta(1/2)", number(last.theta_mid), "temperature in the middle".to_owned()),
     ];
-    if scene.obstacles.is_some() {
+    if obstacles.is_some() {
         let where_to = match last.contact_force {
             force if force > 0.0 => "presses against the upper obstacle",
             force if force < 0.0 => "presses against the lower obstacle",
@@ -116,28 +122,22 @@ fn final_state(scene: &Scene, run: &Run) -> Vec<Line> {
     lines
 }
 
-fn extremes(scene: &Scene, run: &Run) -> Vec<Line> {
-    let [low, high] = match scene.obstacles {
+/// How far the free end went.
+pub(super) fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
+    let [low, high] = match obstacles {
         Some(obstacles) => {
             [format!("lower obstacle at {:?}", obstacles.g1), format!("upper one at {:?}", obstacles.g2)]
         }
         None => [String::new(), String::new()],
     };
-    let mut lines = vec![
-        ("smallest u(1)", number(run.extremes.u_tip_min), low),
-        ("largest u(1)", number(run.extremes.u_tip_max), high),
-    ];
-    if scene.obstacles.is_some() {
-        lines.push(("steps in contact", run.contact_steps.to_string(), String::new()));
-    }
-    lines
+    vec![("smallest u(1)", number(extremes.u_tip_min), low), ("largest u(1)", number(extremes.u_tip_max), high)]
 }
 
-fn energy(scene: &Scene, run: &Run) -> Vec<Line> {
-    let energy = &run.energy;
+/// The energy and the defect of its balance.
+pub(super) fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<Line> {
     let mut lines =
         vec![("initial", number(energy.initial), String::new()), ("final", number(energy.last), String::new())];
-    if let Some(rest) = energy_at_rest(&scene.beam) {
+    if let Some(rest) = energy_at_rest(beam) {
         lines.push(("straight beam", number(rest), "beta^2/(4 rho), the straight beam at rest".to_owned()));
     }
     let increase = energy.largest_increase;

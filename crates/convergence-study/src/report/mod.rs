@@ -38,6 +38,8 @@ pub struct Findings<'f> {
     pub scope: &'f str,
     /// The command that runs it again.
     pub command: &'f str,
+    /// Whether that is `verify`, which compares with the baseline and can run each study by its id.
+    pub by_verify: bool,
     /// The studies.
     pub finished: &'f [Finished],
     /// What moved away from the baseline.
@@ -93,7 +95,7 @@ impl Findings<'_> {
             page += &section::figure(&figure);
         }
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
+        page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
@@ -111,8 +113,22 @@ impl Findings<'_> {
         title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
     }
 
+    /// The command that runs a study again.
+    pub(super) fn again(&self, finished: &Finished) -> String {
+        if self.by_verify {
+            format!("{} verify {}", self.project.command, finished.header.id)
+        } else {
+            self.command.to_owned()
+        }
+    }
+
+    /// The verdict in one line, without the verdict itself.
+    pub fn sentence(&self) -> String {
+        if self.by_verify { sentence(self.finished, self.changes) } else { words::passing(self.finished) }
+    }
+
     fn verdict_line(&self) -> String {
-        format!("**{}**: {}\n\n", self.verdict, text(&sentence(self.finished, self.changes)))
+        format!("**{}**: {}\n\n", self.verdict, text(&self.sentence()))
     }
 
     /// A table for each group of studies.

@@ -20,6 +20,7 @@ fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
         project: &PROJECT,
         scope: "quick",
         command,
+        by_verify: true,
         finished,
         changes: &changes,
         verdict: Verdict::Fail,

@@ -55,7 +55,7 @@ enum Dev {
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Simulate a scene", &["run", "equilibria"]),
     ("Verify", &["verify", "study", "list", "explain", "new"]),
-    ("Errors of other codes", &["rates"]),
+    ("Errors of other codes, other versions", &["rates", "compare"]),
     ("Many scenes", &["sweep", "merge"]),
     ("Everything else", &["bench", "completions", "dev"]),
 ];

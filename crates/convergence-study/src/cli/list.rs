@@ -1,11 +1,12 @@
 //! `list`: the studies with their last verdicts and their costs.
 
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
 
 use super::exit::{Ended, Outcome};
-use crate::cli::history::History;
+use crate::cli::earlier::Earlier;
 use crate::cli::workspace;
 use crate::cli::{output, screen, selection};
 
@@ -38,9 +39,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
-    let history = History::read(&root)?;
+    let earlier = Earlier::read(&root)?;
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let mut rows: Vec<Vec<String>> = meant.map(|(file, _)| row(file, &history)).collect();
+    let mut rows: Vec<Vec<String>> = meant.map(|(file, _)| row(file, &earlier)).collect();
     if let Some(width) = screen::width() {
         fit(&mut rows, width);
     }
@@ -48,11 +49,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Ended::Well)
 }
 
-fn row(StudyFile { study, .. }: &StudyFile, history: &History) -> Vec<String> {
+fn row(StudyFile { study, .. }: &StudyFile, earlier: &Earlier) -> Vec<String> {
     let header = study.header();
-    let verdict = history.verdict(&header.id).unwrap_or("never run");
+    let verdict = earlier.verdict(&header.id).map_or("never run", Verdict::name);
     let work = format!("{:.2}", 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>());
-    let seconds = history.seconds(&header.id).map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
+    let seconds = earlier.seconds(&header.id).map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
     let [id, tier, kind] = [header.id.as_str(), header.tier.name(), header.kind.as_str()].map(str::to_owned);
     vec![id, tier, kind, verdict.to_owned(), work, seconds, header.claim.clone()]
 }

@@ -17,7 +17,7 @@ use convergence_study::store::{atomic, provenance};
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
 
-use crate::project::PROJECT;
+use crate::PROJECT;
 
 use convergence_study::cli::{output, screen, selection, workspace};
 

@@ -191,7 +191,9 @@ pub fn run_and_report(
         let local = folder.join("local");
         let _lock = lock(&local.join("lock"))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        target.publish(&found.findings(project, &scope, project.command).files()?)
+        let here = Provenance::collect(Path::new("."), project.command.to_owned(), jobs.get(), &found.finished);
+        let findings = found.findings(project, &scope, project.command);
+        target.publish(&Findings { changes: None, provenance: Some(&here), ..findings }.files()?)
     };
     publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })?;
     Ok(found)
@@ -224,7 +226,16 @@ impl Verification {
     /// What is reported on.
     pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
         let Self { finished, changes, verdict, .. } = self;
-        Findings { project, scope: scope.name(), command, finished, changes, verdict: *verdict, see_also: None }
+        Findings {
+            project,
+            scope: scope.name(),
+            command,
+            finished,
+            changes: Some(changes),
+            verdict: *verdict,
+            see_also: None,
+            provenance: None,
+        }
     }
 }
 
@@ -239,7 +250,8 @@ fn write_reports(
     let command = scope.command(project);
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
-    target.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
-    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
+    let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
+    let findings = found.findings(project, scope, &command);
+    target.publish(&Findings { see_also, provenance: Some(&provenance), ..findings }.files()?)?;
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
 }

@@ -12,21 +12,26 @@ use crate::text::visible::{self, visible};
 use crate::cli::output;
 
 /// Appends the table to the job summary and annotates what did not pass.
+pub(super) fn announce(findings: &Findings<'_>) {
+    summarise(&findings.digest());
+    if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
+        // Where standard output is closed, annotations cannot be shown.
+        let _ = output::print_as_is(&annotations(findings));
+    }
+}
+
+/// Appends Markdown to the job summary.
 ///
 /// A summary that cannot be written is reported on standard error; it does not change the exit status.
-pub(super) fn announce(findings: &Findings<'_>) {
+pub(super) fn summarise(markdown: &str) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
         let file = regular::open(page.as_ref(), File::options().append(true).create(true));
-        if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {
+        if let Err(error) = file.and_then(|mut file| file.write_all(markdown.as_bytes())) {
             output::complain(&format!(
                 "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
                 visible::path(page.as_ref())
             ));
         }
-    }
-    if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
-        // Where standard output is closed, annotations cannot be shown.
-        let _ = output::print_as_is(&annotations(findings));
     }
 }
 
@@ -36,7 +41,7 @@ fn annotations(findings: &Findings<'_>) -> String {
         let outcome = &finished.outcome;
         annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &outcome.summary)
     });
-    studies.chain(findings.changes.iter().map(|change| annotation("baseline", &change.to_string()))).collect()
+    studies.chain(findings.moves().iter().map(|change| annotation("baseline", &change.to_string()))).collect()
 }
 
 fn annotation(title: &str, message: &str) -> String {

@@ -8,7 +8,7 @@ use super::{
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 16] = [
+pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
     any_order_cost::ROW,
@@ -25,4 +25,5 @@ pub const KINDS: [KindRow; 16] = [
     rigid::ROW,
     work_precision::ROW,
     calibration::ROW,
+    calibration::bars::ROW,
 ];

@@ -10,7 +10,8 @@ use serde::Serialize;
 use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Simulation, StepError};
 use thiserror::Error;
 
-use super::tally::{EnergySummary, Extremes, Iterations, Tally};
+use super::simulate::Counts;
+use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally};
 use crate::figures::SceneMotion;
 use crate::scene::any_order::{AnyOrderScene, SCHEME};
 
@@ -35,25 +36,6 @@ pub enum AnyOrderFailure {
     TimeUp(#[from] TimeUp),
 }
 
-/// The state at one time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct State {
-    /// The time.
-    pub t: f64,
-    /// u(1).
-    pub u_tip: f64,
-    /// φ(1).
-    pub phi_tip: f64,
-    /// u_t(1).
-    pub u_t_tip: f64,
-    /// φ_t(1).
-    pub phi_t_tip: f64,
-    /// The physical temperature at x = 1/2.
-    pub theta_mid: f64,
-    /// The energy, θ_A term included.
-    pub energy: f64,
-}
-
 /// Displacement over space and time, for pictures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frames {
@@ -75,7 +57,7 @@ pub struct AnyOrderRun {
     /// Time spent in steps.
     pub wall: Duration,
     /// The start and the last level.
-    pub ends: [State; 2],
+    pub ends: [Sample; 2],
     /// The free end's range.
     pub extremes: Extremes,
     /// Energy and balance.
@@ -85,9 +67,9 @@ pub struct AnyOrderRun {
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
     /// States at the times asked for.
-    pub at_times: Vec<State>,
+    pub at_times: Vec<Sample>,
     /// States at equally spaced times; empty unless asked for.
-    pub history: Vec<State>,
+    pub history: Vec<Sample>,
     /// Displacement over space and time; empty unless asked for.
     pub frames: Frames,
     /// Why the run ended early, if it did.
@@ -146,12 +128,12 @@ pub fn run_at(
 struct Observed<'s> {
     scene: &'s AnyOrderScene,
     level: Level,
-    first: State,
+    first: Sample,
     tally: Tally,
     at: &'s [f64],
-    at_times: Vec<State>,
+    at_times: Vec<Sample>,
     times: usize,
-    history: Vec<State>,
+    history: Vec<Sample>,
     frames: Frames,
 }
 
@@ -243,16 +225,18 @@ fn grid(t_end: f64, count: usize, from: f64, to: f64) -> impl Iterator<Item = f6
     (first.max(1)..=count).map(time).skip_while(move |&t| t <= from).take_while(move |&t| t <= to)
 }
 
-fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> State {
+fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> Sample {
     let space = simulation.space();
     let at = |field, x| level.value_and_slope(space, field, x).0;
-    State {
+    let u_tip = at(Field::U, 1.0);
+    Sample {
         t: level.t,
-        u_tip: at(Field::U, 1.0),
+        u_tip,
         phi_tip: at(Field::Phi, 1.0),
         u_t_tip: at(Field::V, 1.0),
         phi_t_tip: at(Field::W, 1.0),
         theta_mid: at(Field::Theta, 0.5) + 0.5 * scene.beam.theta_a,
+        contact_force: scene.obstacles.map_or(0.0, |obstacles| obstacles.force(u_tip)),
         energy: simulation.energy(level).total(),
     }
 }
@@ -260,9 +244,9 @@ fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> State
 impl AnyOrderRun {
     /// The history as comma-separated values, with enough digits to read back every bit.
     pub fn csv(&self) -> String {
-        let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,energy\n");
+        let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy\n");
         for s in &self.history {
-            let row = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.energy];
+            let row = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.contact_force, s.energy];
             let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
             csv += &(cells.join(",") + "\n");
         }
@@ -274,7 +258,7 @@ impl AnyOrderRun {
         if self.history.is_empty() {
             return vec![];
         }
-        let over_time = |value: fn(&State) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
+        let over_time = |value: fn(&Sample) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
         let motion = SceneMotion {
             name: &scene.name,
             beam: &scene.beam,
@@ -316,7 +300,7 @@ pub struct AnyOrderObject<'r> {
     iterations: Iterations,
     wall_seconds: f64,
     #[serde(rename = "final")]
-    last: State,
+    last: Sample,
     extremes: Extremes,
     energy: EnergySummary,
     scheme: &'static str,
@@ -324,16 +308,10 @@ pub struct AnyOrderObject<'r> {
     time_degree: usize,
     restart_dt: f64,
     growth: f64,
-    work: Work,
+    work: Counts,
     events: Vec<Event>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
-}
-
-#[derive(Debug, Serialize)]
-struct Work {
-    passes: usize,
-    factorizations: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -379,7 +357,7 @@ impl<'r> AnyOrderObject<'r> {
             time_degree: scene.stepping.degree,
             restart_dt: scene.stepping.restart_dt,
             growth: scene.stepping.growth,
-            work: Work { passes: run.work.solves, factorizations: run.work.factorizations },
+            work: Counts { passes: run.work.solves, factorizations: run.work.factorizations },
             events: run.events.iter().map(event).collect(),
             failure: run.failure.as_ref().map(|failure| Failure {
                 step: run.steps + 1,

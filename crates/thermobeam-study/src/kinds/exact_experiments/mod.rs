@@ -14,7 +14,7 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::dg::{ContactEvent, Stepping};
 
-use crate::run::any_order::State;
+use crate::run::tally::Sample;
 use crate::scene::Scene;
 
 /// The row of the table of kinds.
@@ -61,7 +61,7 @@ pub struct Run {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shown {
     /// States at the times listed.
-    pub states: Vec<State>,
+    pub states: Vec<Sample>,
     /// Contact events; none by the scene's own scheme, which does not locate them.
     pub events: Vec<ContactEvent>,
     /// `(t, u(1, t))` at equally spaced times.

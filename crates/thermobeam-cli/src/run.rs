@@ -1,0 +1,142 @@
+//! `run SCENE`: simulates one scene.
+
+mod accuracy;
+mod any_order;
+mod any_order_accuracy;
+mod summary;
+
+use std::fmt::Display;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::Args;
+use convergence_study::run::time_limit;
+use convergence_study::store::atomic;
+use thermobeam_study::predict::accuracy::Unreachable;
+use thermobeam_study::predict::estimate::estimate;
+use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
+use thermobeam_study::run::tally::Unsound;
+use thermobeam_study::scene::any_order::SceneFile;
+
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::interrupt;
+use convergence_study::cli::output::{self, Format};
+use convergence_study::cli::progress;
+use convergence_study::cli::running::seconds;
+
+/// Simulate one scene
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The scene file, such as studies/scenes/paper-1-beta-0.toml
+    scene: PathBuf,
+    /// How the result is printed
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper;
+    /// for scheme = "dg" by space and time, three more runs
+    #[arg(long)]
+    estimate_error: bool,
+    /// Choose scheme, elements and steps so that the error is no larger than this; for scheme = "dg" degrees, elements and steps
+    #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
+    target_error: Option<f64>,
+    /// What the target error is about
+    #[arg(long, value_enum, default_value_t, requires = "target_error")]
+    quantity: accuracy::Quantity,
+    /// The longest that the run may take; what was done until then is told, and the exit status is 1 [default: as long as it takes]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    time_limit: Option<Duration>,
+    /// Show no progress bar
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The JSON object, with what was asked for on top.
+#[derive(serde::Serialize)]
+struct Printed<'a> {
+    #[serde(flatten)]
+    object: Object<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<accuracy::Object>,
+}
+
+/// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let read = match SceneFile::read(&arguments.scene)? {
+        SceneFile::AnyOrder(scene) => return any_order::simulate(arguments, &scene),
+        SceneFile::OneStep(scene) => scene,
+    };
+    let (scene, planned) = match arguments.target_error {
+        None => (read, None),
+        Some(target) => match accuracy::choose(read, arguments.quantity, target) {
+            Ok((scene, planned)) => (scene, Some(planned)),
+            Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
+            Err(error) => {
+                output::complain(&format!("{}: {error}", arguments.scene.display()));
+                return Ok(Ended::Badly);
+            }
+        },
+    };
+    let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let recording = match &arguments.out {
+        Some(folder) => {
+            atomic::prepare_folder(folder)?;
+            Recording::History
+        }
+        None => Recording::Summary,
+    };
+    let bar = progress::bar(&scene.name, scene.steps, arguments.quiet);
+    let (told, steps) = (bar.clone(), scene.steps);
+    interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
+    let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
+    let (run, _) = time_limit::within(arguments.time_limit, simulate);
+    bar.finish_and_clear();
+    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| {
+        let history = run.history.iter().map(|history| ("history.csv", history.csv()));
+        write_files(folder, history.chain(figures(&scene, &run)))
+    })?;
+    // A run that failed has nothing whose error could be estimated.
+    let wanted = arguments.estimate_error && run.failure.is_none();
+    let budget = wanted.then(|| estimate(&scene)).transpose().map_err(|error| format!("error budget: {error}"));
+    let known = budget.as_ref().ok().and_then(Option::as_ref);
+    match arguments.format {
+        Format::Text => {
+            let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
+            output::print(&format!("{}{budget}", summary::summary(&scene, &run, planned.as_ref(), &written)))?;
+        }
+        Format::Json => {
+            let object = Object::new(&scene, &run).with_budget(known);
+            output::print_json(&Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) })?;
+        }
+    }
+    if let Err(reason) = budget {
+        output::complain(&format!("{}: {reason}", arguments.scene.display()));
+        return Ok(Ended::Badly);
+    }
+    Ok(ending(&arguments.scene, run.failure.as_ref(), run.energy.sound(run.steps)))
+}
+
+/// How a run ended, with a complaint where it failed or its numbers mean nothing.
+fn ending(scene: &Path, failure: Option<&impl Display>, sound: Result<(), Unsound>) -> Ended {
+    let complaint = match (sound, failure) {
+        (Err(unsound), _) => unsound.to_string(),
+        (Ok(()), Some(failure)) => failure.to_string(),
+        (Ok(()), None) => return Ended::Well,
+    };
+    output::complain(&format!("{}: {complaint}", scene.display()));
+    Ended::Badly
+}
+
+/// Writes files into a folder; returns their paths.
+fn write_files(folder: &Path, files: impl Iterator<Item = (&'static str, String)>) -> io::Result<Vec<PathBuf>> {
+    let mut written = Vec::new();
+    for (name, content) in files {
+        let path = folder.join(name);
+        atomic::write(&path, content)?;
+        written.push(path);
+    }
+    Ok(written)
+}

@@ -84,8 +84,6 @@ pub struct AnyOrderRun {
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
-    /// States at the times asked for.
-    pub at_times: Vec<State>,
     /// States at equally spaced times; empty unless asked for.
     pub history: Vec<State>,
     /// Displacement over space and time; empty unless asked for.
@@ -102,21 +100,22 @@ pub struct AnyOrderRun {
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
 pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
-    run_at(scene, &[], times, progress)
+    run_at(scene, &[], &mut |_, _| (), times, progress)
 }
 
-/// Runs a scene; a step ends at each of the times `at`, which increase, and the state there is kept.
+/// Runs a scene; a step ends at each of the times `at`, which increase, and is shown to `observe` with the state there.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_at(
     scene: &AnyOrderScene,
     at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, State),
     times: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
     let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
-    let mut observed = Observed::new(&simulation, scene, at, times);
+    let mut observed = Observed::new(&simulation, scene, times);
     let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
@@ -130,7 +129,12 @@ pub fn run_at(
         let outcome = simulation.step(limit);
         wall += started.elapsed();
         match outcome {
-            Ok(Some(report)) => observed.step(&simulation, report.iterations),
+            Ok(Some(report)) => {
+                observed.step(&simulation, report.iterations);
+                if at.contains(&simulation.t()) {
+                    observe(&simulation, state(&simulation, scene, simulation.level()));
+                }
+            }
             Ok(None) => break,
             Err(error) => {
                 failure = Some(error.into());
@@ -148,15 +152,13 @@ struct Observed<'s> {
     level: Level,
     first: State,
     tally: Tally,
-    at: &'s [f64],
-    at_times: Vec<State>,
     times: usize,
     history: Vec<State>,
     frames: Frames,
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, at: &'s [f64], times: usize) -> Self {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -165,8 +167,6 @@ impl<'s> Observed<'s> {
             level,
             first,
             tally: Tally::new(first.u_tip),
-            at,
-            at_times: vec![],
             times,
             history: vec![],
             frames: Frames { points, ..Frames::default() },
@@ -192,12 +192,6 @@ impl<'s> Observed<'s> {
     /// The states of the history that lie in the last step.
     fn sample(&mut self, simulation: &Simulation, from: f64, to: f64) {
         let t_end = self.scene.t_end;
-        for &t in self.at.iter().filter(|&&t| t > from && t <= to) {
-            if simulation.level_into(t, &mut self.level) {
-                let state = state(simulation, self.scene, &self.level);
-                self.at_times.push(state);
-            }
-        }
         for t in grid(t_end, self.times, from, to) {
             if simulation.level_into(t, &mut self.level) {
                 let state = state(simulation, self.scene, &self.level);
@@ -228,7 +222,6 @@ impl<'s> Observed<'s> {
             energy: self.tally.energy(self.first.energy, last.energy),
             events: simulation.events().to_vec(),
             work: simulation.work(),
-            at_times: self.at_times,
             history: self.history,
             frames: self.frames,
             failure,

@@ -11,6 +11,7 @@ mod merge;
 mod mutants;
 mod new;
 mod project;
+mod regressions;
 mod run;
 mod sweep;
 
@@ -48,6 +49,7 @@ enum Command {
 enum Dev {
     Drift(drift::Arguments),
     Mutants(mutants::Arguments),
+    Regressions(regressions::Arguments),
     Fuzz(fuzz::Arguments),
 }
 
@@ -79,6 +81,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Dev(Dev::Drift(arguments)) => drift::run(&arguments),
         Command::Dev(Dev::Mutants(arguments)) => mutants::run(&arguments),
+        Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
         Command::Dev(Dev::Fuzz(arguments)) => fuzz::run(&arguments),
     })
 }

@@ -13,6 +13,8 @@ mod killed;
 mod mutants;
 mod places;
 mod rates;
+#[cfg(unix)]
+mod regressions;
 mod run;
 mod sweep;
 mod workspace;

@@ -3,4 +3,3 @@
 pub mod design;
 pub mod evaluator;
 pub mod free_vibration;
-pub(crate) mod richardson;

@@ -6,9 +6,9 @@ use convergence_study::study::{Axis, Check, Outcome, Quantity, Ran, Table};
 use convergence_study::text::number::{decimals, max_or_nan};
 
 use super::{End, EndStates, Fields, OnMesh};
-use crate::error::richardson;
 use crate::kinds::steady::name_of;
 use crate::scene::Scene;
+use convergence_study::judge::richardson;
 
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;

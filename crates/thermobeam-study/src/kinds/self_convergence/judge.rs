@@ -5,8 +5,8 @@ use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinem
 use convergence_study::study::{Axis, Check, LevelErrors, Outcome, Quantity, Ran, Table};
 
 use super::{Observable, Resolution, Sample, SelfConvergence, Traced, cases, figures};
-use crate::error::richardson;
 use crate::run::rerun::resampled;
+use convergence_study::judge::richardson;
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;

@@ -119,7 +119,7 @@ impl Estimator {
     /// [`JudgeError::Floor`] for a negative or infinite one.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         let judge = self.judge.clone().with_floor(floor)?;
-        Ok(Self { judge, floor: Some(floor), ..self })
+        Ok(Self { judge, floor: Some(floor) })
     }
 
     /// Estimates the error of the finest of the values, which come coarsest first.

@@ -115,6 +115,15 @@ impl Answer {
         })
     }
 
+    /// The number of that name; NaN where there is none.
+    pub(super) fn number(&self, expected: &Expected) -> f64 {
+        let among = match expected {
+            Expected::Error(_) => &self.errors,
+            Expected::Value(_) => &self.values,
+        };
+        among.iter().find(|(known, _)| known == expected.name()).map_or(f64::NAN, |(_, number)| *number)
+    }
+
     /// Refuses an answer that lacks a number that the study expects.
     pub(super) fn require(&self, expected: &Expected) -> Result<(), AnswerError> {
         let (what, name) = (expected.what(), expected.name());

@@ -19,7 +19,8 @@
 //!
 //! [[expect]]
 //! error = "L2"
-//! order = 2.0
+//! order = 2.0                    # of a grid: in h
+//! order_dt = 1.0                 # of a grid alone: in dt, else the same
 //! tolerance = 0.05
 //!
 //! [[expect]]
@@ -43,6 +44,8 @@ use crate::study::{Claim, Header};
 /// The longest time for a case of a file that does not say.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
+const POSITIVE: &str = "a finite number > 0";
+
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
     root.allow(&["study", "program", "refine", "expect"])?;
     let section = root.require("program", "a table with the command")?.section()?;
@@ -56,7 +59,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
     let store = store(&section, &words, &directory)?.map(|files| Store::new(folder, &header.id, files));
-    let expect = expectations(root)?;
+    let expect = expectations(root, refine.grid)?;
     Ok(Program { header, words, directory, timeout, store, refine, expect })
 }
 
@@ -118,13 +121,13 @@ fn store(section: &Section<'_>, words: &[Word], directory: &Path) -> Result<Opti
     Ok(Some(files))
 }
 
-fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
+fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, InputError> {
     let allowed = "at least one table [[expect]] with error or value, order and tolerance";
     let field = root.require("expect", allowed)?;
     let mut expectations: Vec<Expectation> = vec![];
     for item in field.items(allowed)? {
         let section = item.section()?;
-        let expectation = expectation(&section)?;
+        let expectation = expectation(&section, grid)?;
         if expectations.iter().any(|earlier| earlier.expected == expectation.expected) {
             let found = format!("\"{}\" a second time", visible(expectation.expected.name()));
             return Err(section.refuse(expectation.expected.what(), found, "each name once"));
@@ -134,11 +137,15 @@ fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
     if expectations.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(expectations) }
 }
 
-fn expectation(section: &Section<'_>) -> Result<Expectation, InputError> {
-    section.allow(&["error", "value", "order", "tolerance"])?;
+/// * `grid`: whether h and dt are refined apart; each error then has two orders.
+fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
+    section.allow(&["error", "value", "order", "order_dt", "tolerance"])?;
     let expected = match section.get("value") {
         Some(value) if section.get("error").is_some() => {
             return Err(value.refuse("value beside error", "one of the two in each table [[expect]]"));
+        }
+        Some(value) if grid => {
+            return Err(value.refuse("value with grid = true", "error, the only one that a grid judges"));
         }
         Some(value) => Expected::Value(name(&value, "the name of a value that the program answers")?),
         None => {
@@ -146,16 +153,17 @@ fn expectation(section: &Section<'_>) -> Result<Expectation, InputError> {
             Expected::Error(name(&section.require("error", allowed)?, allowed)?)
         }
     };
-    let positive = "a finite number > 0";
+    let positive = |field: Field<'_>| field.number_where(POSITIVE, |order| order > 0.0);
+    let order = positive(section.require("order", POSITIVE)?)?;
+    let time = match section.get("order_dt") {
+        Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
+        Some(field) => positive(field)?,
+        None => order,
+    };
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
     let tolerance = section.require("tolerance", &narrow)?;
-    Ok(Expectation {
-        expected,
-        claim: Claim {
-            order: section.require("order", positive)?.number_where(positive, |order| order > 0.0)?,
-            tolerance: tolerance.number_where(&narrow, |tolerance| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE)?,
-        },
-    })
+    let tolerance = tolerance.number_where(&narrow, |tolerance| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE)?;
+    Ok(Expectation { expected, claim: Claim { order, tolerance }, time })
 }
 
 /// A name as answers have it, which control characters are never part of.

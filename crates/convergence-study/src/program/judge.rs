@@ -4,6 +4,7 @@ use super::answer::{Answer, Expected};
 use super::refine::Resolution;
 use super::{Expectation, Program, values};
 use crate::plots::{self, Series, WorkPrecision};
+use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
 use crate::study::{Axis, Claim, Figure, Outcome, Ran};
 
@@ -11,13 +12,51 @@ type Run = Ran<Resolution, Answer>;
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     let levels = levels(study, ran);
+    if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) }
+}
+
+/// Both orders of each error at once.
+fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+    let point = |ran: &Run| [step(ran, Axis::Space), step(ran, Axis::Time)];
+    let column = |expectation: &Expectation| GridColumn {
+        name: expectation.expected.name().to_owned(),
+        space: expectation.claim,
+        time: expectation.time,
+        errors: ran
+            .iter()
+            .map(|ran| ran.ok().map_or(f64::NAN, |answer| answer.number(&expectation.expected)))
+            .collect(),
+    };
+    let grid = Grid {
+        points: ran.iter().map(point).collect(),
+        times: study.refine.times(),
+        columns: study.expect.iter().map(column).collect(),
+        model: Model::Either,
+    };
+    let GridVerdict { mut checks, table, mut quantities, headline } = grid.judge();
+    let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+    checks.push(levels::completion(ran, |_| vec![]));
+    quantities.extend(levels.quantities(&[]));
+    let mut figures = grid.figures(&study.header.id, "", "error");
+    figures.extend(work_precision(&study.header.id, levels, ran));
+    Outcome {
+        headline,
+        levels: levels.errors(),
+        tables: vec![table],
+        figures,
+        quantities,
+        ..Outcome::new(summary, vec![], checks)
+    }
+}
+
+fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let mut rates = levels.judge();
     let id = &study.header.id;
     let mut figures = vec![];
     if !levels.columns.is_empty() {
         let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
         figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
-        figures.extend(work_precision(id, &levels, ran));
+        figures.extend(work_precision(id, levels, ran));
     }
     let mut quantities = levels.quantities(&rates);
     let values = values::judge(study, ran, &levels.refinements);
@@ -35,26 +74,28 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     }
 }
 
-/// Every error of every answer over the steps that the program reports, else the nominal ones; NaN where a case failed.
+/// The step of a case: the one that the program reports, else the nominal one.
+fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
+    let answered = found.as_ref().ok();
+    match axis {
+        Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
+        Axis::Time => answered.and_then(|answer| answer.dt).unwrap_or(case.data.dt),
+    }
+}
+
+/// Every error of every answer; NaN where a case failed.
 fn levels(study: &Program, ran: &[Run]) -> Levels {
     let axis = study.refine.axis();
-    let step = |Ran { case, found }: &Run| {
-        let answered = found.as_ref().ok();
-        match axis {
-            Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
-            Axis::Time => answered.and_then(|answer| answer.dt).unwrap_or(case.data.dt),
-        }
-    };
     let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
     Levels {
         axis,
-        refinements: ran.iter().map(|ran| ran.case.data.refinement(step(ran))).collect(),
+        refinements: ran.iter().map(|ran| ran.case.data.refinement(step(ran, axis))).collect(),
         columns: ErrorColumn::of(&claims(study), &found),
     }
 }
 
 fn claims(study: &Program) -> Vec<(String, Claim)> {
-    let claim = |Expectation { expected, claim }: &Expectation| match expected {
+    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
         Expected::Error(name) => Some((name.clone(), *claim)),
         Expected::Value(_) => None,
     };

@@ -72,7 +72,10 @@ pub struct Program {
 #[derive(Debug, Clone, PartialEq)]
 struct Expectation {
     expected: Expected,
+    /// Of a grid: the order in h.
     claim: Claim,
+    /// Of a grid: the order in dt.
+    time: f64,
 }
 
 impl FromFile for Program {
@@ -129,8 +132,9 @@ impl Kind for Program {
     fn details(&self) -> Vec<(String, String)> {
         let words: Vec<String> = self.words.iter().map(ToString::to_string).collect();
         let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
-        let order = |Expectation { expected, claim }: &Expectation| {
-            format!("{} {} {} ± {}", expected.what(), expected.name(), claim.order, claim.tolerance)
+        let order = |Expectation { expected, claim, time }: &Expectation| {
+            let time = if self.refine.grid { format!(" in h, {time} in dt") } else { String::new() };
+            format!("{} {} {}{time} ± {}", expected.what(), expected.name(), claim.order, claim.tolerance)
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
         let kept = if self.store.is_some() { " Results are kept while command and files are unchanged." } else { "" };

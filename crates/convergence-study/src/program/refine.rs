@@ -74,6 +74,11 @@ impl Refine {
         }
     }
 
+    /// The number of time steps.
+    pub(super) fn times(&self) -> usize {
+        self.time.as_ref().map_or(0, |time| time.values.len())
+    }
+
     /// The names that placeholders may have.
     pub(super) fn names(&self) -> Vec<&'static str> {
         self.resolutions().first().map_or(vec![], |first| first.told.iter().map(|(name, _)| *name).collect())

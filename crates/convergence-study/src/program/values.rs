@@ -58,7 +58,7 @@ fn name(column: &ErrorColumn) -> String {
 
 /// Every value of every answer; NaN where a case failed.
 fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn> {
-    let claim = |Expectation { expected, claim }: &Expectation| match expected {
+    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
         Expected::Value(name) => Some((name.clone(), *claim)),
         Expected::Error(_) => None,
     };

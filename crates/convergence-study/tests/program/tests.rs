@@ -28,6 +28,7 @@ const TESTS: &[Test] = &tests![
     a_program_is_judged_by_its_errors,
     a_program_without_placeholders_reads_the_case,
     a_value_is_judged_by_its_differences,
+    a_grid_finds_both_orders,
     every_misbehaviour_is_one_line_and_leaves_nothing,
     a_program_that_hangs_is_stopped_and_leaves_nothing,
     much_output_takes_little_memory,
@@ -177,6 +178,33 @@ fn a_value_is_judged_by_its_differences() {
         place.write_text(&text.replace(old, new));
         let (status, out, _) = place.study(&[]);
         assert!(status == Some(1) && out.contains(told), "{out}");
+    }
+}
+
+fn a_grid_finds_both_orders() {
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = text
+        .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]")
+        .replace("64]", "64]\ndt = [0.1, 0.05, 0.025, 0.0125]\ngrid = true");
+    place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("L2: p = 2 ± 0.05") && out.contains("L2: q = 1 ± 0.05"), "{out}");
+    // The same order in both, which the error in time has not.
+    place.write_text(&text);
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("L2 q = 1.0000 in ["), "{out}");
+    // Refined together, with the error in time hidden by nothing.
+    place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
+    assert_eq!(place.study(&[]).0, Some(1));
+    for (old, new, message) in [
+        ("error = \"L2\"", "value = \"flux\"", "expect[0].value: found value with grid = true; expected error"),
+        ("grid = true", "", "refine.dt: found 4 values beside 5; expected lists of the same length"),
+    ] {
+        place.write_text(&text.replace(old, new));
+        let (status, _, err) = place.study(&[]);
+        assert!(status == Some(2) && err.contains(message), "{err}");
     }
 }
 

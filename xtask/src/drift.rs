@@ -16,7 +16,7 @@ use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
 use serde::Deserialize;
 
-use crate::project::PROJECT;
+use crate::PROJECT;
 
 use convergence_study::cli::{output, screen, selection, workspace};
 

@@ -64,7 +64,6 @@ fn main() -> ExitCode {
 /// A workspace with the studies `one`, which passes, and `two`, which fails, if wanted.
 fn workspace(with_a_failure: bool) -> TempDir {
     let root = tempfile::tempdir().unwrap();
-    fs::write(root.path().join("Cargo.toml"), "").unwrap();
     fs::create_dir(root.path().join("studies")).unwrap();
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0)).unwrap();
     if with_a_failure {
@@ -80,7 +79,7 @@ fn study(id: &str, claim: &str, exponent: f64) -> String {
 
 fn command(root: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(arguments).current_dir(root).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
+    command.args(arguments).current_dir(root).env(AS_PROJECT, "1");
     command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY").stdin(Stdio::null());
     command
 }

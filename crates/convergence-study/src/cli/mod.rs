@@ -1,7 +1,8 @@
 //! The command line: `verify`, `study`, `list`, `rates`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
-//! `#[command(flatten)]`. Results go to standard output, everything else to standard error. Exit status: [`exit::HELP`].
+//! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
+//! error. Exit status: [`exit::HELP`].
 
 mod completions;
 pub mod exit;
@@ -25,11 +26,11 @@ pub mod workspace;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 use crate::program;
 use crate::project::Project;
-pub use help::grouped;
+use help::grouped;
 
 /// The commands of the harness. What each does stands at its arguments, from where `--help` takes it.
 #[allow(missing_docs)]
@@ -71,6 +72,21 @@ fn program_name(project: &Project) -> String {
     project.command.rsplit(' ').next().unwrap_or(project.command).to_owned()
 }
 
+/// The command line of the program `P`, under the name that its users type, its commands in groups.
+///
+/// * `groups`: heading, and names of commands. A command of no group is not listed by `--help`.
+pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
+    let command = P::command().name(project.command).bin_name(project.command).about(project.about);
+    grouped(command.version(env!("CARGO_PKG_VERSION")), groups)
+}
+
+/// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.
+pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
+    let asked = P::from_arg_matches(&line.get_matches()).unwrap_or_else(|error| error.exit());
+    interrupt::listen();
+    exit::code(run(asked))
+}
+
 #[derive(Debug, Parser)]
 struct Program {
     #[command(subcommand)]
@@ -79,12 +95,6 @@ struct Program {
 
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
-    let program = || {
-        let command = Program::command().name(project.command).bin_name(project.command).about(project.about);
-        grouped(command.version(env!("CARGO_PKG_VERSION")), &[("Commands", &COMMANDS)])
-    };
-    let parsed = Program::from_arg_matches(&program().get_matches());
-    let Program { command } = parsed.unwrap_or_else(|error| error.exit());
-    interrupt::listen();
-    exit::code(command.run(project, program()))
+    let line = command_line::<Program>(project, &[("Commands", &COMMANDS)]);
+    ended(line.clone(), |asked: Program| asked.command.run(project, line))
 }

@@ -37,7 +37,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
     checks.push(levels::completion(ran, |_| vec![]));
     quantities.extend(levels.quantities(&[]));
-    let mut figures = grid.figures(&study.header.id, "", "error");
+    let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
     Outcome {
         headline,

@@ -86,6 +86,7 @@ fn differences(
         name: name(column),
         errors: column.errors.windows(2).map(|pair| (pair[0] - pair[1]).abs()).collect(),
         claim: column.claim,
+        look: column.look,
     };
     let levels = Levels {
         axis: study.refine.axis(),

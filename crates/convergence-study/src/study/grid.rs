@@ -86,17 +86,15 @@ impl Grid {
     /// Each error over the grid, as a picture.
     ///
     /// * `id`: of the study; a picture is called `<id>-surface-<name>.svg`.
-    /// * `unit`: of both steps, for the labels of the axes; empty for none.
     /// * `what`: what the name of an error stands for, such as `norm`.
-    pub fn figures(&self, id: &str, unit: &str, what: &str) -> Vec<Figure> {
-        let axis = |name: &str| plots::Axis::log(format!("{name}{unit}"));
+    pub fn figures(&self, id: &str, what: &str) -> Vec<Figure> {
         let widths: Vec<f64> = self.points.iter().step_by(self.times.max(1)).map(|[h, _]| *h).collect();
         let steps: Vec<f64> = self.points.iter().take(self.times).map(|[_, dt]| *dt).collect();
         let figure = |column: &GridColumn| {
             let at = |k: usize, j: usize| column.errors.get(j * self.times + k).copied().unwrap_or(f64::NAN);
             let svg = plots::surface(&plots::Surface {
-                x: axis("mesh width h"),
-                y: axis("time step dt"),
+                x: plots::Axis::log("mesh width h"),
+                y: plots::Axis::log("time step dt"),
                 z: plots::Axis::log(format!("error, {}", column.name)),
                 x_values: widths.clone(),
                 y_values: steps.clone(),

@@ -29,6 +29,13 @@ addEventListener("load", () => {
   picture.dispatchEvent(new PointerEvent("pointermove", at));
   const said = one(".reading").textContent;
   expect("values: " + said, said.startsWith("a<b") && said.includes("mesh width h: 0.125") && said.includes("error: 0.125"));
+  picture.dispatchEvent(new PointerEvent("pointerleave", at));
+  expect("gone with the pointer", one(".reading").hidden);
+  picture.dispatchEvent(new MouseEvent("click", at));
+  picture.dispatchEvent(new PointerEvent("pointerleave", { ...at, pointerType: "touch" }));
+  expect("a tap shows values", !one(".reading").hidden && one(".reading").textContent === said);
+  document.body.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
+  expect("a tap elsewhere hides them", one(".reading").hidden);
   one("[data-entry='a<b']", picture).dispatchEvent(new MouseEvent("click"));
   expect("switched off", getComputedStyle(one("[data-series='a<b']", picture)).display === "none");
   expect("the other one stays", getComputedStyle(one("[data-series='c']", picture)).display !== "none");

@@ -210,13 +210,14 @@ impl Kind for AnyOrderCost {
             head: ["run", "error", "node-solves"].map(str::to_owned).to_vec(),
             rows: ran.iter().map(row).collect(),
         };
-        let series = [("dG(q)", any_order), ("midpoint", midpoint)].map(|(label, points)| plots::Series {
-            label: label.to_owned(),
-            points: points.iter().map(|point| (point.work, point.error)).collect(),
+        let series = [("dG(q)", any_order), ("midpoint", midpoint)].map(|(label, mut points)| {
+            points.sort_by(|a, b| a.work.total_cmp(&b.work));
+            let points = points.iter().map(|point| (point.work, point.error)).collect();
+            plots::Series { label: label.to_owned(), points }
         });
         let svg = plots::work_precision(&plots::WorkPrecision {
-            title: None,
-            x_label: Some("node-solves".to_owned()),
+            title: Some("What an error of u(1, t) costs".to_owned()),
+            x_label: Some("counted work (node-solves)".to_owned()),
             y_label: "largest error of u(1, t) (dimensionless)".to_owned(),
             series: series.to_vec(),
         });

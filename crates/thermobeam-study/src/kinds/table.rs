@@ -9,7 +9,7 @@ use super::{
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 18] = [
     convergence::ROW,
     any_order::ROW,
     any_order_cost::ROW,
@@ -27,4 +27,5 @@ pub const KINDS: [KindRow; 17] = [
     work_precision::ROW,
     calibration::ROW,
     program::ROW,
+    calibration::bars::ROW,
 ];

@@ -6,12 +6,13 @@ use std::path::Path;
 use super::text::{legend, mark, pairwise, rate, sentence};
 use super::{Findings, Judged};
 use crate::judge::verdict::{Aside, Verdict};
-use crate::plots::{Convergence, ErrorSeries, Guide, PowerLaw, convergence};
+use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
 use crate::store::atomic;
+use crate::study::levels::power_law;
 use crate::text::number::{error_text, plain_text};
 use crate::text::visible::visible;
 
-/// Most columns in the figure: with more, no one tells them apart.
+/// Most columns in the figure: more would have the colours of the first.
 const DRAWN: usize = 8;
 
 /// Writes the files, each as a whole.
@@ -36,18 +37,13 @@ fn drawn(findings: &Findings<'_>) -> Vec<usize> {
 fn figure(findings: &Findings<'_>) -> String {
     let series = |k: usize| {
         let (judged, (_, levels)) = (&findings.columns[k], &findings.table.columns[k]);
-        let used = &levels[judged.rate.used.clone()];
-        let fit = judged.rate.fitted.filter(|_| !used.is_empty()).map(|rate| {
-            // The line of this rate through the mean of the levels used.
-            let log = used.iter().map(|level| level.error.ln() - rate * level.step.ln()).sum::<f64>();
-            PowerLaw { rate, constant: (log / used.len() as f64).exp() }
-        });
         ErrorSeries {
             label: judged.name.to_owned(),
             points: levels.iter().map(|level| (level.step, level.error)).collect(),
             order: Some(judged.rate.order).filter(|order| !order.is_nan()),
-            fit,
-            baseline: vec![],
+            fit: power_law(levels, judged.rate),
+            used: Some(judged.rate.used.clone()),
+            ..ErrorSeries::default()
         }
     };
     let series: Vec<ErrorSeries> = drawn(findings).into_iter().map(series).collect();
@@ -63,6 +59,7 @@ fn figure(findings: &Findings<'_>) -> String {
         series,
         slopes,
         floor: floor.then(|| Guide { label: "floor".to_owned(), value: findings.floor }),
+        ..Convergence::default()
     })
 }
 

@@ -19,7 +19,7 @@ pub(super) fn judge(study: &Convergence, ran: &[Run], levels: &Levels) -> Outcom
     Outcome {
         headline: verdict.headline,
         tables: vec![verdict.table],
-        figures: grid.figures(&study.header.id, " (dimensionless)", "norm"),
+        figures: grid.figures(&study.header.id, "norm"),
         quantities,
         ..Outcome::new(summary, vec![], checks)
     }

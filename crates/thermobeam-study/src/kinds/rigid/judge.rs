@@ -59,11 +59,6 @@ impl<'r> Results<'r> {
         results
     }
 
-    /// A number of each compliance.
-    pub(super) fn numbers(&self, number: impl Fn(&Compliance<'_>) -> f64) -> Vec<f64> {
-        self.by_compliance.iter().map(number).collect()
-    }
-
     /// Largest distance over time between the free end of a bouncing beam and that with rigid obstacles.
     pub(super) fn distance_to_limit(&self, of: &Compliance<'_>) -> f64 {
         match (of.bouncing, self.limit) {

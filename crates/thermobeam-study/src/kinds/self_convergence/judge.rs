@@ -58,7 +58,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Run]) -> Outcome {
     let both: Vec<(String, RateVerdict)> = rates.iter().chain(&shown).cloned().collect();
     let to_reference = differences(study, ran, Reading::Reference, |_| true).figure(
         format!("{}-errors.svg", study.header.id),
-        Some(format!("No exact solution: {}", study.scene.name)),
+        Some(format!("Differences to a reference run of {}", study.scene.name)),
         "Differences to the reference run, with the orders of a smooth solution.".to_owned(),
         &both,
     );
@@ -104,6 +104,7 @@ fn differences(
             name: format!("{}, {}", observable.name(), reading.name()),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
+            look: observable.look(),
         })
     };
     Levels {

@@ -13,7 +13,7 @@ use convergence_study::cli::output::{self, Format};
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The scene file; only its beam and its obstacles matter
     scene: PathBuf,
     /// How the result is printed

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::project::PROJECT;
+use convergence_study::project::Project;
 use convergence_study::store::atomic;
 use convergence_study::store::provenance::Provenance;
 use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
@@ -28,7 +28,7 @@ const COSTLIEST: usize = 12;
 
 /// Time per step, and run time against error, on this machine; writes reports/bench.md
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The scene that is timed
     #[arg(long, default_value = "studies/scenes/paper-1-beta-0.toml")]
     scene: PathBuf,
@@ -38,12 +38,12 @@ pub(crate) struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
     let scene = Scene::read(&path)?;
-    let studies = workspace::studies(&PROJECT, &root)?;
-    let mut page = Page { text: heading(&root, &path), folder: root.join("reports") };
+    let studies = workspace::studies(project, &root)?;
+    let mut page = Page { text: heading(project, &root, &path), folder: root.join("reports") };
     page.add(&step_time::ways(&scene, 100)?)?;
     page.add(&step_time::ways(&scene, 1000)?)?;
     page.add(&step_time::scenes(&scene, 100)?)?;
@@ -81,11 +81,12 @@ impl Page {
     }
 }
 
-fn heading(root: &Path, scene: &Path) -> String {
-    let machine = Provenance::collect(root, "cargo xtask bench".to_owned(), 1, &[]);
+fn heading(project: &Project, root: &Path, scene: &Path) -> String {
+    let command = format!("{} bench", project.command);
+    let machine = Provenance::collect(root, command.clone(), 1, &[]);
     let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     format!(
-        "# Benchmarks\n\nWritten by `cargo xtask bench` on {}, {} threads, {}; scene {name}. Each time is the best of \
+        "# Benchmarks\n\nWritten by `{command}` on {}, {} threads, {}; scene {name}. Each time is the best of \
          several runs; counts are exact. Another machine gives other times: compare ratios.\n\n",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.threads_available.map_or("?".to_owned(), |threads| threads.to_string()),

@@ -12,7 +12,7 @@ use convergence_study::cli::output;
 ///
 /// A missing or repeated case is an error, and nothing is written.
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The folders of all shares
     #[arg(required = true, value_name = "DIR")]
     folders: Vec<PathBuf>,

@@ -1,6 +1,6 @@
 use std::process::Stdio;
 
-use crate::{Folder, ended, keys, run_json, thrown, xtask};
+use crate::{Folder, ended, keys, run_json, thermobeam, thrown};
 
 #[test]
 fn the_reference_is_reached_with_both_solvers() {
@@ -49,7 +49,7 @@ fn the_keys_and_their_order_are_the_contract() {
 fn the_summary_says_what_was_left_out() {
     let folder = Folder::new();
     let cold = folder.file("cold.toml", "[beam]\na = 0\n[initial]\nu_t = \"x\"\n[time]\nt_end = 1\ndt = 0.1");
-    let ended = ended(xtask().arg("run").arg(cold));
+    let ended = ended(thermobeam().arg("run").arg(cold));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
     for piece in ["cold: 100 elements, 10 steps", "nothing heats the beam", "the scene has none", "ns per element"] {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
@@ -62,7 +62,7 @@ fn the_history_and_the_pictures_of_every_scheme_are_written() {
     let any_order = crate::any_order::thrown("degree = 8", "");
     for (scene, lines) in [(thrown("dt = 1e-2"), 102), (any_order, 4002)] {
         let (scene, out) = (folder.file("scene.toml", &scene), folder.path(&format!("deep/results-{lines}")));
-        let ended = ended(xtask().arg("run").arg(scene).arg("--out").arg(&out));
+        let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&out));
         assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
         let mut names: Vec<String> = std::fs::read_dir(&out)
             .expect("the folder")
@@ -86,7 +86,7 @@ fn a_reader_who_leaves_early_is_no_error() {
     let folder = Folder::new();
     let scene = folder.file("scene.toml", &thrown("dt = 0.1"));
     for arguments in [&["run"][..], &["run", "--format", "json"], &["equilibria"]] {
-        let mut child = xtask()
+        let mut child = thermobeam()
             .args(arguments)
             .arg(&scene)
             .stdout(Stdio::piped())

@@ -1,4 +1,4 @@
-use crate::{Folder, ended, run_json, thrown, xtask};
+use crate::{Folder, ended, run_json, thermobeam, thrown};
 
 #[test]
 fn unusable_input_is_named_and_nothing_is_written() {
@@ -26,7 +26,7 @@ fn unusable_input_is_named_and_nothing_is_written() {
     ] {
         let (scene, out) = (folder.file(name, text), folder.path("out"));
         for command in ["run", "equilibria"] {
-            let mut program = xtask();
+            let mut program = thermobeam();
             program.arg(command).arg(&scene).args(["--format", "json"]);
             if command == "run" {
                 program.arg("--out").arg(&out);
@@ -44,13 +44,13 @@ fn unusable_input_is_named_and_nothing_is_written() {
 #[test]
 fn a_missing_scene_and_a_wrong_argument_are_unusable_too() {
     let folder = Folder::new();
-    let missing = ended(xtask().arg("run").arg(folder.path("missing.toml")));
+    let missing = ended(thermobeam().arg("run").arg(folder.path("missing.toml")));
     assert_eq!((missing.status, missing.stdout.as_str()), (Some(2), ""));
     assert!(missing.stderr.contains("missing.toml: cannot be read"), "{}", missing.stderr);
     for arguments in [&["fly"][..], &["run"], &["run", "a", "--format", "xml"], &[]] {
-        assert_eq!(ended(xtask().args(arguments)).status, Some(2), "{arguments:?}");
+        assert_eq!(ended(thermobeam().args(arguments)).status, Some(2), "{arguments:?}");
     }
-    assert_eq!(ended(xtask().arg("--help")).status, Some(0));
+    assert_eq!(ended(thermobeam().arg("--help")).status, Some(0));
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_place_that_cannot_be_written_to_is_told_before_computing() {
     // A year's work, were it begun.
     let scene = folder.file("scene.toml", &thrown("dt = 1e-10"));
     let taken = folder.file("taken", "");
-    let ended = ended(xtask().arg("run").arg(scene).arg("--out").arg(&taken));
+    let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&taken));
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""));
     assert!(ended.stderr.contains("taken"), "{}", ended.stderr);
 }
@@ -84,7 +84,7 @@ fn a_diverging_iteration_keeps_what_was_done() {
     }
 
     let out = folder.path("out");
-    let text = ended(xtask().arg("run").arg(&scene).arg("--out").arg(&out));
+    let text = ended(thermobeam().arg("run").arg(&scene).arg("--out").arg(&out));
     assert_eq!(text.status, Some(1));
     assert!(text.stdout.contains(&format!("FAILED after {steps} of 100 steps")), "{}", text.stdout);
     let history = std::fs::read_to_string(out.join("history.csv")).expect("a history");

@@ -27,7 +27,7 @@ use convergence_study::cli::running::seconds;
 
 /// Simulate one scene
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
     /// How the result is printed

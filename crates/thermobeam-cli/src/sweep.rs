@@ -20,7 +20,7 @@ use convergence_study::cli::running::seconds;
 /// One JSON line for each case: its parameters and what `run --format json` prints, without the wall time. A case that fails
 /// has a line with the reason; the exit status is then 1.
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The sweep file
     file: PathBuf,
     /// Write to this folder: a journal, and results.jsonl at the end; default: standard output

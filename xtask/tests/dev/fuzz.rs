@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{Ended, Folder, ended, program, xtask};
+use tempfile::TempDir;
+
+use crate::{Ended, ended, program, xtask};
 
 /// Notes what it was asked for, prints what the test is to print, and ends as the test is to end.
 const CARGO: &str = r#"#!/bin/sh
@@ -12,8 +14,8 @@ cat prints
 exit "$(cat ends)"
 "#;
 
-fn workspace(folder: &Folder) -> PathBuf {
-    let root = folder.path("w");
+fn workspace(folder: &TempDir) -> PathBuf {
+    let root = folder.path().join("w");
     fs::create_dir_all(root.join("studies")).expect("a folder");
     fs::write(root.join("Cargo.toml"), "").expect("a file");
     program(&root.join("cargo"), CARGO);
@@ -25,7 +27,7 @@ fn fuzz(root: &Path, prints: &str, ends: i32, arguments: &[&str]) -> Ended {
     fs::write(root.join("ends"), ends.to_string()).expect("a file");
     let mut command = xtask();
     command.args(["dev", "fuzz"]).args(arguments).current_dir(root).env("CARGO", root.join("cargo"));
-    ended(command.env_remove("CARGO_MANIFEST_DIR"))
+    ended(&mut command)
 }
 
 fn page(root: &Path) -> Option<String> {
@@ -34,7 +36,7 @@ fn page(root: &Path) -> Option<String> {
 
 #[test]
 fn the_counts_of_the_test_become_a_report() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     let prints = "running 1 test\nfuzz scene 150 20 130 0 2.5\nfuzz study 50 1 49 0 7.25\ntest fuzz ... ok\n";
     let fuzzed = fuzz(&root, prints, 0, &["--inputs", "200", "--first", "7"]);
@@ -52,7 +54,7 @@ fn the_counts_of_the_test_become_a_report() {
 
 #[test]
 fn an_input_that_fails_fails_the_command_and_is_reported() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     let fuzzed = fuzz(&root, "fuzz scene 200 20 178 2 2.5\n", 1, &["--inputs", "200"]);
     assert_eq!(fuzzed.status, Some(1));
@@ -62,7 +64,7 @@ fn an_input_that_fails_fails_the_command_and_is_reported() {
 
 #[test]
 fn a_test_that_fails_for_another_reason_fails_the_command_and_says_so() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     let fuzzed = fuzz(&root, "fuzz scene 200 20 180 0 2.5\n", 1, &["--inputs", "200"]);
     assert_eq!(fuzzed.status, Some(1));
@@ -71,7 +73,7 @@ fn a_test_that_fails_for_another_reason_fails_the_command_and_says_so() {
 
 #[test]
 fn counts_that_do_not_add_up_and_too_few_inputs_leave_the_report_as_it_was() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     for (prints, inputs, told) in [
         ("", "200", "0 of 200 inputs"),

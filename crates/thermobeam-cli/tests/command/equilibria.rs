@@ -1,4 +1,4 @@
-use crate::{Folder, ended, keys, xtask};
+use crate::{Folder, ended, keys, thermobeam};
 
 /// The paper's beam between its obstacles at β, with the time table that a scene must have.
 fn scene(beta: f64) -> String {
@@ -9,7 +9,7 @@ fn scene(beta: f64) -> String {
 fn the_states_below_the_buckling_force_are_listed() {
     let folder = Folder::new();
     let path = folder.file("buckled.toml", &scene(-0.8));
-    let json = ended(xtask().arg("equilibria").arg(&path).args(["--format", "json"]));
+    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"]));
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let state = ["contact", "n_value", "u_tip", "phi_tip", "stable"];
     let found = keys(&json.stdout);
@@ -26,7 +26,7 @@ fn the_states_below_the_buckling_force_are_listed() {
         assert!(state["u_tip"].as_f64().is_some_and(|found| (found - u_tip).abs() < 1e-10), "{state}");
     }
 
-    let text = ended(xtask().arg("equilibria").arg(&path)).stdout;
+    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
     assert!(text.contains("3 steady states") && text.contains("unstable in 1 direction"), "{text}");
 }
 
@@ -34,9 +34,9 @@ fn the_states_below_the_buckling_force_are_listed() {
 fn a_list_that_is_not_complete_says_so() {
     let folder = Folder::new();
     let path = folder.file("crushed.toml", &scene(-1.5));
-    let text = ended(xtask().arg("equilibria").arg(&path)).stdout;
+    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
     assert!(text.contains("Not all"), "{text}");
-    let json = ended(xtask().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
+    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
     let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(value["complete"], false);
 }
@@ -47,7 +47,7 @@ fn a_question_without_an_answer_fails() {
     // The linear beam at its second buckling force in contact with nothing: a continuum of states.
     let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
     let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
-    let ended = ended(xtask().arg("equilibria").arg(folder.file("linear.toml", &text)));
+    let ended = ended(thermobeam().arg("equilibria").arg(folder.file("linear.toml", &text)));
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(1), ""));
     assert!(ended.stderr.contains("linear.toml") && ended.stderr.contains("buckling value"), "{}", ended.stderr);
 }

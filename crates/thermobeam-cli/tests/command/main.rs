@@ -5,12 +5,8 @@ mod any_order;
 mod equilibria;
 mod failure;
 mod first_steps;
-#[cfg(unix)]
-mod fuzz;
 mod interrupted;
 mod killed;
-#[cfg(unix)]
-mod mutants;
 mod places;
 mod rates;
 mod run;
@@ -51,17 +47,9 @@ impl Drop for Folder {
     }
 }
 
-/// Writes a program of the test's own.
-#[cfg(unix)]
-fn program(path: &Path, text: &str) {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::write(path, text).expect("a file");
-    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o755)).expect("permissions");
-}
-
 /// The program, to be given arguments.
-fn xtask() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_xtask"))
+fn thermobeam() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_thermobeam"))
 }
 
 /// What a command left behind.
@@ -81,7 +69,7 @@ fn ended(command: &mut Command) -> Ended {
 
 /// `run SCENE --format json`, parsed.
 fn run_json(scene: &Path) -> (Ended, serde_json::Value) {
-    let ended = ended(xtask().arg("run").arg(scene).args(["--format", "json"]));
+    let ended = ended(thermobeam().arg("run").arg(scene).args(["--format", "json"]));
     let value = serde_json::from_str(&ended.stdout).unwrap_or_else(|e| panic!("{e}: {}{}", ended.stdout, ended.stderr));
     (ended, value)
 }

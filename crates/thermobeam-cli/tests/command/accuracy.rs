@@ -1,6 +1,6 @@
 //! `run SCENE --target-error E`.
 
-use crate::{Folder, ended, keys, xtask};
+use crate::{Folder, ended, keys, thermobeam};
 
 const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 1\ndt = 0.1";
 
@@ -8,7 +8,7 @@ const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 
 fn an_accuracy_asked_for_is_told_with_its_cost() {
     let folder = Folder::new();
     let scene = folder.file("swing.toml", SWING);
-    let json = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-5", "--format", "json"]));
+    let json = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-5", "--format", "json"]));
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     let accuracy = &value["accuracy"];
@@ -20,7 +20,7 @@ fn an_accuracy_asked_for_is_told_with_its_cost() {
     assert!(number("pilot_node_steps") > 0.0);
     assert!(keys(&json.stdout).iter().any(|key| key == "accuracy"));
 
-    let text = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-2", "--quantity", "theorem-3.4"]));
+    let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-2", "--quantity", "theorem-3.4"]));
     assert_eq!(text.status, Some(0));
     for piece in ["asked for", "believed", "Theorem 3.4", "pilot runs"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
@@ -31,13 +31,13 @@ fn an_accuracy_asked_for_is_told_with_its_cost() {
 fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     let folder = Folder::new();
     let scene = folder.file("swing.toml", SWING);
-    let far = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-14"]));
+    let far = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-14"]));
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
     assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
     for arguments in
         [&["--target-error", "0"][..], &["--target-error", "-1"], &["--target-error", "nan"], &["--quantity", "tip"]]
     {
-        let ended = ended(xtask().arg("run").arg(&scene).args(arguments));
+        let ended = ended(thermobeam().arg("run").arg(&scene).args(arguments));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
         let says = ended.stderr.contains("expected a finite number > 0");
         assert_eq!(says, arguments[0] == "--target-error", "{}", ended.stderr);
@@ -53,7 +53,7 @@ fn a_run_whose_energy_rose_or_is_not_balanced_ends_with_status_1() {
     for (scene, message) in
         [(extreme, "the energy rose by "), (&any_order, "the balance of the energy is violated by ")]
     {
-        let ended = ended(xtask().arg("run").arg(folder.file("extreme.toml", scene)));
+        let ended = ended(thermobeam().arg("run").arg(folder.file("extreme.toml", scene)));
         assert_eq!(ended.status, Some(1), "{}", ended.stdout);
         assert!(ended.stderr.contains(message), "{}", ended.stderr);
     }

@@ -4,7 +4,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::workspace::{all, endless, quick, set, verify, workspace};
-use crate::{Ended, Folder, ended, thrown, xtask};
+use crate::{Ended, Folder, ended, thermobeam, thrown};
 
 /// How long an interrupted program may take to end; twice what is promised, for a machine that is busy.
 const PROMPT: Duration = Duration::from_secs(2);
@@ -78,7 +78,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     let folder = Folder::new();
     let scene = folder.file("long.toml", &thrown("dt = 1e-9"));
     let out = folder.path("out");
-    let run = interrupted(xtask().arg("run").arg(&scene).arg("--out").arg(&out), AT_WORK);
+    let run = interrupted(thermobeam().arg("run").arg(&scene).arg("--out").arg(&out), AT_WORK);
     assert_eq!(run.status, Some(130));
     assert!(run.stderr.contains(" of 1000000000 steps were done"), "{}", run.stderr);
     assert!(all(&out).is_empty());
@@ -87,7 +87,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     let text = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = { from = 0.0, to = 4.0, count = 4000 }\n";
     let file = folder.file("sweep.toml", text);
     let kept = folder.path("kept");
-    let sweep = interrupted(xtask().arg("sweep").arg(&file).arg("--out").arg(&kept), AT_WORK);
+    let sweep = interrupted(thermobeam().arg("sweep").arg(&file).arg("--out").arg(&kept), AT_WORK);
     assert_eq!(sweep.status, Some(130));
     assert!(sweep.stderr.contains(" of 4000 cases are saved in "), "{}", sweep.stderr);
     let journal = std::fs::read_to_string(kept.join("journal.jsonl")).expect("a journal");

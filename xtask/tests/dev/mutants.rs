@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{Ended, Folder, ended, program, xtask};
+use tempfile::TempDir;
+
+use crate::{Ended, ended, program, xtask};
 
 /// Lists three mutants, all of the solver; the tests catch the first, and whatever `caught` names besides.
 /// It counts its calls.
@@ -35,8 +37,8 @@ done
 exit $status
 "#;
 
-fn workspace(folder: &Folder) -> PathBuf {
-    let root = folder.path("w");
+fn workspace(folder: &TempDir) -> PathBuf {
+    let root = folder.path().join("w");
     for name in ["studies", "src", "bin", ".cargo"] {
         fs::create_dir_all(root.join(name)).expect("a folder");
     }
@@ -50,12 +52,7 @@ fn workspace(folder: &Folder) -> PathBuf {
 fn mutants(root: &Path, arguments: &[&str]) -> Ended {
     let path = format!("{}:{}", root.join("bin").display(), std::env::var("PATH").unwrap_or_default());
     let mut command = xtask();
-    command
-        .args(["dev", "mutants"])
-        .args(arguments)
-        .current_dir(root)
-        .env("PATH", path)
-        .env_remove("CARGO_MANIFEST_DIR");
+    command.args(["dev", "mutants"]).args(arguments).current_dir(root).env("PATH", path);
     ended(&mut command)
 }
 
@@ -65,7 +62,7 @@ fn calls(root: &Path) -> usize {
 
 #[test]
 fn a_survivor_fails_until_a_test_catches_it_or_a_reason_is_given() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     let first = mutants(&root, &[]);
     assert_eq!((first.status, calls(&root)), (Some(1), 3), "{}", first.stderr);
@@ -118,7 +115,7 @@ fn a_survivor_fails_until_a_test_catches_it_or_a_reason_is_given() {
 
 #[test]
 fn tests_that_fail_without_a_mutant_judge_none() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     fs::write(root.join("broken"), "").expect("a file");
     let ended = mutants(&root, &[]);
@@ -134,7 +131,7 @@ fn tests_that_fail_without_a_mutant_judge_none() {
 
 #[test]
 fn a_sample_is_the_same_for_the_same_seed_and_part_of_a_larger_one() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     assert!(mutants(&root, &["--sample", "1"]).stdout.contains("1 mutants: "));
     let one = fs::read_to_string(root.join("target/mutants/outcomes.tsv")).expect("a ledger");
@@ -145,7 +142,7 @@ fn a_sample_is_the_same_for_the_same_seed_and_part_of_a_larger_one() {
 
 #[test]
 fn without_cargo_mutants_it_is_said_how_to_get_it() {
-    let folder = Folder::new();
+    let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     fs::write(root.join("bin/cargo"), "#!/bin/sh\nexit 101\n").expect("a file");
     let missing = mutants(&root, &[]);

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use crate::{Ended, Folder, ended, thrown, xtask};
+use crate::{Ended, Folder, ended, thermobeam, thrown};
 
 /// A sweep over a small scene of its own.
 fn sweep(folder: &Folder, design: &str) -> PathBuf {
@@ -21,7 +21,7 @@ const LATIN: &str = "[latin]\nsamples = 400\nseed = 3\nbeam.beta = { from = -0.6
     mesh.elements = { from = 10, to = 60 }\n";
 
 fn run(file: &Path, out: &Path, arguments: &[&str]) -> Ended {
-    ended(xtask().arg("sweep").arg(file).arg("--out").arg(out).args(arguments))
+    ended(thermobeam().arg("sweep").arg(file).arg("--out").arg(out).args(arguments))
 }
 
 fn read(path: &Path) -> String {
@@ -36,8 +36,8 @@ fn lines(text: &str) -> Vec<serde_json::Value> {
 fn any_number_of_threads_and_either_output_give_the_same_bytes() {
     let folder = Folder::new();
     let file = sweep(&folder, GRID);
-    let one = ended(xtask().arg("sweep").arg(&file).args(["--jobs", "1"])).stdout;
-    let three = ended(xtask().arg("sweep").arg(&file).args(["--jobs", "3"])).stdout;
+    let one = ended(thermobeam().arg("sweep").arg(&file).args(["--jobs", "1"])).stdout;
+    let three = ended(thermobeam().arg("sweep").arg(&file).args(["--jobs", "3"])).stdout;
     let out = folder.path("out");
     run(&file, &out, &[]);
     assert_eq!(one, three);
@@ -49,7 +49,7 @@ fn any_number_of_threads_and_either_output_give_the_same_bytes() {
 #[test]
 fn a_line_holds_parameters_and_the_summary_and_a_failure_its_reason() {
     let folder = Folder::new();
-    let ended = ended(xtask().arg("sweep").arg(sweep(&folder, GRID)));
+    let ended = ended(thermobeam().arg("sweep").arg(sweep(&folder, GRID)));
     let lines = lines(&ended.stdout);
     assert_eq!((lines.len(), ended.status), (8 * 2 * 3 * 2, Some(1)));
     for (index, line) in lines.iter().enumerate() {
@@ -70,7 +70,7 @@ fn a_line_holds_parameters_and_the_summary_and_a_failure_its_reason() {
 fn a_case_is_what_run_prints_for_the_same_scene() {
     let folder = Folder::new();
     let file = sweep(&folder, "[grid]\nbeam.beta = [0.25]\nmesh.elements = [17]\n");
-    let case = lines(&ended(xtask().arg("sweep").arg(file)).stdout).remove(0)["result"].take();
+    let case = lines(&ended(thermobeam().arg("sweep").arg(file)).stdout).remove(0)["result"].take();
     let text = thrown("dt = 1e-2").replace("elements = 20", "elements = 17") + "[beam]\nbeta = 0.25\n";
     let (_, mut alone) = crate::run_json(&folder.file("base.toml", &text));
     alone.as_object_mut().expect("an object").remove("wall_seconds");
@@ -82,7 +82,7 @@ fn a_step_that_fails_is_a_line_too() {
     let folder = Folder::new();
     folder.file("base.toml", &thrown("dt = 1e-2\nsolver = \"fixed-point\""));
     let text = "[sweep]\nscene = \"base.toml\"\n[grid]\nobstacles.epsilon = [1e-3, 1.0]\n";
-    let ended = ended(xtask().arg("sweep").arg(folder.file("sweep.toml", text)));
+    let ended = ended(thermobeam().arg("sweep").arg(folder.file("sweep.toml", text)));
     let lines = lines(&ended.stdout);
     assert_eq!((&lines[0]["status"], &lines[1]["status"]), (&"failed".into(), &"done".into()));
     assert!(lines[0]["reason"].as_str().is_some_and(|reason| reason.contains("diverge")), "{}", lines[0]);
@@ -95,7 +95,7 @@ fn a_case_that_takes_too_long_is_stopped_and_the_others_go_on() {
     let folder = Folder::new();
     // The first of them would take hours.
     let file = sweep(&folder, "[grid]\ntime.dt = [1e-8, 1e-2]\ntime.t_end = [10.0]\n");
-    let ended = ended(xtask().arg("sweep").arg(&file).args(["--case-limit", "0.2"]));
+    let ended = ended(thermobeam().arg("sweep").arg(&file).args(["--case-limit", "0.2"]));
     let lines = lines(&ended.stdout);
     assert_eq!((ended.status, lines.len()), (Some(1), 2), "{}", ended.stderr);
     assert_eq!((&lines[0]["status"], &lines[1]["status"]), (&"failed".into(), &"done".into()));
@@ -111,10 +111,10 @@ fn a_heated_end_takes_its_temperature_along() {
     let folder = Folder::new();
     let set = "[set]\ninitial.theta = \"{beam.theta_a}*(1-x)\"\n";
     let axis = "[grid]\nbeam.theta_a = [0.0, -5.0, 20.0]\n";
-    let ended = ended(xtask().arg("sweep").arg(sweep(&folder, &format!("{set}{axis}"))));
+    let ended = ended(thermobeam().arg("sweep").arg(sweep(&folder, &format!("{set}{axis}"))));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
     assert_eq!(lines(&ended.stdout).len(), 3);
-    let without = crate::ended(xtask().arg("sweep").arg(sweep(&folder, axis)));
+    let without = crate::ended(thermobeam().arg("sweep").arg(sweep(&folder, axis)));
     assert_eq!(without.status, Some(2));
     assert!(without.stderr.contains("sweep.toml:4:22: grid.beam.theta_a[1]"), "{}", without.stderr);
 }
@@ -131,7 +131,7 @@ fn killed_at_any_moment_and_resumed_it_ends_in_the_same_bytes() {
         let out = folder.path(&format!("killed-{round}"));
         let mut kills = 0;
         loop {
-            let mut command = xtask();
+            let mut command = thermobeam();
             command.arg("sweep").arg(&file).arg("--out").arg(&out).args(["--resume", "--jobs", "2"]);
             let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program starts");
             // A moment that differs from kill to kill and from machine to machine.
@@ -181,7 +181,7 @@ fn a_torn_line_is_repaired_and_a_damaged_one_named() {
 fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
     let folder = Folder::new();
     let file = sweep(&folder, GRID);
-    let whole = ended(xtask().arg("sweep").arg(&file)).stdout;
+    let whole = ended(thermobeam().arg("sweep").arg(&file)).stdout;
     // With 150 shares many have no case at all.
     for n in [1, 2, 5, 150] {
         let shares: Vec<PathBuf> = (1..=n).map(|k| folder.path(&format!("share-{k}-of-{n}"))).collect();
@@ -194,7 +194,7 @@ fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
         }
         assert_eq!(seen.len(), whole.lines().count());
         let out = folder.path("merged.jsonl");
-        let merged = ended(xtask().arg("merge").args(&shares).arg("--out").arg(&out));
+        let merged = ended(thermobeam().arg("merge").args(&shares).arg("--out").arg(&out));
         assert_eq!((merged.status, read(&out)), (Some(1), whole.clone()), "{}", merged.stderr);
     }
 }
@@ -210,7 +210,7 @@ fn a_merge_names_what_is_missing_twice_or_foreign_and_writes_nothing() {
     });
     let out = folder.path("merged.jsonl");
     let merge = |folders: &[&PathBuf]| {
-        let ended = ended(xtask().arg("merge").args(folders).arg("--out").arg(&out));
+        let ended = ended(thermobeam().arg("merge").args(folders).arg("--out").arg(&out));
         assert_eq!((ended.status, out.exists()), (Some(2), false));
         ended.stderr
     };
@@ -240,7 +240,7 @@ fn a_folder_is_not_written_over_nor_mixed() {
     let changed = run(&sweep(&folder, "[grid]\nbeam.beta = [0, 2]\n"), &out, &["--resume"]);
     assert!(changed.status == Some(2) && changed.stderr.contains("hash"), "{}", changed.stderr);
     assert_eq!(read(&out.join("results.jsonl")), before);
-    assert_eq!(ended(xtask().arg("sweep").arg(&file).arg("--resume")).status, Some(2));
+    assert_eq!(ended(thermobeam().arg("sweep").arg(&file).arg("--resume")).status, Some(2));
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn a_bad_sweep_file_is_named_with_line_and_field_and_nothing_is_written() {
     }
     let file = sweep(&folder, GRID);
     for share in ["0/2", "3/2", "x"] {
-        assert_eq!(ended(xtask().arg("sweep").arg(&file).args(["--partition", share])).status, Some(2));
+        assert_eq!(ended(thermobeam().arg("sweep").arg(&file).args(["--partition", share])).status, Some(2));
     }
 }
 

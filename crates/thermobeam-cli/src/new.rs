@@ -9,11 +9,12 @@ use thermobeam_study::scene::template::{Template, is_name};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::output;
+use convergence_study::project::Project;
 use convergence_study::text::visible;
 
 /// Write a commented study or scene that runs as it is
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// What to begin
     #[arg(value_enum)]
     what: What,
@@ -41,7 +42,7 @@ fn name(text: &str) -> Result<String, String> {
 }
 
 /// Runs the command. A file that is there is never written over.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let (template, command) = match arguments.what {
         What::Study => (Template::Study, "study"),
         What::Scene => (Template::Scene, "run"),
@@ -56,12 +57,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         _ => Unusable::file(&path, &error),
     };
     let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(unusable)?;
-    file.write_all(template.text(&arguments.name).as_bytes()).map_err(unusable)?;
+    file.write_all(template.text(&arguments.name, project.command).as_bytes()).map_err(unusable)?;
     if !arguments.quiet {
-        let path = path.display();
-        let mut text = format!("wrote {path}\nnow  cargo xtask {command} {path}\n");
+        let (path, program) = (path.display(), project.command);
+        let mut text = format!("wrote {path}\nnow  {program} {command} {path}\n");
         if arguments.what == What::Study {
-            text += &format!("and  cargo xtask explain {path}\n");
+            text += &format!("and  {program} explain {path}\n");
         }
         output::print(&text)?;
     }

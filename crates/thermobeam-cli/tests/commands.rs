@@ -8,7 +8,6 @@ use tempfile::TempDir;
 
 fn workspace(studies: &[(&str, &str)]) -> TempDir {
     let root = tempfile::tempdir().unwrap();
-    fs::write(root.path().join("Cargo.toml"), "").unwrap();
     fs::create_dir_all(root.path().join("studies/scenes")).unwrap();
     for (name, text) in studies {
         fs::write(root.path().join("studies").join(name), text).unwrap();
@@ -16,16 +15,16 @@ fn workspace(studies: &[(&str, &str)]) -> TempDir {
     root
 }
 
-fn xtask(root: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.args(arguments).current_dir(root).env_remove("CARGO_MANIFEST_DIR");
+fn thermobeam(root: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_thermobeam"));
+    command.args(arguments).current_dir(root);
     command.stdin(Stdio::null()).output().unwrap()
 }
 
 /// Unusable input: status 2, these words on standard error, nothing on standard output, nothing written.
 #[track_caller]
 fn unusable(root: &TempDir, arguments: &[&str], words: &str) {
-    let output = xtask(root.path(), arguments);
+    let output = thermobeam(root.path(), arguments);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains(words), "{words} is not in {error}");
@@ -63,9 +62,9 @@ fn where_no_study_is_meant_nothing_passes() {
 }
 
 #[test]
-fn outside_a_workspace_there_is_nothing_to_verify() {
+fn without_a_folder_of_studies_there_is_nothing_to_verify() {
     let folder = tempfile::tempdir().unwrap();
-    unusable(&folder, &["verify"], "found no folder with Cargo.toml and studies/");
+    unusable(&folder, &["verify"], "expected a folder studies/, here or above; found none");
 }
 
 #[test]
@@ -74,7 +73,7 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     let [a, b] = ["a", "b"].map(|id| study(id, "frequencies") + body);
     let root = workspace(&[("a.toml", a.as_str()), ("b.toml", b.as_str())]);
     let list = |arguments: &[&str]| {
-        let output = xtask(root.path(), &[&["list"], arguments].concat());
+        let output = thermobeam(root.path(), &[&["list"], arguments].concat());
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     };
@@ -94,9 +93,9 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     assert_eq!(verdict("a"), "fail");
     assert!(!list(&["a"]).contains("\u{1b}") && list(&["--tier", "quick"]).lines().count() == 3);
     assert_eq!(list(&["b*"]).lines().count(), 2);
-    assert_eq!(xtask(root.path(), &["list", "c"]).status.code(), Some(2));
+    assert_eq!(thermobeam(root.path(), &["list", "c"]).status.code(), Some(2));
     fs::write(root.path().join("reports/results.json"), "{").unwrap();
-    let broken = xtask(root.path(), &["list"]);
+    let broken = thermobeam(root.path(), &["list"]);
     let error = String::from_utf8_lossy(&broken.stderr).into_owned();
     assert!(broken.status.code() == Some(2) && error.contains("results.json: "), "{error}");
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::workspace::{all, quick, set, verify, workspace};
-use crate::{Folder, ended, thrown, xtask};
+use crate::{Folder, ended, thermobeam, thrown};
 
 #[test]
 fn reports_that_cannot_be_written_are_named_and_the_old_ones_stay() {
@@ -45,7 +45,7 @@ fn a_study_folder_that_cannot_be_read_is_named() {
 fn on_a_full_disk(command: &Command, folder: &Path) -> Command {
     let mut limited = Command::new("sh");
     limited.args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$@\"", "sh"]).current_dir(folder);
-    limited.arg(command.get_program()).args(command.get_args()).env_remove("CARGO_MANIFEST_DIR");
+    limited.arg(command.get_program()).args(command.get_args());
     limited
 }
 
@@ -57,7 +57,8 @@ fn on_a_full_disk_nothing_is_half_written() {
     for dt in ["dt = 1e-3", "dt = 5e-2"] {
         let scene = folder.file("scene.toml", &thrown(dt));
         let out = folder.path("out");
-        let run = ended(&mut on_a_full_disk(xtask().arg("run").arg(&scene).arg("--out").arg(&out), &folder.path("")));
+        let run =
+            ended(&mut on_a_full_disk(thermobeam().arg("run").arg(&scene).arg("--out").arg(&out), &folder.path("")));
         assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{dt}: {}", run.stderr);
         assert!(run.stderr.contains("history.csv"), "{dt}: {}", run.stderr);
         assert!(all(&out).is_empty(), "{dt}: {:?}", all(&out).keys());
@@ -98,8 +99,8 @@ fn output_to_a_full_disk_is_said_and_output_to_nobody_is_no_error() {
         (&["explain", "superclose"], 0),
         (&["completions", "bash"], 0),
     ] {
-        let mut command = xtask();
-        command.args(arguments).current_dir(&root).env_remove("CARGO_MANIFEST_DIR").stderr(Stdio::piped());
+        let mut command = thermobeam();
+        command.args(arguments).current_dir(&root).stderr(Stdio::piped());
         let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("/dev/full");
         let output = command.stdout(full).output().expect("it starts");
         let said = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{Folder, xtask};
+use crate::{Folder, thermobeam};
 
 /// A study of a few milliseconds that passes.
 pub(crate) fn quick(id: &str) -> String {
@@ -31,7 +31,6 @@ pub(crate) fn with_studies(root: &Path, studies: &[(&str, String)]) {
     let folder = root.join("studies");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder");
-    fs::write(root.join("Cargo.toml"), "").expect("a file");
     for (id, text) in studies {
         fs::write(folder.join(format!("{id}.toml")), text).expect("a study");
     }
@@ -46,8 +45,8 @@ pub(crate) fn workspace(folder: &Folder, name: &str, studies: &[(&str, String)])
 
 /// `verify` in a workspace.
 pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
-    let mut command = xtask();
-    command.arg("verify").args(arguments).current_dir(root).env_remove("CARGO_MANIFEST_DIR");
+    let mut command = thermobeam();
+    command.arg("verify").args(arguments).current_dir(root);
     command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
     command
 }

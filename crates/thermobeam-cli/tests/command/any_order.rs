@@ -1,6 +1,6 @@
 //! `run` of scenes with `scheme = "dg"`.
 
-use crate::{Folder, ended, keys, run_json, xtask};
+use crate::{Folder, ended, keys, run_json, thermobeam};
 
 /// The paper's first experiment at β = 0 over [0, 0.5], with the given lines in `[mesh]` and `[time]`.
 pub(crate) fn thrown(mesh: &str, time: &str) -> String {
@@ -47,7 +47,7 @@ fn the_keys_and_their_order_are_the_contract() {
 #[test]
 fn the_summary_shows_degrees_work_and_events() {
     let folder = Folder::new();
-    let ended = ended(xtask().arg("run").arg(folder.file("thrown.toml", &thrown("degree = 8", ""))));
+    let ended = ended(thermobeam().arg("run").arg(folder.file("thrown.toml", &thrown("degree = 8", ""))));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
     for piece in ["thrown: 1 elements of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
@@ -57,7 +57,7 @@ fn the_summary_shows_degrees_work_and_events() {
 #[test]
 fn a_misspelt_scheme_is_named_before_the_keys_that_depend_on_it() {
     let text = thrown("degree = 8", "degree = 3\ndt = 0.01").replace("\"dg\"", "\"dgx\"");
-    let ended = ended(xtask().arg("run").arg(Folder::new().file("bad.toml", &text)));
+    let ended = ended(thermobeam().arg("run").arg(Folder::new().file("bad.toml", &text)));
     assert_eq!(ended.status, Some(2));
     let message = "time.scheme: found the text \"dgx\" (did you mean \"dg\"?)";
     assert!(ended.stderr.contains(message), "{}", ended.stderr);
@@ -80,7 +80,7 @@ fn bad_input_is_refused_with_file_and_field() {
     ] {
         let scene = folder.file("bad.toml", &thrown(mesh, time));
         let out = folder.path("out");
-        let ended = ended(xtask().arg("run").arg(scene).arg("--out").arg(&out));
+        let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&out));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{message}");
         assert!(ended.stderr.contains("bad.toml") && ended.stderr.contains(message), "{message}: {}", ended.stderr);
         assert!(!out.exists(), "{message}");
@@ -91,7 +91,7 @@ fn bad_input_is_refused_with_file_and_field() {
 fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
     let folder = Folder::new();
     let scene = folder.file("thrown.toml", &thrown("degree = 3", "degree = 0"));
-    let json = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-7", "--format", "json"]));
+    let json = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-7", "--format", "json"]));
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     let accuracy = &value["accuracy"];
@@ -103,7 +103,7 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
     assert_eq!(accuracy["nodes"].as_array().map(Vec::len), value["elements"].as_u64().map(|n| n as usize + 1));
     assert!(value["degree"].as_u64() > Some(3) && value["time_degree"].as_u64() > Some(0));
 
-    let text = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
+    let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
     assert_eq!(text.status, Some(0));
     for piece in ["asked for", "believed", "inside steps included", "steps half as long", "runs to compare with"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
@@ -114,7 +114,7 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
 fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
     let folder = Folder::new();
     let scene = folder.file("thrown.toml", &thrown("", "").replace("t_end = 0.5", "t_end = 0.05"));
-    let far = ended(xtask().arg("run").arg(&scene).args(["--target-error", "1e-18"]));
+    let far = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-18"]));
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
     assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
     for arguments in [
@@ -122,7 +122,7 @@ fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
         &["--target-error", "nan"],
         &["--target-error", "1e-3", "--quantity", "theorem-3.4"],
     ] {
-        let ended = ended(xtask().arg("run").arg(&scene).args(arguments));
+        let ended = ended(thermobeam().arg("run").arg(&scene).args(arguments));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
         assert!(ended.stderr.contains("expected"), "{}", ended.stderr);
     }
@@ -132,7 +132,7 @@ fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
 fn the_error_budget_has_space_and_time() {
     let folder = Folder::new();
     let scene = folder.file("thrown.toml", &thrown("degree = 20", "degree = 1"));
-    let json = ended(xtask().arg("run").arg(&scene).args(["--estimate-error", "--format", "json"]));
+    let json = ended(thermobeam().arg("run").arg(&scene).args(["--estimate-error", "--format", "json"]));
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     let budget = &value["error_budget"];
@@ -146,7 +146,7 @@ fn the_error_budget_has_space_and_time() {
         assert!(space >= 0.0 && (time > 0.0 || known && time == 0.0) && total == space + time, "{of}");
     }
     assert_eq!(quantities[0]["value"], value["final"]["u_tip"]);
-    let text = ended(xtask().arg("run").arg(&scene).arg("--estimate-error"));
+    let text = ended(thermobeam().arg("run").arg(&scene).arg("--estimate-error"));
     for piece in ["Estimated errors", "u(1) over time", "Time dominates"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }

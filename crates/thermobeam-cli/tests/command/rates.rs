@@ -1,7 +1,7 @@
-use crate::{Ended, Folder, ended, xtask};
+use crate::{Ended, Folder, ended, thermobeam};
 
 fn judge(folder: &Folder, table: &str, arguments: &[&str]) -> Ended {
-    ended(xtask().arg("rates").arg(folder.file("table.csv", table)).args(arguments))
+    ended(thermobeam().arg("rates").arg(folder.file("table.csv", table)).args(arguments))
 }
 
 /// A table of two columns from h and a rule for the error.
@@ -102,5 +102,5 @@ fn a_malformed_table_is_named_with_its_place() {
     ] {
         assert_eq!(judge(&folder, &good, arguments).status, Some(2), "{arguments:?}");
     }
-    assert_eq!(ended(xtask().arg("rates").arg(folder.path("missing.csv"))).status, Some(2));
+    assert_eq!(ended(thermobeam().arg("rates").arg(folder.path("missing.csv"))).status, Some(2));
 }

@@ -1,14 +1,14 @@
 use std::path::Path;
 
-use crate::{Folder, ended, xtask};
+use crate::{Folder, ended, thermobeam};
 
 #[test]
 fn a_new_study_passes_as_it_is() {
     let folder = Folder::new();
-    let ended = ended(xtask().args(["new", "study", "my-own.1", "--dir"]).arg(folder.path("")));
+    let ended = ended(thermobeam().args(["new", "study", "my-own.1", "--dir"]).arg(folder.path("")));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
-    assert!(ended.stdout.contains("cargo xtask study"), "{}", ended.stdout);
-    let study = crate::ended(xtask().arg("study").arg(folder.path("my-own.1.toml")));
+    assert!(ended.stdout.contains("thermobeam study"), "{}", ended.stdout);
+    let study = crate::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
     assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
     // Each table once.
@@ -20,10 +20,13 @@ fn a_new_study_passes_as_it_is() {
 #[test]
 fn a_new_scene_runs_as_it_is() {
     let folder = Folder::new();
-    let new =
-        xtask().args(["new", "scene", "mine", "--quiet"]).current_dir(folder.path("")).output().expect("it starts");
+    let new = thermobeam()
+        .args(["new", "scene", "mine", "--quiet"])
+        .current_dir(folder.path(""))
+        .output()
+        .expect("it starts");
     assert!(new.status.success() && new.stdout.is_empty());
-    let ended = ended(xtask().arg("run").arg(folder.path("mine.toml")));
+    let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
     assert!(ended.stdout.starts_with("mine: 100 elements"), "{}", ended.stdout);
 }
@@ -32,7 +35,7 @@ fn a_new_scene_runs_as_it_is() {
 fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
     let folder = Folder::new();
     let path = folder.file("taken.toml", "mine");
-    let again = ended(xtask().args(["new", "scene", "taken", "--dir"]).arg(folder.path("")));
+    let again = ended(thermobeam().args(["new", "scene", "taken", "--dir"]).arg(folder.path("")));
     assert!(
         again.status == Some(2) && again.stderr.contains("taken.toml: expected a new file, found one of that name"),
         "{}",
@@ -41,18 +44,18 @@ fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
     assert_eq!(std::fs::read_to_string(path).expect("the file"), "mine");
     for name in ["", "../x", "A", "a b", ".hidden", "-x"] {
         assert_eq!(
-            ended(xtask().args(["new", "study", "--", name]).current_dir(folder.path(""))).status,
+            ended(thermobeam().args(["new", "study", "--", name]).current_dir(folder.path(""))).status,
             Some(2),
             "{name}"
         );
     }
-    assert_eq!(ended(xtask().args(["new", "study", "x", "--dir", "nowhere"])).status, Some(2));
+    assert_eq!(ended(thermobeam().args(["new", "study", "x", "--dir", "nowhere"])).status, Some(2));
 }
 
 #[test]
 fn studies_norms_reasons_and_files_are_explained() {
-    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies");
-    let explain = |name: &str| ended(xtask().args(["explain", name, "--dir"]).arg(&studies));
+    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    let explain = |name: &str| ended(thermobeam().args(["explain", name, "--dir"]).arg(&studies));
     let study = explain("theorem-3.4-space");
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
     for piece in ["what is claimed", "superclose, order 2", "time error is exactly zero", "what a failure would mean"] {
@@ -66,21 +69,21 @@ fn studies_norms_reasons_and_files_are_explained() {
     assert_eq!((unknown.status, unknown.stdout.as_str()), (Some(2), ""));
     assert!(unknown.stderr.contains("did you mean theorem-3.4-space?"), "{}", unknown.stderr);
     assert_eq!(explain("missing.toml").status, Some(2));
-    let contents = ended(xtask().arg("explain"));
+    let contents = ended(thermobeam().arg("explain"));
     assert!(
         contents.status == Some(0) && contents.stdout.contains("displacement, superclose\n"),
         "{}",
         contents.stdout
     );
     // From anywhere in the workspace, not only from its root.
-    let below = ended(xtask().args(["explain", "energy-decay"]).current_dir(studies.join("scenes")));
+    let below = ended(thermobeam().args(["explain", "energy-decay"]).current_dir(studies.join("scenes")));
     assert_eq!(below.status, Some(0), "{}", below.stderr);
 }
 
 #[test]
 fn every_shell_gets_completions_that_know_the_commands() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let ended = ended(xtask().args(["completions", shell]));
+        let ended = ended(thermobeam().args(["completions", shell]));
         assert_eq!(ended.status, Some(0));
         assert!(["sweep", "merge", "rates", "explain"].iter().all(|name| ended.stdout.contains(name)), "{shell}");
     }
@@ -88,9 +91,9 @@ fn every_shell_gets_completions_that_know_the_commands() {
 
 #[test]
 fn nothing_is_coloured_where_nobody_looks() {
-    for program in [&mut xtask(), xtask().env("NO_COLOR", "1"), xtask().env("TERM", "dumb")] {
+    for program in [&mut thermobeam(), thermobeam().env("NO_COLOR", "1"), thermobeam().env("TERM", "dumb")] {
         let ended = ended(program.args(["explain", "magic"]));
-        let help = crate::ended(xtask().env("NO_COLOR", "1").arg("--help"));
+        let help = crate::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
         for text in [ended.stdout, ended.stderr, help.stdout] {
             assert!(!text.contains('\u{1b}'), "{text}");
         }

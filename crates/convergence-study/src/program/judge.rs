@@ -66,7 +66,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
     let summary = summary.collect::<Vec<_>>().join("; ");
     Outcome {
-        levels: levels.errors(),
+        levels: if levels.columns.is_empty() { vec![] } else { levels.errors() },
         tables: values.tables,
         figures,
         quantities,

@@ -52,7 +52,7 @@ pub use join::{Merged, merge};
 pub use journal::{Journal, Manifest, RESULTS};
 pub use key::Key;
 pub use run::{InOrder, Line, run};
-pub use share::{Share, content_hash};
+pub use share::Share;
 
 use design::Design;
 use reader::Template;

@@ -9,6 +9,7 @@ pub mod exit;
 mod explain;
 pub mod flags;
 mod github;
+mod guard;
 mod help;
 mod history;
 pub mod interrupt;
@@ -28,6 +29,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::program;
 use crate::project::Project;
 use help::grouped;
 
@@ -41,24 +43,27 @@ pub enum Command {
     Explain(explain::Arguments),
     Rates(rates::Arguments),
     Completions(completions::Arguments),
+    Guard(guard::Arguments),
 }
 
-/// The names of [`Command`] in the order of `--help`.
+/// The names of [`Command`] in the order of `--help`, which does not list `guard`.
 pub const COMMANDS: [&str; 6] = ["verify", "study", "list", "explain", "rates", "completions"];
 
 impl Command {
-    /// Runs the command for a project; `program` is the whole command line, for completions.
+    /// Runs the command for a project; `whole` is the whole command line, for completions.
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+    pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
+        program::guard::enable();
         match self {
             Self::Verify(arguments) => verify::run(project, arguments),
             Self::Study(arguments) => study::run(project, arguments),
             Self::List(arguments) => list::run(project, arguments),
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
-            Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
+            Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
+            Self::Guard(arguments) => guard::run(arguments),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! How values are combined into cases.
 
 use super::{Key, MOST_CASES};
-use crate::sweep::content_hash;
 use convergence_study::judge::random::SplitMix;
+use convergence_study::store::content_hash;
 
 /// A grid, or samples drawn beforehand.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,10 +5,11 @@ use std::path::Path;
 use super::design::Design;
 use super::key::{KEYS, TABLES};
 use super::values::{self, VariedKey};
-use super::{Base, Key, MOST_CASES, Sweep, SweepCase, content_hash};
+use super::{Base, Key, MOST_CASES, Sweep, SweepCase};
 use crate::scene::limits;
 use crate::scene::{Scene, stem};
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
+use convergence_study::store::content_hash;
 
 /// What every case has in common: TOML in which `{key}` stands for the case's value.
 #[derive(Debug, Clone, Default)]

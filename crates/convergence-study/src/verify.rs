@@ -187,7 +187,7 @@ pub fn run_and_report(
     let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let finished = run::run(studies, jobs, &|_| {})?;
     let found = findings(project, &finished, project.command);
-    publish(&found, folder)?;
+    publish(&found, jobs.get(), folder)?;
     let verdict = found.verdict;
     Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
 }
@@ -197,19 +197,22 @@ pub fn run_and_report(
 /// * `command`: what ran them.
 pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f str) -> Findings<'f> {
     let (scope, verdict) = (Scope::Selection(vec![]).name(), verdict(finished, &[]));
-    Findings { project, scope, command, by_verify: false, finished, changes: &[], verdict, see_also: None }
+    Findings { project, scope, command, finished, changes: None, verdict, see_also: None, provenance: None }
 }
 
 /// Writes the report on them into a folder of their own; missing folders are made.
 ///
+/// * `jobs`: threads that they ran on.
+///
 /// # Errors
 /// [`VerificationError::Reports`].
-pub fn publish(found: &Findings<'_>, folder: &Path) -> Result<(), VerificationError> {
+pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
     let local = folder.join("local");
     let publish = || {
         let _lock = lock(&local.join("lock"))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        target.publish(&found.files()?)
+        let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs, found.finished);
+        target.publish(&Findings { provenance: Some(&here), ..*found }.files()?)
     };
     publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
 }
@@ -241,8 +244,16 @@ impl Verification {
     /// What is reported on.
     pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
         let Self { finished, changes, verdict, .. } = self;
-        let (scope, by_verify) = (scope.name(), true);
-        Findings { project, scope, command, by_verify, finished, changes, verdict: *verdict, see_also: None }
+        Findings {
+            project,
+            scope: scope.name(),
+            command,
+            finished,
+            changes: Some(changes),
+            verdict: *verdict,
+            see_also: None,
+            provenance: None,
+        }
     }
 
     /// The same as data, with all digits.
@@ -257,7 +268,8 @@ fn write_reports(project: &Project, found: &Verification, request: &Request, tar
     let command = scope.command(project);
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
-    target.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
-    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
+    let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
+    let findings = found.findings(project, scope, &command);
+    target.publish(&Findings { see_also, provenance: Some(&provenance), ..findings }.files()?)?;
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
 }

@@ -13,19 +13,9 @@ use crate::cli::output::{self, Format};
 
 /// Appends the table to the job summary and annotates what did not pass.
 ///
-/// A summary that cannot be written is reported on standard error; it does not change the exit status.
-///
 /// * `format`: where standard output is one JSON object, the annotations go to standard error; GitHub reads both.
 pub(super) fn announce(findings: &Findings<'_>, format: Format) {
-    if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
-        let file = regular::open(page.as_ref(), File::options().append(true).create(true));
-        if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {
-            output::complain(&format!(
-                "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
-                visible::path(page.as_ref())
-            ));
-        }
-    }
+    summarise(&findings.digest());
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
         let annotations = annotations(findings);
         // Where a stream is closed, annotations cannot be shown.
@@ -36,13 +26,28 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
     }
 }
 
+/// Appends Markdown to the job summary.
+///
+/// A summary that cannot be written is reported on standard error; it does not change the exit status.
+pub(super) fn summarise(markdown: &str) {
+    if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
+        let file = regular::open(page.as_ref(), File::options().append(true).create(true));
+        if let Err(error) = file.and_then(|mut file| file.write_all(markdown.as_bytes())) {
+            output::complain(&format!(
+                "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
+                visible::path(page.as_ref())
+            ));
+        }
+    }
+}
+
 fn annotations(findings: &Findings<'_>) -> String {
     let bad = findings.finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
     let studies = bad.map(|finished| {
         let outcome = &finished.outcome;
         annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &outcome.summary)
     });
-    let changes = findings.changes.iter().map(|change| annotation("baseline", &change.to_string()));
+    let changes = findings.moves().iter().map(|change| annotation("baseline", &change.to_string()));
     capped(studies.chain(changes).collect())
 }
 

@@ -113,7 +113,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
             text += "a selection leaves the committed report as it is\n";
         }
     }
-    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, &found.changes))
+    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)))
 }
 
 fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {

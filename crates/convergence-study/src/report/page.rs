@@ -44,7 +44,12 @@ fn head(findings: &Findings<'_>) -> String {
     if let Some((title, folder)) = findings.see_also {
         head += &format!(" See also <a href=\"{}/index.html\">{}</a>.", escape(folder), phrase(title));
     }
-    head + "</p>\n</header>\n"
+    head += "</p>\n";
+    if let Some(provenance) = findings.provenance {
+        let sentences: Vec<String> = provenance.sentences().iter().map(|sentence| escape(sentence)).collect();
+        head += &format!("<p class=\"provenance\">{}</p>\n", sentences.join(" "));
+    }
+    head + "</header>\n"
 }
 
 /// What did not pass, what moved, and all rates in one picture.

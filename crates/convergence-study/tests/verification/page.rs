@@ -16,11 +16,11 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
         project: &PROJECT,
         scope: "quick",
         command,
-        by_verify: true,
         finished,
-        changes: &[],
+        changes: Some(&[]),
         verdict: Verdict::Fail,
         see_also,
+        provenance: None,
     }
     .page()
 }

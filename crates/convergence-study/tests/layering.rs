@@ -33,7 +33,7 @@ const FOREIGN: [&str; 21] = [
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
 const ORDER: [&str; 14] = [
-    "text", "judge", "input", "plots", "study", "run", "project", "store", "compare", "program", "report", "explain",
+    "text", "judge", "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain",
     "verify", "cli",
 ];
 

@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 13] = [
+const TESTS: [Test; 16] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -44,7 +44,10 @@ const TESTS: [Test; 13] = [
     ("rates_come_in_words_and_as_an_object", rates_come_in_words_and_as_an_object),
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
+    ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
+    ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
+    ("wrong_claims_are_answered_as_the_page_says", wrong_claims_are_answered_as_the_page_says),
 ];
 
 fn main() -> ExitCode {
@@ -186,7 +189,9 @@ fn annotations_are_commands_and_nothing_else_is() {
     assert_eq!(status, Some(1));
     let commands: Vec<&str> = out.lines().filter(|line| line.trim_start().starts_with("::")).collect();
     assert!(commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"), "{commands:?}");
-    assert!(commands[1..].iter().all(|line| line.starts_with("::error title=baseline::")), "{commands:?}");
+    // GitHub shows ten: the last one counts the others.
+    assert!(commands[1..9].iter().all(|line| line.starts_with("::error title=baseline::")), "{commands:?}");
+    assert!(commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "), "{commands:?}");
     let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
     assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
     is_harmless(&out);
@@ -292,8 +297,8 @@ fn rates_come_in_words_and_as_an_object() {
     let with = |more: &[&str]| run(&root, &[&claims, more].concat());
     let (status, out, err) = with(&[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000, "), "{out}");
-    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000, "), "{out}");
+    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000 ± 0.0000005 from "), "{out}");
+    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000 ± 0.0000005 from "), "{out}");
     assert!(out.contains("powers rates t: --order P") && !out.contains("xtask"), "{out}");
     assert!(out.ends_with("pass: 2 of 2 columns agree with their orders\n"), "{out}");
     assert_eq!(with(&["--all"]).0, Some(1));
@@ -302,7 +307,8 @@ fn rates_come_in_words_and_as_an_object() {
     let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
     assert_eq!(status, Some(1));
     assert!(
-        out.starts_with("H1: fail: the rate is too low; rate 1.000000, ") && out.contains("claimed 2 ± 0.05"),
+        out.starts_with("H1: fail: the rate is too low; rate 1.000000 ± 0.0000005 from ")
+            && out.contains("claimed 2 ± 0.05"),
         "{out}"
     );
     let (_, out, _) = with(&["--format", "json"]);
@@ -366,9 +372,77 @@ fn rates_write_figure_markdown_and_junit() {
     assert_eq!(run(&root, &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]).0, Some(2));
 }
 
+fn study_writes_a_report_that_says_how_to_repeat_it() {
+    let root = workspace(true);
+    let (status, out, err) =
+        run(&root, &["study", "studies/one.toml", "studies/two.toml", "--out", "out/a b", "--quiet"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""));
+    assert!(out.starts_with("two: fail") && out.ends_with("fail: 1 of 2 fail (two)\n"), "{out}");
+    let read = |name: &str| fs::read_to_string(root.path().join("out/a b").join(name)).unwrap();
+    let page = read("README.md");
+    assert!(page.contains("**fail**: 1 of 2 fail (two)\n"), "{page}");
+    assert_eq!(
+        page.matches("Again: `powers study studies/one.toml studies/two.toml` (tier quick").count(),
+        2,
+        "{page}"
+    );
+    for (name, piece) in [("index.html", "<svg"), ("junit.xml", "<failure"), ("results.json", "\"fail\"")] {
+        assert!(read(name).contains(piece), "{name}");
+    }
+    // A report of `verify` goes where it is wanted, and each of its studies can be run by its id.
+    assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
+    let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
+    assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
+}
+
+fn json_is_alone_on_standard_output() {
+    let root = workspace(true);
+    for arguments in [&["verify"][..], &["study", "studies/two.toml"]] {
+        let mut command = command(root.path(), arguments);
+        let summary = root.path().join("summary.md");
+        command.args(["--format", "json"]).env("GITHUB_ACTIONS", "true").env("GITHUB_STEP_SUMMARY", &summary);
+        let (status, out, err) = texts(command.output().unwrap());
+        let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &1.into()));
+        assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
+        assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
+        fs::remove_file(summary).unwrap();
+    }
+}
+
 fn every_command_is_in_the_help() {
     let (status, out, _) = run(&workspace(false), &["--help"]);
     assert_eq!(status, Some(0));
     assert!(cli::COMMANDS.iter().all(|name| out.contains(&format!("\n  {name}"))), "{out}");
     assert!(out.contains("Exit status: 0 "), "{out}");
+}
+
+/// Blocks of a page of Markdown: the words behind the fence, and the text.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let fenced = page.split("```").skip(1).step_by(2);
+    fenced.map(|block| block.split_once('\n').expect("a fence and its text")).collect()
+}
+
+/// Every table of CLAIMS.md is answered as it says there. With `BLESS_CLAIMS` set, the page is written anew, to be read before it is committed.
+fn wrong_claims_are_answered_as_the_page_says() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("CLAIMS.md");
+    let page = fs::read_to_string(&file).unwrap();
+    let root = workspace(false);
+    let mut written = page.clone();
+    let blocks = blocks(&page);
+    assert!(blocks.len() >= 20 && blocks.len() % 2 == 0, "{} blocks", blocks.len());
+    for pair in blocks.chunks(2) {
+        let [(options, table), (says, expected)] = [pair[0], pair[1]];
+        assert!(options.starts_with("table ") && says == "says", "{options}, {says}");
+        fs::write(root.path().join("TABLE"), table).unwrap();
+        let options: Vec<&str> = options.split(' ').skip(1).collect();
+        let (status, out, err) = run(&root, &[&["rates", "TABLE"], &options[..]].concat());
+        assert_eq!((status, err.as_str()), (Some(1), ""), "{table}");
+        let block = |text: &str| format!("{table}```\n\n```says\n{text}```");
+        written = written.replace(&block(expected), &block(&out));
+    }
+    if std::env::var_os("BLESS_CLAIMS").is_some() {
+        fs::write(&file, &written).unwrap();
+    }
+    assert!(written == page, "CLAIMS.md is not what `rates` says; now it says\n{written}");
 }

@@ -7,6 +7,7 @@
 mod completions;
 pub mod exit;
 mod explain;
+pub mod flags;
 mod github;
 mod help;
 mod history;

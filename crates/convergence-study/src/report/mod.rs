@@ -103,7 +103,7 @@ impl Findings<'_> {
             page += &section::figure(&figure);
         }
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
+        page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
@@ -121,8 +121,22 @@ impl Findings<'_> {
         title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
     }
 
+    /// The command that runs a study again: where there is a baseline, `verify` can run each by its id.
+    pub(super) fn again(&self, finished: &Finished) -> String {
+        if self.changes.is_some() {
+            format!("{} verify {}", self.project.command, finished.header.id)
+        } else {
+            self.command.to_owned()
+        }
+    }
+
+    /// The verdict in one line, without the verdict itself.
+    pub fn sentence(&self) -> String {
+        sentence(self.finished, self.changes)
+    }
+
     fn verdict_line(&self) -> String {
-        format!("**{}**: {}\n\n", self.verdict, text(&sentence(self.finished, self.changes)))
+        format!("**{}**: {}\n\n", self.verdict, text(&self.sentence()))
     }
 
     /// A table for each group of studies.

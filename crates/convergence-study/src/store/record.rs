@@ -77,6 +77,8 @@ pub struct LevelRecord {
     /// Its parameters, such as elements and steps, as keys of their own.
     #[serde(flatten)]
     pub parameters: Parameters,
+    /// The step that the errors are judged over.
+    pub step: f64,
     /// Error by norm.
     pub errors: Errors,
 }
@@ -102,6 +104,8 @@ pub struct RateRecord {
     pub pairwise: Vec<f64>,
     /// The rate fitted over the asymptotic range.
     pub fitted: Option<f64>,
+    /// The constant C of error = C step^rate.
+    pub constant: Option<f64>,
     /// Its interval.
     pub interval: Option<[f64; 2]>,
     /// The limit of the pairwise rates.
@@ -206,7 +210,8 @@ impl Precision {
 
     fn level(self, level: &LevelErrors) -> LevelRecord {
         let errors = level.errors.iter().map(|(norm, error)| (norm.clone(), self.number(*error)));
-        LevelRecord { parameters: Parameters(level.parameters.clone()), errors: Errors(errors.collect()) }
+        let parameters = Parameters(level.parameters.clone());
+        LevelRecord { parameters, step: self.number(level.step), errors: Errors(errors.collect()) }
     }
 
     fn rate(self, norm: &str, rate: &RateVerdict) -> RateRecord {
@@ -216,6 +221,7 @@ impl Precision {
             tolerance: rate.tolerance,
             pairwise: rate.pairwise.iter().map(|rate| self.rate_number(*rate)).collect(),
             fitted: rate.fitted.map(|rate| self.rate_number(rate)),
+            constant: rate.constant.map(|constant| self.number(constant)),
             interval: rate.interval.map(|ends| ends.map(|end| self.rate_number(end))),
             extrapolated: rate.extrapolated.map(|rate| self.rate_number(rate)),
             verdict: rate.verdict.name(),
@@ -243,6 +249,7 @@ fn not_finite(outcome: &Outcome) -> Vec<NotFinite> {
         }
     };
     for (i, level) in outcome.levels.iter().enumerate() {
+        look(format!("levels[{i}].step"), level.step);
         level.errors.iter().for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
     }
     for (i, (_, rate)) in outcome.rates.iter().enumerate() {

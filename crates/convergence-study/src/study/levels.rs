@@ -110,7 +110,7 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| power_law(&points, rate)),
+                fit: rate.and_then(|(_, rate)| power_law(rate)),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -130,6 +130,7 @@ impl Levels {
     pub fn errors(&self) -> Vec<LevelErrors> {
         let level = |(i, level): (usize, &Refinement)| LevelErrors {
             parameters: level.parameters.clone(),
+            step: level.step,
             errors: self.columns.iter().map(|column| (column.name.clone(), at(&column.errors, i))).collect(),
         };
         self.refinements.iter().enumerate().map(level).collect()
@@ -159,6 +160,7 @@ fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
         tolerance,
         pairwise: vec![],
         fitted: None,
+        constant: None,
         interval: None,
         extrapolated: None,
         used: 0..0,
@@ -177,15 +179,9 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// The observed rate as a power law, `error = constant · step^rate`.
-///
-/// The constant is that of least squares, in logarithms, over the levels that the rate was fitted to.
-pub fn power_law(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
-    let used = levels.get(rate.used.clone())?;
-    let rate = rate.fitted?;
-    let logs = used.iter().map(|level| level.error.ln() - rate * level.step.ln());
-    let constant = (logs.sum::<f64>() / used.len() as f64).exp();
-    constant.is_finite().then_some(PowerLaw { rate, constant })
+/// The observed rate as a curve for a figure; `None` where there is no rate.
+pub fn power_law(rate: &RateVerdict) -> Option<PowerLaw> {
+    Some(PowerLaw { rate: rate.fitted?, constant: rate.constant? })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.

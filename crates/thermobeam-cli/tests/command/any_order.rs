@@ -11,7 +11,7 @@ pub(crate) fn thrown(mesh: &str, time: &str) -> String {
 }
 
 /// Keys of the object of any scene of any order; those of inner objects begin with an underscore.
-const CONTRACT: &str = "scene elements steps dt t_end iterations _total _max wall_seconds \
+const CONTRACT: &str = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
     final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
     energy _initial _final _largest_increase _largest_balance_residual \
     scheme degree time_degree restart_dt growth work _passes _factorizations events __t __from __to";
@@ -49,7 +49,7 @@ fn the_summary_shows_degrees_work_and_events() {
     let folder = Folder::new();
     let ended = ended(thermobeam().arg("run").arg(folder.file("thrown.toml", &thrown("degree = 8", ""))));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    for piece in ["thrown: 1 elements of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
+    for piece in ["thrown: 1 element of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
     }
 }
@@ -105,7 +105,7 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
 
     let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "believed", "inside steps included", "steps half as long", "runs to compare with"] {
+    for piece in ["asked for", "expected", "inside steps included", "steps half as long", "runs to compare with"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

@@ -5,14 +5,9 @@ use serde::Serialize;
 use super::{Findings, Judged};
 use crate::judge::fit::Level;
 
-/// Number of the form of the object: higher where a key has changed its meaning or is gone.
-const SCHEMA: u32 = 1;
-
-/// What `rates --format json` prints.
+/// What `rates --format json` prints, beside the verdict.
 #[derive(Debug, Serialize)]
 pub(super) struct Object<'a> {
-    schema: u32,
-    verdict: &'static str,
     step: &'a str,
     floor: f64,
     rates: Vec<Rate<'a>>,
@@ -27,6 +22,8 @@ struct Rate<'a> {
     tolerance: f64,
     pairwise: &'a [f64],
     fitted: Option<f64>,
+    /// Of error = constant step^rate.
+    constant: Option<f64>,
     interval: Option<[f64; 2]>,
     extrapolated: Option<f64>,
     verdict: &'static str,
@@ -63,8 +60,6 @@ impl<'a> Object<'a> {
         let rates = findings.columns.iter().zip(&findings.table.columns);
         let not_errors = findings.table.not_errors.iter().map(|(column, because)| NotErrors { column, because });
         Self {
-            schema: SCHEMA,
-            verdict: findings.verdict.name(),
             step: &findings.table.step,
             floor: findings.floor,
             rates: rates.map(|(judged, (_, levels))| Rate::new(judged, levels)).collect(),
@@ -83,6 +78,7 @@ impl<'a> Rate<'a> {
             tolerance: rate.tolerance,
             pairwise: &rate.pairwise,
             fitted: rate.fitted,
+            constant: rate.constant,
             interval: rate.interval,
             extrapolated: rate.extrapolated,
             verdict: rate.verdict.name(),

@@ -187,7 +187,7 @@ pub fn run_and_report(
     let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let finished = run::run(studies, jobs, &|_| {})?;
     let found = findings(project, &finished, project.command);
-    publish(&found, jobs, folder)?;
+    publish(&found, jobs.get(), folder)?;
     let verdict = found.verdict;
     Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
 }
@@ -202,16 +202,16 @@ pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f
 
 /// Writes the report on them into a folder of their own; missing folders are made.
 ///
-/// * `jobs`: how many threads ran them.
+/// * `jobs`: threads that they ran on.
 ///
 /// # Errors
 /// [`VerificationError::Reports`].
-pub fn publish(found: &Findings<'_>, jobs: NonZeroUsize, folder: &Path) -> Result<(), VerificationError> {
+pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
     let local = folder.join("local");
     let publish = || {
         let _lock = lock(&local.join("lock"))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs.get(), found.finished);
+        let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs, found.finished);
         target.publish(&Findings { provenance: Some(&here), ..*found }.files()?)
     };
     publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })

@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 16] = [
+const TESTS: [Test; 17] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -46,6 +46,7 @@ const TESTS: [Test; 16] = [
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
+    ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
     ("wrong_claims_are_answered_as_the_page_says", wrong_claims_are_answered_as_the_page_says),
 ];
@@ -407,6 +408,49 @@ fn json_is_alone_on_standard_output() {
         assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
         assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
         fs::remove_file(summary).unwrap();
+    }
+}
+
+fn records_are_compared_with_0_1_or_2() {
+    let root = workspace(true);
+    let write = |name: &str, files: &[&str]| {
+        let (_, out, _) = run(&root, &[&["study", "--format", "json"], files].concat());
+        fs::write(root.path().join(name), out).unwrap();
+    };
+    write("old.json", &["studies/one.toml", "studies/two.toml"]);
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.8)).unwrap();
+    write("new.json", &["studies/one.toml", "studies/two.toml"]);
+    write("part.json", &["studies/two.toml"]);
+    let (status, out, err) = run(&root, &["compare", "old.json", "new.json"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    let (finding, rest) = out.split_once('\n').unwrap();
+    assert!(finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"), "{out}");
+    assert_eq!(rest, "worse: 1 worse, 0 better, 1 the same, in 2 studies\n");
+    let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
+    assert!(status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"), "{out}");
+    let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
+    let named = "note: the study one is in the old record only\nsame: 0 worse, 0 better, 1 the same, in 1 studies\n";
+    assert_eq!((status, out.as_str()), (Some(0), named));
+    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--format", "json"]);
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["change"], &object["studies"][0]["norms"][0]["change"]), (&"worse".into(), &"worse".into()));
+    assert!(object["studies"][0]["norms"][0]["lines"][1]["order_interval"].is_array(), "{out}");
+    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
+    assert!(out.contains("two: error: same: errors the same at the same step: 1.0000 times"), "{out}");
+    fs::write(root.path().join("bad.json"), "{\n}").unwrap();
+    write("other.json", &["studies/one.toml"]);
+    for (arguments, message) in [
+        (
+            &["compare", "old.json", "bad.json"][..],
+            "bad.json: missing field `schema` at line 2 column 1; expected a record",
+        ),
+        (&["compare", "old.json", "none.json"], "none.json: No such file"),
+        (&["compare", "part.json", "other.json"], "other.json: found no study that part.json has, too"),
+        (&["compare", "old.json", "new.json", "--within", "-1"], "expected a number >= 0"),
+        (&["compare", "old.json", "new.json", "--floor", "-1"], "floor = -1: expected a finite number >= 0"),
+    ] {
+        let (status, out, err) = run(&root, arguments);
+        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
     }
 }
 

@@ -32,8 +32,10 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 12] =
-    ["text", "judge", "input", "plots", "study", "run", "project", "store", "report", "explain", "verify", "cli"];
+const ORDER: [&str; 13] = [
+    "text", "judge", "input", "plots", "study", "run", "project", "store", "compare", "report", "explain", "verify",
+    "cli",
+];
 
 /// Uses against the order: module, path used, reason.
 const EXCEPTIONS: [(&str, &str, &str); 1] = [(

@@ -87,5 +87,5 @@ fn every_command_has_the_same_flags() {
         }
     }
     let shorts = program.get_subcommands().flat_map(clap::Command::get_arguments).filter_map(clap::Arg::get_short);
-    assert_eq!(shorts.collect::<BTreeSet<char>>(), ['h', 'q', 'V'].into());
+    assert_eq!(shorts.collect::<BTreeSet<char>>(), ['h', 'q'].into());
 }

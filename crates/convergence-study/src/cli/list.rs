@@ -7,7 +7,7 @@ use crate::text::columns::Columns;
 
 use super::exit::{Ended, Outcome};
 use super::flags::Flags;
-use crate::cli::history::History;
+use crate::cli::earlier::Earlier;
 use crate::cli::workspace;
 use crate::cli::{screen, selection};
 
@@ -62,9 +62,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
-    let history = History::read(&root)?;
+    let earlier = Earlier::read(&root)?;
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let studies: Vec<Listed> = meant.map(|(file, _)| listed(file, &history)).collect();
+    let studies: Vec<Listed> = meant.map(|(file, _)| listed(file, &earlier)).collect();
     let passed = studies.iter().filter(|study| study.last.as_deref() == Some(Verdict::Pass.name())).count();
     let failed = studies.iter().any(|study| study.last.as_deref() == Some(Verdict::Fail.name()));
     let verdict = match (failed, passed == studies.len()) {
@@ -84,15 +84,15 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Ended::Well)
 }
 
-fn listed(StudyFile { study, .. }: &StudyFile, history: &History) -> Listed {
+fn listed(StudyFile { study, .. }: &StudyFile, earlier: &Earlier) -> Listed {
     let header = study.header();
     Listed {
         id: header.id.clone(),
         tier: header.tier.name(),
         kind: header.kind.clone(),
-        last: history.verdict(&header.id).map(str::to_owned),
+        last: earlier.verdict(&header.id).map(|verdict| verdict.name().to_owned()),
         work: 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>(),
-        seconds: history.seconds(&header.id),
+        seconds: earlier.seconds(&header.id),
         claim: header.claim.clone(),
     }
 }

@@ -54,7 +54,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
     };
     if let Some(folder) = &flags.out {
-        publish(&findings, effort.jobs, folder)?;
+        publish(&findings, effort.jobs.get(), folder)?;
     }
     output::print(&text)?;
     github::announce(&findings, flags.format);

@@ -43,7 +43,7 @@ pub struct Findings<'f> {
     pub command: &'f str,
     /// The studies.
     pub finished: &'f [Finished],
-    /// What moved away from the baseline; `None` where the run was compared with none.
+    /// What moved away from the baseline; `None` where the run was compared with none, as by `study`.
     pub changes: Option<&'f [Change]>,
     /// The verdict on all.
     pub verdict: Verdict,
@@ -121,8 +121,9 @@ impl Findings<'_> {
         title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
     }
 
-    /// The command that runs a study again: where there is a baseline, `verify` can run each by its id.
+    /// The command that runs a study again.
     pub(super) fn again(&self, finished: &Finished) -> String {
+        // What is compared with the baseline is what `verify` runs, which knows each study by its id.
         if self.changes.is_some() {
             format!("{} verify {}", self.project.command, finished.header.id)
         } else {

@@ -11,21 +11,12 @@ use crate::text::number::{committed_rate, plain_text, rate_text};
 ///
 /// * `changes`: what moved away from the baseline; `None` where there was none to compare with.
 pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
-    let studies = passing(finished);
-    match changes {
-        Some(changes) => format!("{studies}; {}", guarded(finished, changes)),
-        None => studies,
-    }
-}
-
-/// Which studies do not pass.
-fn passing(finished: &[Finished]) -> String {
     let of = |verdict: Verdict| {
         let ids = finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
         ids.map(|finished| finished.header.id.as_str()).collect::<Vec<_>>()
     };
     let (failed, inconclusive) = (of(Verdict::Fail), of(Verdict::Inconclusive));
-    match finished.len() {
+    let studies = match finished.len() {
         0 => "no study was run".to_owned(),
         1 if failed.is_empty() && inconclusive.is_empty() => "the study passes".to_owned(),
         n if failed.is_empty() && inconclusive.is_empty() => format!("all {n} studies pass"),
@@ -40,6 +31,10 @@ fn passing(finished: &[Finished]) -> String {
                 .collect::<Vec<_>>()
                 .join(", ")
         }
+    };
+    match changes {
+        Some(changes) => format!("{studies}; {}", guarded(finished, changes)),
+        None => studies,
     }
 }
 

@@ -7,18 +7,18 @@ use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use chrono::DateTime;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::record::SCHEMA;
 
 /// Origin of a run. What cannot be found out is `null`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// [`SCHEMA`].
     pub schema: u32,
     /// Version of this crate.
-    pub crate_version: &'static str,
+    pub crate_version: String,
     /// What was run, as a command.
     pub command: String,
     /// Git revision of the working tree.
@@ -42,7 +42,7 @@ pub struct Provenance {
 }
 
 /// Time of a study.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudyTime {
     /// Its id.
     pub id: String,
@@ -61,7 +61,7 @@ impl Provenance {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self {
             schema: SCHEMA,
-            crate_version: env!("CARGO_PKG_VERSION"),
+            crate_version: env!("CARGO_PKG_VERSION").to_owned(),
             command,
             git_revision: output_of(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
             git_modified: output_of(Command::new("git").args(["status", "--porcelain"]).current_dir(root))

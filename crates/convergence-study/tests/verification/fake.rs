@@ -98,7 +98,8 @@ impl Kind for Fake {
         let rate = verdict::judge_pairs(pairs, 1.0, 0.1);
         let level = |(i, error): (usize, &f64)| LevelErrors {
             parameters: vec![("elements".to_owned(), f64::from(8 << i)), ("steps".to_owned(), 20.0)],
-            step: 1.0 / f64::from(8 << i),
+            step: Some(1.0 / f64::from(8 << i)),
+            work: None,
             errors: vec![("velocity".to_owned(), *error)],
         };
         let finest = *errors.last().unwrap();

@@ -474,7 +474,7 @@ fn wrong_claims_are_answered_as_the_page_says() {
     let root = workspace(false);
     let mut written = page.clone();
     let blocks = blocks(&page);
-    assert!(blocks.len() >= 20 && blocks.len() % 2 == 0, "{} blocks", blocks.len());
+    assert!(blocks.len() >= 20 && blocks.len().is_multiple_of(2), "{} blocks", blocks.len());
     for pair in blocks.chunks(2) {
         let [(options, table), (says, expected)] = [pair[0], pair[1]];
         assert!(options.starts_with("table ") && says == "says", "{options}, {says}");

@@ -1,4 +1,4 @@
-//! `new study NAME`, `new scene NAME`: a file to begin with.
+//! `new study NAME`, `new scene NAME`, `new any-order-scene NAME`: a file to begin with.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
@@ -34,6 +34,8 @@ enum What {
     Study,
     /// A scene: a beam, how it starts, a mesh, time steps
     Scene,
+    /// The same by elements of high degree and dG(q), for many digits
+    AnyOrderScene,
 }
 
 fn name(text: &str) -> Result<String, String> {
@@ -45,6 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let (template, command) = match arguments.what {
         What::Study => (Template::Study, "study"),
         What::Scene => (Template::Scene, "run"),
+        What::AnyOrderScene => (Template::AnyOrderScene, "run"),
     };
     let file = format!("{}.toml", arguments.name);
     let path = arguments.dir.as_ref().map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file));

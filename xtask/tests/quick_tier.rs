@@ -24,9 +24,8 @@ fn the_quick_tier_passes_and_no_number_moves() {
     // Asked for now, and not when it was compiled: that may have been in a copy that is gone.
     let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo");
     copied(&Path::new(&package).join("../studies"), &root.path().join("studies"));
-    fs::write(root.path().join("Cargo.toml"), "").expect("a file");
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
     command.args(["verify", "--quiet", "--case-limit", "120"]).current_dir(root.path());
-    let output = command.env_remove("CARGO_MANIFEST_DIR").output().expect("the program starts");
+    let output = command.output().expect("the program starts");
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stdout));
 }

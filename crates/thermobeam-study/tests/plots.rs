@@ -29,6 +29,21 @@ fn every_curve_belongs_to_an_entry_of_the_legend() {
 }
 
 #[test]
+fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most() {
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&figures::gallery());
+}
+
+#[test]
+fn no_two_entries_of_a_legend_look_alike() {
+    laws::no_two_entries_of_a_legend_look_alike(&figures::gallery());
+}
+
+#[test]
+fn curves_with_the_same_values_are_noted() {
+    laws::curves_with_the_same_values_are_noted(&figures::gallery());
+}
+
+#[test]
 fn the_same_data_give_the_same_bytes() {
     assert_eq!(figures::gallery(), figures::gallery());
 }
@@ -58,7 +73,9 @@ fn a_long_animation_stays_small() {
 #[test]
 fn contraction_factors_of_one_and_more_are_labelled() {
     let svg = contraction(&figures::contraction_factors());
-    assert!(elements(&parse(&svg), "text").any(|n| n.text().is_some_and(|text| text.trim() == "diverges (α ≥ 1)")));
+    assert!(
+        elements(&parse(&svg), "text").any(|n| n.text().is_some_and(|text| text.trim() == "no convergence (α ≥ 1)"))
+    );
 }
 
 #[test]
@@ -109,4 +126,50 @@ fn the_animation_starts_and_ends_with_its_data() {
         assert_eq!(keys.len(), values.len());
         assert_eq!((keys[0].parse(), keys[keys.len() - 1].parse()), (Ok(0.0), Ok(1.0)));
     }
+}
+
+#[test]
+fn prediction_and_markers_are_filled_where_the_fixed_point_converges_only() {
+    let svg = contraction(&Contraction {
+        title: None,
+        series: vec![Series { label: "s".into(), points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 1.0), (30.0, 1.0)] }],
+    });
+    let doc = parse(&svg);
+    let open = elements(&doc, "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
+    assert_eq!(open, 2);
+    let page = doc.root_element();
+    let numbers = |name: &str| page.attribute(name).unwrap().split(' ').filter_map(|v| v.parse::<f64>().ok());
+    let (plot, x): (Vec<f64>, Vec<f64>) = (numbers("data-plot").collect(), numbers("data-x").collect());
+    let one = plot[0] + (0.0 - x[0]) / (x[1] - x[0]) * (plot[2] - plot[0]);
+    let identity = elements(&doc, "g").find(|n| n.attribute("data-series") == Some("measured = predicted")).unwrap();
+    let line = identity.descendants().find(|n| n.has_tag_name("polyline")).unwrap();
+    let right = line.attribute("points").unwrap().split_whitespace().filter_map(|p| p.split_once(',')?.0.parse().ok());
+    assert!((right.fold(0.0, f64::max) - one).abs() < 2.0, "it ends at α = 1");
+}
+
+#[test]
+fn the_beam_of_an_animation_is_bent_where_nothing_moves() {
+    let mut moving = figures::motion();
+    // Straight at the start, as beams at rest are.
+    moving.frames[0] = vec![0.0; moving.nodes.len()];
+    let svg = animation(&moving);
+    let doc = parse(&svg);
+    let beam = elements(&doc, "polyline").find(|n| n.children().any(|child| child.has_tag_name("animate"))).unwrap();
+    let heights =
+        beam.attribute("points").unwrap().split_whitespace().filter_map(|p| p.split_once(',')?.1.parse().ok());
+    let heights: Vec<f64> = heights.collect();
+    assert!((heights[heights.len() - 1] - heights[0]).abs() > 500.0, "{heights:?}");
+}
+
+#[test]
+fn branches_end_inside_the_frame() {
+    let svg = bifurcation(&figures::equilibria());
+    let doc = parse(&svg);
+    let plot: Vec<f64> =
+        doc.root_element().attribute("data-plot").unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
+    let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
+    let corners = lines.flat_map(|n| n.descendants()).filter_map(|n| n.attribute("points"));
+    let across = corners.flat_map(str::split_whitespace).filter_map(|p| p.split_once(',')?.0.parse::<f64>().ok());
+    let across: Vec<f64> = across.collect();
+    assert!(across.iter().all(|x| *x > plot[0] + 50.0 && *x < plot[2] - 50.0), "{across:?}");
 }

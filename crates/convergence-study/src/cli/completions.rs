@@ -8,8 +8,7 @@ use crate::cli::output;
 
 /// Print completions for a shell
 ///
-/// A shell completes the program, not cargo's alias for it: put target/release on the PATH and call it `xtask`. For bash:
-/// source <(cargo xtask completions bash)
+/// A shell completes a program of that name on the PATH, not an alias such as cargo's. For bash: source <(PROGRAM completions bash)
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The shell

@@ -7,7 +7,7 @@ use super::exit;
 /// The command line with its subcommands listed under headings, and the exit status explained.
 ///
 /// * `groups`: heading, and names of subcommands. A subcommand of no group is not listed.
-pub fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
+pub(super) fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
     let mut text = String::new();
     let width = groups.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max().unwrap_or(0);
     for (heading, names) in groups {

@@ -1,14 +1,17 @@
-//! The command line: `verify`, `study`, `list`, `rates`, `explain`, `completions`, for any project.
+//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
-//! `#[command(flatten)]`. Results go to standard output, everything else to standard error. Exit status: [`exit::HELP`].
+//! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
+//! error. Exit status: [`exit::HELP`].
 
+mod compare;
 mod completions;
+mod earlier;
 pub mod exit;
 mod explain;
+pub mod flags;
 mod github;
 mod help;
-mod history;
 pub mod interrupt;
 mod list;
 mod moved;
@@ -24,10 +27,10 @@ pub mod workspace;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 use crate::project::Project;
-pub use help::grouped;
+use help::grouped;
 
 /// The commands of the harness. What each does stands at its arguments, from where `--help` takes it.
 #[allow(missing_docs)]
@@ -38,11 +41,12 @@ pub enum Command {
     List(list::Arguments),
     Explain(explain::Arguments),
     Rates(rates::Arguments),
+    Compare(compare::Arguments),
     Completions(completions::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`.
-pub const COMMANDS: [&str; 6] = ["verify", "study", "list", "explain", "rates", "completions"];
+pub const COMMANDS: [&str; 7] = ["verify", "study", "list", "explain", "rates", "compare", "completions"];
 
 impl Command {
     /// Runs the command for a project; `program` is the whole command line, for completions.
@@ -56,6 +60,7 @@ impl Command {
             Self::List(arguments) => list::run(project, arguments),
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
+            Self::Compare(arguments) => compare::run(arguments),
             Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
         }
     }
@@ -66,6 +71,21 @@ fn program_name(project: &Project) -> String {
     project.command.rsplit(' ').next().unwrap_or(project.command).to_owned()
 }
 
+/// The command line of the program `P`, under the name that its users type, its commands in groups.
+///
+/// * `groups`: heading, and names of commands. A command of no group is not listed by `--help`.
+pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
+    let command = P::command().name(project.command).bin_name(project.command).about(project.about);
+    grouped(command.version(env!("CARGO_PKG_VERSION")), groups)
+}
+
+/// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.
+pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
+    let asked = P::from_arg_matches(&line.get_matches()).unwrap_or_else(|error| error.exit());
+    interrupt::listen();
+    exit::code(run(asked))
+}
+
 #[derive(Debug, Parser)]
 struct Program {
     #[command(subcommand)]
@@ -74,12 +94,6 @@ struct Program {
 
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
-    let program = || {
-        let command = Program::command().name(project.command).bin_name(project.command).about(project.about);
-        grouped(command.version(env!("CARGO_PKG_VERSION")), &[("Commands", &COMMANDS)])
-    };
-    let parsed = Program::from_arg_matches(&program().get_matches());
-    let Program { command } = parsed.unwrap_or_else(|error| error.exit());
-    interrupt::listen();
-    exit::code(command.run(project, program()))
+    let line = command_line::<Program>(project, &[("Commands", &COMMANDS)]);
+    ended(line.clone(), |asked: Program| asked.command.run(project, line))
 }

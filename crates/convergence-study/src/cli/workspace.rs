@@ -7,19 +7,14 @@ use super::exit::Unusable;
 use crate::project::Project;
 use crate::study::StudyFile;
 
-/// The workspace: above the package that cargo runs, or else above the current folder.
+/// The folder of the project: the nearest one with `studies/`, here or above.
 ///
 /// # Errors
 /// Where there is none.
 pub fn root() -> Result<PathBuf, Unusable> {
-    let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
-    let starts = package.into_iter().chain(env::current_dir().ok());
-    let is_root = |folder: &Path| folder.join("Cargo.toml").is_file() && folder.join("studies").is_dir();
-    let above = |start: PathBuf| start.ancestors().find(|folder| is_root(folder)).map(Path::to_owned);
-    starts
-        .into_iter()
-        .find_map(above)
-        .ok_or_else(|| Unusable::because("found no folder with Cargo.toml and studies/ here or above"))
+    let here = env::current_dir()?;
+    let root = here.ancestors().find(|folder| folder.join("studies").is_dir());
+    root.map(Path::to_owned).ok_or_else(|| Unusable::because("expected a folder studies/, here or above; found none"))
 }
 
 /// All studies of the workspace, by id.

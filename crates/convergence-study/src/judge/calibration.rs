@@ -43,6 +43,7 @@ use thiserror::Error;
 
 use crate::judge::random::SplitMix;
 
+pub mod bars;
 pub mod comparison;
 pub mod laws;
 

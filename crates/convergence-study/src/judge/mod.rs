@@ -3,4 +3,5 @@
 pub mod calibration;
 pub mod fit;
 pub mod random;
+pub mod richardson;
 pub mod verdict;

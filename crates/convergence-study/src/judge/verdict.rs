@@ -88,10 +88,19 @@ impl Judge {
         self.tolerance
     }
 
+    /// Errors that are not above it have no say.
+    pub fn floor(&self) -> f64 {
+        self.floor
+    }
+
     /// Judges the levels, coarsest first, against the order that theory claims.
     pub fn judge(&self, levels: &[Level], order: f64) -> RateVerdict {
-        let reading = self.read(levels);
-        RateVerdict::new(&reading, order, self.tolerance, reading.reason(order, self.tolerance))
+        self.judge_read(&self.read(levels), order)
+    }
+
+    /// The same for levels that have been read, by a judge of the same floor and confidence.
+    pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
+        RateVerdict::new(reading, order, self.tolerance, reading.reason(order, self.tolerance))
     }
 
     /// What does not depend on claim and tolerance, to be held against several of them.

@@ -8,6 +8,7 @@ use super::slopes::{Trend, triangles};
 use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Scale};
+use std::ops::Range;
 
 /// `error = constant · h^rate`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,8 +28,12 @@ pub struct ErrorSeries {
     pub points: Vec<(f64, f64)>,
     /// What theory says, for the legend.
     pub order: Option<f64>,
-    /// Line fitted to the points; drawn over their range, its rate stands in the legend.
+    /// Line fitted to the points; its rate stands in the legend.
     pub fit: Option<PowerLaw>,
+    /// Indices of the points that were fitted, over which the line is drawn; the others get open markers. `None`: all.
+    pub used: Option<Range<usize>>,
+    /// Which [`look`] it has; `None`: that of its place in the figure.
+    pub look: Option<usize>,
     /// The same errors in an earlier, trusted run, drawn as rings around the points.
     pub baseline: Vec<(f64, f64)>,
 }
@@ -48,21 +53,23 @@ pub struct Convergence {
     pub slopes: Vec<f64>,
     /// A level of note, such as the round-off floor.
     pub floor: Option<Guide>,
+    /// Everything right of this step is shaded, with the text above it.
+    pub beyond: Option<(f64, String)>,
 }
 
 impl Convergence {
     /// Labels for errors over the mesh width.
     pub fn in_space() -> Self {
-        Self::over("mesh width h (dimensionless)")
+        Self::over("mesh width h")
     }
 
     /// Labels for errors over the time step.
     pub fn in_time() -> Self {
-        Self::over("time step dt (dimensionless)")
+        Self::over("time step dt")
     }
 
     fn over(x_label: &str) -> Self {
-        Self { x_label: x_label.into(), y_label: "error (dimensionless)".into(), ..Self::default() }
+        Self { x_label: x_label.into(), y_label: "error".into(), ..Self::default() }
     }
 }
 
@@ -73,13 +80,16 @@ pub fn convergence(figure: &Convergence) -> String {
         x: Axis::log(&*figure.x_label),
         y: Axis::log(&*figure.y_label),
         guides: figure.floor.clone().into_iter().collect(),
+        beyond: figure.beyond.clone(),
         ..Xy::default()
     };
     xy.curves.extend(baselines(&figure.series));
     for (k, series) in figure.series.iter().enumerate() {
-        let (curves, entry) = curves(series, look(k));
-        xy.curves.extend(curves);
-        xy.legend.push(entry);
+        xy.curves.extend(curves(series, look_of(k, series)));
+        xy.legend.push(entry(series, look_of(k, series)));
+    }
+    if figure.series.iter().any(has_unused_points) {
+        xy.notes.push("open markers: points that the rate does not use".to_owned());
     }
     let (outlines, bottom) = triangles(&figure.slopes, &trends(&figure.series), &xy.x_ruler(), &xy.y_ruler());
     if !outlines.is_empty() {
@@ -94,23 +104,39 @@ fn baselines(series: &[ErrorSeries]) -> impl Iterator<Item = Curve> {
     let with_baseline = series.iter().enumerate().filter(|(_, s)| !s.baseline.is_empty());
     with_baseline.enumerate().map(|(nth, (k, s))| Curve {
         name: "baseline (ring)".to_owned(),
+        noted_as: None,
         is_listed: nth == 0,
         points: s.baseline.clone(),
-        look: look(k),
+        look: look_of(k, s),
         width: 0.0,
         marks: Marks::Ring,
         is_data: true,
     })
 }
 
-/// The line, which is the fit where there is one, the markers, and the legend's entry for both.
-fn curves(series: &ErrorSeries, look: Look) -> (Vec<Curve>, Entry) {
-    let entry = |look: Look, width: f64| Entry {
-        swatch: Swatch::Line { look, width, marks: Marks::Filled },
-        label: label(series),
-    };
+/// Whether a line is fitted to some of its points only.
+fn has_unused_points(series: &ErrorSeries) -> bool {
+    let len = series.points.len();
+    series.fit.is_some() && series.used.as_ref().is_some_and(|used| used.len() < len)
+}
+
+/// Its own look, or that of its place in the figure.
+fn look_of(k: usize, series: &ErrorSeries) -> Look {
+    look(series.look.unwrap_or(k))
+}
+
+/// The legend's entry for line and markers. A fitted line is thin and solid, one that only joins the points is not.
+fn entry(series: &ErrorSeries, look: Look) -> Entry {
+    let (dash, width) = if series.fit.is_some() { (Dash::Solid, style::THIN) } else { (look.dash, style::LINE) };
+    let swatch = Swatch::Line { look: Look { dash, ..look }, width, marks: Marks::Filled };
+    Entry { swatch, label: label(series) }
+}
+
+/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not use.
+fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let marked = Curve {
         name: label(series),
+        noted_as: Some(series.label.clone()),
         is_listed: false,
         points: series.points.clone(),
         look,
@@ -118,18 +144,23 @@ fn curves(series: &ErrorSeries, look: Look) -> (Vec<Curve>, Entry) {
         marks: Marks::Filled,
         is_data: true,
     };
-    let Some(fit) = series.fit else { return (vec![marked], entry(look, style::LINE)) };
-    let solid = Look { dash: Dash::Solid, ..look };
+    let Some(fit) = series.fit else { return vec![marked] };
+    let used = series.used.clone().unwrap_or(0..series.points.len());
+    let (fitted, others): (Vec<_>, Vec<_>) =
+        series.points.iter().copied().enumerate().partition(|(k, _)| used.contains(k));
+    let [fitted, others] =
+        [fitted, others].map(|points| points.into_iter().map(|(_, point)| point).collect::<Vec<_>>());
     let line = Curve {
-        name: label(series),
-        is_listed: false,
-        points: fitted_line(&series.points, fit),
-        look: solid,
+        points: fitted_line(&fitted, fit),
+        look: Look { dash: Dash::Solid, ..look },
         width: style::THIN,
         marks: Marks::None,
         is_data: false,
+        ..marked.clone()
     };
-    (vec![line, Curve { width: 0.0, ..marked }], entry(solid, style::THIN))
+    let unused =
+        (!others.is_empty()).then(|| Curve { points: others, width: 0.0, marks: Marks::Open, ..marked.clone() });
+    [line, Curve { points: fitted, width: 0.0, ..marked }].into_iter().chain(unused).collect()
 }
 
 fn label(series: &ErrorSeries) -> String {

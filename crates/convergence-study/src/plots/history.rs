@@ -10,7 +10,7 @@ use super::{Axis, Guide, Phases, Scale, Series};
 pub struct History {
     /// Above the plot.
     pub title: Option<String>,
-    /// Label of the time axis; `"time t (dimensionless)"` where it is empty.
+    /// Label of the time axis; `"time t"` where it is empty.
     pub x_label: String,
     /// The vertical axis.
     pub y: Axis,
@@ -41,7 +41,7 @@ pub fn history(figure: &History) -> String {
 pub struct Iterations {
     /// Above the plot.
     pub title: Option<String>,
-    /// Label of the time axis; `"time t (dimensionless)"` where it is empty.
+    /// Label of the time axis; `"time t"` where it is empty.
     pub x_label: String,
     /// `(t at the end of the step, iterations)`, times ascending; one series per solver.
     pub series: Vec<Series>,
@@ -58,14 +58,15 @@ pub fn iterations(figure: &Iterations) -> String {
         y: Axis { label: "iterations per step".into(), scale: Scale::Linear },
         curves: figure.series.iter().enumerate().map(curve).collect(),
         phases: figure.phases.clone(),
-        show_y: vec![0.0, 1.0],
+        // With a shorter axis, ticks would lie between whole numbers.
+        show_y: vec![0.0, 5.0],
         ..Xy::default()
     }
     .draw()
 }
 
 fn time_axis(label: &str) -> Axis {
-    Axis::linear(if label.is_empty() { "time t (dimensionless)" } else { label })
+    Axis::linear(if label.is_empty() { "time t" } else { label })
 }
 
 /// Every value held from the end of the step before to the end of its own.

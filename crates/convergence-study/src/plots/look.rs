@@ -1,11 +1,11 @@
-//! How the k-th series of a figure is told from the others.
+//! Colour, marker and dashes of the k-th series of a figure.
 
 use super::marker::Marker;
 use super::style::Dash;
 use plotters::style::RGBColor;
 
-/// Okabe and Ito's palette, told apart by all common kinds of colour vision; its yellow is too pale on white.
-const COLOURS: [RGBColor; 7] = [
+/// Okabe and Ito's palette, distinct for all common kinds of colour vision; for its yellow, too pale on white, Tol's olive.
+const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -13,9 +13,9 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(34, 34, 34),
     RGBColor(86, 180, 233),
+    RGBColor(128, 128, 38),
 ];
 
-/// One more than the colours, so that the 8th series differs from the 1st by its marker too.
 const MARKERS: [Marker; 8] = [
     Marker::Circle,
     Marker::Square,
@@ -40,7 +40,8 @@ pub struct Look {
     pub dash: Dash,
 }
 
-/// Look of the k-th series.
+/// Look of the k-th series. The first 64 differ: from the 9th on, colours return with the next marker.
 pub fn look(k: usize) -> Look {
-    Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[k % MARKERS.len()], dash: DASHES[k % DASHES.len()] }
+    let marker = (k + k / COLOURS.len()) % MARKERS.len();
+    Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[marker], dash: DASHES[k % DASHES.len()] }
 }

@@ -30,6 +30,7 @@
 //! ```
 
 pub mod canvas;
+mod coincide;
 mod colour;
 mod contour;
 mod convergence;
@@ -73,7 +74,7 @@ pub enum Scale {
 /// An axis: what it measures, and its scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// Quantity, symbol and unit, such as `"time t (dimensionless)"`.
+    /// Quantity, symbol and unit, such as `"time t (s)"`.
     pub label: String,
     /// Linear or logarithmic.
     pub scale: Scale,

@@ -1,6 +1,7 @@
 //! The core of all figures with curves: ranges, layers in their order, notes on what was left out.
 
 use super::canvas::{Anchor, Layer};
+use super::coincide;
 use super::decimate::{lines, merge_intervals};
 use super::legend::{Entry, Swatch};
 use super::look::{Look, look};
@@ -22,6 +23,8 @@ const ENVELOPE_COLUMNS: usize = 3200;
 pub struct Curve {
     /// The entry of the legend that it belongs to.
     pub name: String,
+    /// What notes call it, where its entry says more than its name.
+    pub noted_as: Option<String>,
     /// Whether that entry is to be made from the curve; several curves may share one.
     pub is_listed: bool,
     /// `(x, y)` in data coordinates, in drawing order.
@@ -41,6 +44,7 @@ impl Curve {
     pub fn line(k: usize, series: &Series) -> Self {
         Self {
             name: series.label.clone(),
+            noted_as: None,
             is_listed: true,
             points: series.points.clone(),
             look: look(k),
@@ -48,6 +52,11 @@ impl Curve {
             marks: Marks::None,
             is_data: true,
         }
+    }
+
+    /// What notes call it.
+    pub fn noted(&self) -> &str {
+        self.noted_as.as_deref().unwrap_or(&self.name)
     }
 }
 
@@ -85,6 +94,8 @@ pub struct Xy {
     pub show_x: Vec<f64>,
     /// Entries ahead of the curves', after them those of the phases.
     pub legend: Vec<Entry>,
+    /// Lines under the legend, before those on curves that coincide and on points that were left out.
+    pub notes: Vec<String>,
 }
 
 impl Xy {
@@ -160,7 +171,10 @@ impl Xy {
         let is_drawable = |&(x, y): &(f64, f64)| on_scale(Scale::Linear, x).and(on_scale(Scale::Linear, y)).is_some();
         let non_finite = data().filter(|p| !is_drawable(p)).count();
         let off_scale = data().count() - non_finite - self.drawable().count();
-        left_out(non_finite, off_scale)
+        let mut notes = self.notes.clone();
+        notes.extend(coincide::notes(&self.curves, &self.x_ruler(), &self.y_ruler()));
+        notes.extend(left_out(non_finite, off_scale));
+        notes
     }
 
     fn draw_ground(&self, sheet: &mut Sheet) {

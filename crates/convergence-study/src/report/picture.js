@@ -1,8 +1,10 @@
 "use strict";
-// Pictures: values of curves under the pointer or by the arrow keys, curves switched off and on from the legend.
+// Pictures: values of curves under the pointer, at a tap or by the arrow keys, curves switched off and on from the legend.
 (() => {
-  // Distances on the grid of a picture, in tenths of its pixels: what the pointer catches, and what nobody can tell apart.
+  // Distances on the grid of a picture, in tenths of its pixels: what the pointer catches, and what looks like one point.
   const [NEAR, SAME] = [400, 30];
+  // What a finger catches, in pixels of the screen, however small the picture is there.
+  const FINGER = 24;
   const reading = document.createElement("div");
   reading.className = "reading";
   reading.hidden = true;
@@ -84,17 +86,26 @@
       .filter(point => !point.group.classList.contains("off"));
     const within = point => point.at[0] >= left - 1 && point.at[0] <= right + 1;
 
-    picture.addEventListener("pointermove", event => {
-      const { x: px, y: py } = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
-      let [nearest, least] = [null, NEAR];
+    const point = event => {
+      const screen = picture.getScreenCTM();
+      const { x: px, y: py } = new DOMPoint(event.clientX, event.clientY).matrixTransform(screen.inverse());
+      let [nearest, least] = [null, Math.max(NEAR, FINGER / screen.a)];
       for (const point of visible()) {
         const distance = Math.hypot(point.at[0] - px, point.at[1] - py);
         if (distance < least && within(point)) [nearest, least] = [point, distance];
       }
       if (nearest) show(picture, nearest, visible(), [event.clientX, event.clientY]);
       else hide(picture);
+    };
+    picture.addEventListener("pointermove", point);
+    // A finger that is lifted leaves the picture: what a tap shows stays until the next tap.
+    picture.addEventListener("click", point);
+    picture.addEventListener("pointerleave", event => {
+      if (event.pointerType !== "touch") hide(picture);
     });
-    picture.addEventListener("pointerleave", () => hide(picture));
+    document.addEventListener("pointerdown", event => {
+      if (!picture.contains(event.target)) hide(picture);
+    });
 
     // Left and right along a curve, up and down from curve to curve.
     let [series, place] = [0, -1];
@@ -158,9 +169,9 @@
     });
   };
 
-  // What moves stands still for those who want it so.
+  // What moves stands still for those who want it so, as it is drawn: paused, it would show its first moment.
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-    for (const picture of document.querySelectorAll("figure > svg")) picture.pauseAnimations();
+    for (const part of document.querySelectorAll("figure > svg animate")) part.remove();
   }
 
   for (const picture of document.querySelectorAll("svg[data-plot]")) {

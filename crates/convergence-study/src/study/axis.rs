@@ -27,8 +27,8 @@ impl Axis {
     /// The step that is refined, as the label of an axis of a figure.
     pub fn label(self) -> &'static str {
         match self {
-            Axis::Space => "mesh width h (dimensionless)",
-            Axis::Time => "time step dt (dimensionless)",
+            Axis::Space => "mesh width h",
+            Axis::Time => "time step dt",
             Axis::Both => "mesh width h and time step dt, refined together",
         }
     }

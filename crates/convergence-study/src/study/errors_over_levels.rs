@@ -68,15 +68,16 @@ where
                 names.push(name);
             }
         }
-        let column = |name: &str| ErrorColumn {
+        let column = |(look, name): (usize, &str)| ErrorColumn {
             name: name.to_owned(),
             errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, |errors| named(errors, name))).collect(),
             claim: self.claims.iter().find(|(known, _)| *known == name).map(|(_, claim)| *claim),
+            look,
         };
         Levels {
             axis: self.axis,
             refinements: self.levels.iter().map(|(refinement, _)| refinement.clone()).collect(),
-            columns: names.into_iter().map(column).collect(),
+            columns: names.into_iter().enumerate().map(column).collect(),
         }
     }
 }

@@ -32,6 +32,8 @@ pub struct ErrorColumn {
     pub errors: Vec<f64>,
     /// What is claimed of it, if anything.
     pub claim: Option<Claim>,
+    /// Which [`look`](crate::plots::look::look) it has in figures: the same wherever this error is drawn.
+    pub look: usize,
 }
 
 /// One level of refinement.
@@ -108,9 +110,11 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| line(&points, rate)),
+                fit: rate.and_then(|(_, rate)| power_law(&points, rate)),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
+                used: rate.map(|(_, rate)| rate.used.clone()),
+                look: Some(column.look),
                 ..ErrorSeries::default()
             }
         });
@@ -126,6 +130,8 @@ impl Levels {
     pub fn errors(&self) -> Vec<LevelErrors> {
         let level = |(i, level): (usize, &Refinement)| LevelErrors {
             parameters: level.parameters.clone(),
+            step: Some(level.step),
+            work: None,
             errors: self.columns.iter().map(|column| (column.name.clone(), at(&column.errors, i))).collect(),
         };
         self.refinements.iter().enumerate().map(level).collect()
@@ -173,13 +179,15 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// The observed rate as a line through the finest level that it was fitted to.
+/// The observed rate as a power law, `error = constant · step^rate`.
 ///
-/// Not least squares: the rate is that of h → 0, and coarse levels off the line show how far they are from it.
-pub fn line(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
-    let finest = levels.get(rate.used.clone())?.last()?;
+/// The constant is that of least squares, in logarithms, over the levels that the rate was fitted to.
+pub fn power_law(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
+    let used = levels.get(rate.used.clone())?;
     let rate = rate.fitted?;
-    (finest.error > 0.0).then(|| PowerLaw { rate, constant: finest.error / finest.step.powf(rate) })
+    let logs = used.iter().map(|level| level.error.ln() - rate * level.step.ln());
+    let constant = (logs.sum::<f64>() / used.len() as f64).exp();
+    constant.is_finite().then_some(PowerLaw { rate, constant })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.

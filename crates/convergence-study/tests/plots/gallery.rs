@@ -31,7 +31,7 @@ fn errors(label: &str, constant: f64, order: f64, steps: &[f64]) -> ErrorSeries 
         points,
         order: Some(order),
         fit: Some(PowerLaw { rate: order * 1.002, constant }),
-        baseline: Vec::new(),
+        ..ErrorSeries::default()
     }
 }
 
@@ -46,6 +46,10 @@ pub(crate) fn space_errors() -> Convergence {
         errors("energy norm", 1.3, 1.0, &h),
         errors("to the projection", 0.48, 2.0, &h),
     ];
+    // Coarse levels that the rate does not use.
+    norms[0].used = Some(3..10);
+    // A norm that hides another one.
+    norms.push(ErrorSeries { label: "energy norm, lumped".into(), ..norms[5].clone() });
     norms[5].baseline = norms[5].points.iter().map(|&(h, e)| (h, 1.01 * e)).collect();
     Convergence { series: norms, slopes: vec![1.0, 2.0], ..Convergence::in_space() }
 }
@@ -69,8 +73,8 @@ pub(crate) fn error_surface() -> Surface {
     let values = h.iter().map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect()).collect();
     Surface {
         title: None,
-        x: Axis::log("time step dt (dimensionless)"),
-        y: Axis::log("mesh width h (dimensionless)"),
+        x: Axis::log("time step dt"),
+        y: Axis::log("mesh width h"),
         z: Axis::log("error in the energy norm"),
         x_values: 1.0.iter_dt().collect(),
         y_values: h,
@@ -205,7 +209,7 @@ pub(crate) fn stability_map() -> ParameterMap {
         |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
     ParameterMap {
         cells: Surface {
-            x: Axis::log("time step dt (dimensionless)"),
+            x: Axis::log("time step dt"),
             y: Axis::log("compliance ε (dimensionless)"),
             z: Axis::log("iterations per step"),
             values: grid(&count),

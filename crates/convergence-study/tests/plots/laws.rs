@@ -85,3 +85,61 @@ pub(crate) fn every_curve_belongs_to_an_entry_of_the_legend(figures: &Figures) {
         assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
     }
 }
+
+pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let page = doc.root_element();
+        if page.has_attribute("data-plot") {
+            let label = |axis| page.attribute(axis).is_some_and(|label| !label.trim().is_empty());
+            assert!(label("data-x-label") && label("data-y-label"), "{name}");
+        }
+        let texts = elements(&doc, "text").filter(|n| n.text().is_some_and(|text| text.contains("dimensionless")));
+        assert!(texts.count() <= 1, "{name}");
+    }
+}
+
+/// What tells the sample of a legend's entry from the others: shapes, colours and dashes, without places.
+fn sample(entry: Node<'_, '_>) -> Vec<String> {
+    let shapes = entry.descendants().filter(|n| n.is_element() && !n.has_tag_name("text"));
+    let attribute = |n: &Node<'_, '_>, name| n.attribute(name).unwrap_or("").to_owned();
+    let shape = |n: Node<'_, '_>| {
+        let [fill, stroke, dash] = ["fill", "stroke", "stroke-dasharray"].map(|name| attribute(&n, name));
+        format!("{} {fill} {stroke} {dash}", n.tag_name().name())
+    };
+    shapes.map(shape).collect()
+}
+
+pub(crate) fn no_two_entries_of_a_legend_look_alike(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let entries: Vec<_> = elements(&doc, "g").filter(|n| n.has_attribute("data-entry")).collect();
+        for (k, one) in entries.iter().enumerate() {
+            for other in &entries[..k] {
+                let names = [one, other].map(|n| n.attribute("data-entry"));
+                assert_ne!(sample(*one), sample(*other), "{name}: {names:?}");
+            }
+        }
+    }
+}
+
+/// The points of a series as numbers.
+fn values(node: Node<'_, '_>) -> Vec<f64> {
+    let words = node.attribute("data-points").unwrap_or("").split([' ', ',']);
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+pub(crate) fn curves_with_the_same_values_are_noted(figures: &Figures) {
+    for (name, svg) in figures {
+        let doc = parse(svg);
+        let drawn = elements(&doc, "g").filter_map(|n| Some((n.attribute("data-series")?, values(n))));
+        let drawn: Vec<_> = drawn.filter(|(_, values)| values.len() > 2).collect();
+        let noted = elements(&doc, "text").any(|n| n.text().is_some_and(|text| text.contains(" coincide")));
+        for (k, (one, p)) in drawn.iter().enumerate() {
+            for (other, q) in drawn[..k].iter().filter(|(other, _)| other != one) {
+                let alike = p.len() == q.len() && p.iter().zip(q).all(|(a, b)| (a - b).abs() <= 1e-4 * a.abs());
+                assert!(!alike || noted, "{name}: {one} lies on {other}");
+            }
+        }
+    }
+}

@@ -42,6 +42,21 @@ fn every_curve_belongs_to_an_entry_of_the_legend() {
     laws::every_curve_belongs_to_an_entry_of_the_legend(&gallery::gallery());
 }
 
+#[test]
+fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most() {
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&gallery::gallery());
+}
+
+#[test]
+fn no_two_entries_of_a_legend_look_alike() {
+    laws::no_two_entries_of_a_legend_look_alike(&gallery::gallery());
+}
+
+#[test]
+fn curves_with_the_same_values_are_noted() {
+    laws::curves_with_the_same_values_are_noted(&gallery::gallery());
+}
+
 fn texts(svg: &str) -> Vec<String> {
     elements(&parse(svg), "text").map(|n| n.text().unwrap_or("").trim().to_owned()).collect()
 }
@@ -178,14 +193,11 @@ fn figures_stay_small() {
 #[test]
 fn labels_are_all_there() {
     let words = texts(&history(&gallery::long_history(1000)));
-    for label in ["g₁ = −0.01", "g₂ = 0.1", "at a stop", "euler-crank-nicolson", "midpoint", "time t (dimensionless)"]
-    {
+    for label in ["g₁ = −0.01", "g₂ = 0.1", "at a stop", "euler-crank-nicolson", "midpoint", "time t"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     let words = texts(&convergence(&gallery::space_errors()));
-    for label in
-        ["energy norm, order 1, rate 1.002", "baseline (ring)", "mesh width h (dimensionless)", "10⁻³", "1", "2"]
-    {
+    for label in ["energy norm, order 1, rate 1.002", "baseline (ring)", "mesh width h", "10⁻³", "1", "2"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     assert!(texts(&parameter_map(&gallery::stability_map())).contains(&"diverged".to_owned()));
@@ -229,7 +241,8 @@ fn markers_lie_where_the_values_in_the_picture_say() {
     let group = elements(&doc, "g").find(|n| is_velocity(n) && n.has_attribute("data-points")).unwrap();
     let markers: Vec<_> = group.descendants().filter(|n| n.has_tag_name("circle")).collect();
     let points: Vec<&str> = group.attribute("data-points").unwrap().split(' ').collect();
-    assert_eq!((markers.len(), points.len()), (10, 10));
+    // Of ten levels the rate uses seven; the others are a group of their own.
+    assert_eq!((markers.len(), points.len()), (7, 7));
     for (marker, point) in markers.iter().zip(points) {
         let (x, y) = point.split_once(',').unwrap();
         let at = (
@@ -238,4 +251,80 @@ fn markers_lie_where_the_values_in_the_picture_say() {
         );
         assert!((at.0 - number(*marker, "cx")).abs() < 2.0 && (at.1 - number(*marker, "cy")).abs() < 2.0, "{point}");
     }
+}
+
+/// A straight line of errors, of which the rate uses all levels but the two coarsest.
+fn partly_used() -> Convergence {
+    let points: Vec<_> = (2..8).rev().map(|k| 0.5_f64.powi(9 - k)).map(|h| (h, h * h)).collect();
+    let fit = Some(PowerLaw { rate: 2.0, constant: 1.0 });
+    let series = ErrorSeries { label: "L2".into(), points, fit, used: Some(2..6), ..ErrorSeries::default() };
+    Convergence { series: vec![series], ..Convergence::in_space() }
+}
+
+#[test]
+fn a_fitted_line_ends_with_the_levels_that_it_uses() {
+    let svg = convergence(&partly_used());
+    let doc = parse(&svg);
+    let line = elements(&doc, "g").find(|n| n.has_attribute("data-series")).expect("the line comes first");
+    let line = line.descendants().find(|n| n.has_tag_name("polyline")).expect("a line");
+    let corners = line.attribute("points").unwrap().split_whitespace();
+    let mut ends: Vec<f64> = corners.filter_map(|p| p.split_once(',')?.0.parse().ok()).collect();
+    ends.sort_by(f64::total_cmp);
+    let used =
+        elements(&doc, "g").find(|n| n.attribute("data-points").is_some_and(|points| !points.is_empty())).unwrap();
+    let mut markers: Vec<f64> =
+        used.descendants().filter(|n| n.has_tag_name("circle")).map(|n| number(n, "cx")).collect();
+    markers.sort_by(f64::total_cmp);
+    assert_eq!((markers.len(), ends.len()), (4, 2));
+    assert!((ends[0] - markers[0]).abs() < 2.0 && (ends[1] - markers[3]).abs() < 2.0, "{ends:?} {markers:?}");
+}
+
+#[test]
+fn levels_without_a_say_have_open_markers_and_a_note() {
+    let note = "open markers: points that the rate does not use";
+    let svg = convergence(&partly_used());
+    let white = elements(&parse(&svg), "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
+    assert_eq!(white, 2);
+    assert!(texts(&svg).iter().any(|text| text == note));
+    let mut all = partly_used();
+    all.series[0].used = None;
+    assert!(!texts(&convergence(&all)).iter().any(|text| text == note));
+}
+
+#[test]
+fn a_note_names_the_curves_that_coincide() {
+    let words = texts(&convergence(&gallery::space_errors()));
+    assert!(words.iter().any(|text| text == "energy norm and energy norm, lumped coincide"), "{words:?}");
+    // Half a decade apart they do not.
+    assert!(!texts(&convergence(&gallery::time_errors())).iter().any(|text| text.contains("coincide")));
+}
+
+#[test]
+fn a_series_keeps_its_look_in_every_figure() {
+    let mut norm = gallery::time_errors().series.remove(0);
+    norm.look = Some(3);
+    let alone = convergence(&Convergence { series: vec![norm.clone()], ..Convergence::in_time() });
+    let mut figure = gallery::time_errors();
+    figure.series.push(norm);
+    let last = convergence(&figure);
+    let is_purple = |svg: &str| points_of(svg, "#AA4499") > 0;
+    assert!(is_purple(&alone) && is_purple(&last) && !is_purple(&convergence(&gallery::time_errors())));
+}
+
+#[test]
+fn the_first_64_looks_differ() {
+    let looks: Vec<_> = (0..64).map(look::look).map(|look| (look.colour, look.marker)).collect();
+    for (k, one) in looks.iter().enumerate() {
+        assert!(!looks[..k].contains(one), "{k}");
+    }
+}
+
+#[test]
+fn ticks_of_counts_are_whole() {
+    let series = vec![Series { label: "solver".into(), points: vec![(0.1, 3.0), (0.2, 3.0)] }];
+    let svg = iterations(&Iterations { series, ..Default::default() });
+    let is_height = |n: &Node<'_, '_>| n.attribute("text-anchor") == Some("end");
+    let doc = parse(&svg);
+    let heights: Vec<_> = elements(&doc, "text").filter(is_height).filter_map(|n| n.text()).collect();
+    assert!(heights.len() >= 4 && heights.iter().all(|text| text.trim().parse::<u32>().is_ok()), "{heights:?}");
 }

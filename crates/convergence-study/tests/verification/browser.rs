@@ -29,6 +29,13 @@ addEventListener("load", () => {
   picture.dispatchEvent(new PointerEvent("pointermove", at));
   const said = one(".reading").textContent;
   expect("values: " + said, said.startsWith("a<b") && said.includes("mesh width h: 0.125") && said.includes("error: 0.125"));
+  picture.dispatchEvent(new PointerEvent("pointerleave", at));
+  expect("gone with the pointer", one(".reading").hidden);
+  picture.dispatchEvent(new MouseEvent("click", at));
+  picture.dispatchEvent(new PointerEvent("pointerleave", { ...at, pointerType: "touch" }));
+  expect("a tap shows values", !one(".reading").hidden && one(".reading").textContent === said);
+  document.body.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
+  expect("a tap elsewhere hides them", one(".reading").hidden);
   one("[data-entry='a<b']", picture).dispatchEvent(new MouseEvent("click"));
   expect("switched off", getComputedStyle(one("[data-series='a<b']", picture)).display === "none");
   expect("the other one stays", getComputedStyle(one("[data-series='c']", picture)).display !== "none");
@@ -37,7 +44,14 @@ addEventListener("load", () => {
   for (const part of document.querySelectorAll("details")) part.open = true;
   expect("nothing overflows", document.documentElement.scrollWidth <= innerWidth);
   expect("nothing is loaded", performance.getEntriesByType("resource").length === 0);
-  document.title = found.length ? "WRONG " + found.join("; ") : "RIGHT";
+  // The page measures its tables after it has been laid out.
+  setTimeout(() => {
+    const cut = [...document.querySelectorAll("div.scroll")].filter(box => box.scrollWidth > box.clientWidth + 1);
+    expect("no table is cut: " + cut.map(box => box.ariaLabel), cut.length === 0);
+    const cell = one(".flow td");
+    expect("cells of a wide table are named", cell && getComputedStyle(cell, "::before").content.includes(cell.dataset.head));
+    document.title = found.length ? "WRONG " + found.join("; ") : "RIGHT";
+  }, 500);
 });
 addEventListener("error", event => found.push(event.message));
 addEventListener("securitypolicyviolation", event => found.push(event.violatedDirective));

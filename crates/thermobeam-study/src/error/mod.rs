@@ -4,4 +4,3 @@ pub mod design;
 pub mod evaluator;
 pub mod free_vibration;
 pub mod reference;
-pub(crate) mod richardson;

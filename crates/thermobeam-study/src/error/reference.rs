@@ -15,6 +15,7 @@ use super::evaluator::distance;
 use crate::kinds::tables::Discretisation;
 use crate::run::any_order;
 use crate::run::rerun::resampled;
+use crate::run::tally::Sample;
 use crate::scene::Scene;
 
 /// Elements on which polynomials are kept as linear functions, for one of the finest mesh compared. What they leave out is
@@ -64,7 +65,7 @@ impl Reference {
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
-        let mut observe = |simulation: &Simulation, state: any_order::State| {
+        let mut observe = |simulation: &Simulation, state: Sample| {
             levels.push(nodal(simulation, &mesh));
             energies.push(state.energy);
         };

@@ -35,7 +35,8 @@ pub struct Animation {
     pub seconds: f64,
 }
 
-/// Draws the clamped wall, the obstacles and the moving beam. The beam stands at its first frame where nothing moves.
+/// Draws the clamped wall, the obstacles and the moving beam. Where nothing moves, the beam
+/// stands as in the frame in which it is bent most.
 pub fn animation(figure: &Animation) -> String {
     let frames = drawable_frames(figure);
     let stage = Stage::new(figure, &frames);
@@ -145,14 +146,17 @@ impl Stage {
             pen.text(&t.label, (x, TIME_BAR + 22.0), TICK_SIZE, Anchor::Middle, style::INK);
         }
         let at = (PLOT.centre().0, TIME_BAR + 47.0);
-        pen.text("time t (dimensionless)", at, LABEL_SIZE, Anchor::Middle, style::INK);
+        pen.text("time t", at, LABEL_SIZE, Anchor::Middle, style::INK);
         pen.text("x = 0", (PLOT.left, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Middle, style::INK);
         pen.text("x = 1", (PLOT.right, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Middle, style::INK);
     }
 
     /// The beam, its tip and the time mark, each with its animation.
     fn moving_parts(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
-        let Some(first) = frames.first() else { return String::new() };
+        let bent = |frame: &(f64, Vec<f64>)| frame.1.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        // The first of several that are bent alike.
+        let most = frames.iter().enumerate().rev().max_by(|a, b| bent(a.1).total_cmp(&bent(b.1)));
+        let Some((still, shown)) = most else { return String::new() };
         let blue = look(0).colour;
         let colour = format!("#{:02x}{:02x}{:02x}", blue.0, blue.1, blue.2);
         let clock = self.clock(figure, frames);
@@ -161,14 +165,14 @@ impl Stage {
         let list = |v: &mut dyn Iterator<Item = f64>| v.map(|v| grid(v).to_string()).collect::<Vec<_>>().join(";");
         let heights = list(&mut frames.iter().map(|f| tip(f).1));
         let marks = list(&mut frames.iter().map(|f| self.t.px_of(f.0)));
-        let (tip_at, mark_at) = (tip(first), grid(self.t.px_of(first.0)));
+        let (tip_at, mark_at) = (tip(shown), grid(self.t.px_of(shown.0)));
         let mut svg = String::new();
         let _ = writeln!(
             svg,
             "<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"70\" stroke-linecap=\"round\" \
              stroke-linejoin=\"round\" points=\"{}\">\n<animate attributeName=\"points\" {clock} values=\"{}\"/>\n\
              </polyline>",
-            shapes[0],
+            shapes[still],
             shapes.join(";")
         );
         let _ = writeln!(

@@ -47,8 +47,13 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
     let mut curves: Vec<Curve> = figure.branches.iter().map(|b| curve(b, look(family(b)))).collect();
     let states = figure.states.iter().enumerate();
     curves.extend(states.map(|(k, s)| end_states(s, look(labels.len() + k))));
+    let parameters = || curves.iter().flat_map(|c| &c.points).map(|p| p.0).filter(|x| x.is_finite());
+    let (low, high) = (parameters().fold(f64::INFINITY, f64::min), parameters().fold(f64::NEG_INFINITY, f64::max));
+    // Branches end at the ends of the parameter's range: they must not lie on the frame.
+    let room = 0.03 * (high - low);
     Xy {
         title: figure.title.clone(),
+        show_x: vec![low - room, high + room],
         x: Axis::linear(&*figure.x_label),
         y: Axis::linear(&*figure.y_label),
         curves,
@@ -70,6 +75,7 @@ fn curve(branch: &Branch, look: Look) -> Curve {
     let look = Look { dash, marker: Marker::Circle, ..look };
     Curve {
         name: entry_label(&branch.label, branch.stable),
+        noted_as: None,
         is_listed: false,
         points: branch.points.clone(),
         look,

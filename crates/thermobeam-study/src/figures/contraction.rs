@@ -15,33 +15,39 @@ pub struct Contraction {
     pub series: Vec<Series>,
 }
 
-/// Draws measured over predicted contraction, log-log, with the identity and the region of divergence.
+/// Draws measured over predicted contraction, log-log, with the identity as far as it is claimed, and the region without
+/// convergence, where markers are open: there the ratio of successive increments is measured, which no longer falls.
 pub fn contraction(figure: &Contraction) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve { width: 0.0, marks: Marks::Filled, ..Curve::line(k, series) };
     let mut xy = Xy {
         title: figure.title.clone(),
-        x: Axis::log("predicted contraction α (dimensionless)"),
-        y: Axis::log("measured contraction (dimensionless)"),
-        curves: figure.series.iter().enumerate().map(curve).collect(),
-        beyond: Some((1.0, "diverges (α ≥ 1)".into())),
+        x: Axis::log("predicted contraction α"),
+        y: Axis::log("measured contraction"),
+        curves: figure.series.iter().enumerate().flat_map(curves).collect(),
+        beyond: Some((1.0, "no convergence (α ≥ 1)".into())),
         ..Xy::default()
     };
-    // Both axes alike, so that the identity is the diagonal; up to 10, so that the text fits above its region.
-    let shown = xy.curves.iter().flat_map(|c| &c.points).filter(|p| p.0.min(p.1) > 0.0 && p.0.max(p.1).is_finite());
-    let shown: Vec<f64> = shown.flat_map(|p| [p.0, p.1]).chain([1.0, 10.0]).collect();
-    xy.show_x = shown.clone();
-    xy.show_y = shown;
+    // Up to 100, so that the text fits above its region.
+    xy.show_x = vec![1.0, 100.0];
+    xy.show_y = vec![1.0];
     xy.curves.insert(0, identity(&xy));
     xy.draw()
 }
 
-/// The line on which prediction and measurement agree, over the whole plot.
+/// A series on both sides of α = 1, under one entry of the legend.
+fn curves((k, series): (usize, &Series)) -> [Curve; 2] {
+    let (below, above) = series.points.iter().partition(|point| point.0 < 1.0);
+    let side = |points, marks| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
+    [side(below, Marks::Filled), Curve { is_listed: false, ..side(above, Marks::Open) }]
+}
+
+/// The line on which prediction and measurement agree, up to α = 1.
 fn identity(xy: &Xy) -> Curve {
     let x = xy.x_ruler();
     Curve {
         name: "measured = predicted".into(),
+        noted_as: None,
         is_listed: true,
-        points: [x.lo, x.hi].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec(),
+        points: [x.lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec(),
         look: Look { colour: style::MUTED, dash: Dash::Long, ..look(0) },
         width: 1.6,
         marks: Marks::None,

@@ -3,7 +3,7 @@
 //! No exact solution is needed, only the scene run again, seven times at four and a half times its cost:
 //!
 //! * *space*: on a half and a quarter of the elements. With the differences `d1 = |q_{h/2h}|`, `d2 = |q_{2h/4h}|` the rate is
-//!   `p = log2(d2/d1)` and the error of the scene itself `d1/(2^p - 1)` (`error::richardson`);
+//!   `p = log2(d2/d1)` and the error of the scene itself `d1/(2^p - 1)` (`convergence_study::judge::richardson`);
 //! * *time*: the same with a half and a quarter of the steps;
 //! * *iteration*: against Newton's method with a tolerance a hundred times tighter;
 //! * *round-off*: with every inner node moved by one rounding error of its position. That changes the lengths, and with
@@ -15,9 +15,9 @@
 mod report;
 mod runs;
 
-use crate::error::richardson::error_and_rate;
 use crate::run::driver::RunError;
 use crate::scene::Scene;
+use convergence_study::judge::richardson::error_and_rate;
 use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
 use thiserror::Error;

@@ -10,12 +10,10 @@ use serde::Serialize;
 use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Simulation, StepError};
 use thiserror::Error;
 
-use super::tally::{EnergySummary, Extremes, Iterations, Tally};
+use super::simulate::Counts;
+use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally};
 use crate::figures::SceneMotion;
 use crate::scene::any_order::{AnyOrderScene, SCHEME};
-
-/// Points of a step at which the free end's extremes are looked for.
-const POINTS_PER_STEP: usize = 16;
 
 /// Times of a history: more than a figure has columns.
 pub const HISTORY_TIMES: usize = 4000;
@@ -33,25 +31,6 @@ pub enum AnyOrderFailure {
     /// The time limit was reached.
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
-}
-
-/// The state at one time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct State {
-    /// The time.
-    pub t: f64,
-    /// u(1).
-    pub u_tip: f64,
-    /// φ(1).
-    pub phi_tip: f64,
-    /// u_t(1).
-    pub u_t_tip: f64,
-    /// φ_t(1).
-    pub phi_t_tip: f64,
-    /// The physical temperature at x = 1/2.
-    pub theta_mid: f64,
-    /// The energy, θ_A term included.
-    pub energy: f64,
 }
 
 /// Displacement over space and time, for pictures.
@@ -75,17 +54,19 @@ pub struct AnyOrderRun {
     /// Time spent in steps.
     pub wall: Duration,
     /// The start and the last level.
-    pub ends: [State; 2],
+    pub ends: [Sample; 2],
     /// The free end's range.
     pub extremes: Extremes,
     /// Energy and balance.
     pub energy: EnergySummary,
+    /// What the free end touched at the start.
+    pub started_in: Phase,
     /// Where contact began and ended.
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
     /// States at equally spaced times; empty unless asked for.
-    pub history: Vec<State>,
+    pub history: Vec<Sample>,
     /// Displacement over space and time; empty unless asked for.
     pub frames: Frames,
     /// Why the run ended early, if it did.
@@ -100,22 +81,34 @@ pub struct AnyOrderRun {
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
 pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
-    run_at(scene, &[], &mut |_, _| (), times, progress)
+    watched(scene, &[], &mut |_, _| (), times, true, progress)
 }
 
-/// Runs a scene; a step ends at each of the times `at`, which increase, and is shown to `observe` with the state there.
+/// Runs a scene without frames for pictures; a step ends at each of the times `at`, which increase, and is shown to `observe` with
+/// the state there.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_at(
     scene: &AnyOrderScene,
     at: &[f64],
-    observe: &mut dyn FnMut(&Simulation, State),
+    observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
+    watched(scene, at, observe, times, false, progress)
+}
+
+fn watched(
+    scene: &AnyOrderScene,
+    at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, Sample),
+    times: usize,
+    framed: bool,
+    progress: &mut dyn FnMut(f64),
+) -> Result<AnyOrderRun, SetupError> {
     let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
-    let mut observed = Observed::new(&simulation, scene, times);
+    let mut observed = Observed::new(&simulation, scene, times, framed && times > 0);
     let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
@@ -150,15 +143,17 @@ pub fn run_at(
 struct Observed<'s> {
     scene: &'s AnyOrderScene,
     level: Level,
-    first: State,
+    first: Sample,
+    started_in: Phase,
     tally: Tally,
     times: usize,
-    history: Vec<State>,
+    framed: bool,
+    history: Vec<Sample>,
     frames: Frames,
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize) -> Self {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize, framed: bool) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -166,13 +161,17 @@ impl<'s> Observed<'s> {
             scene,
             level,
             first,
+            started_in: simulation.phase(),
             tally: Tally::new(first.u_tip),
             times,
+            framed,
             history: vec![],
             frames: Frames { points, ..Frames::default() },
         };
         if times > 0 {
             observed.history.push(first);
+        }
+        if framed {
             observed.frame(simulation, 0.0);
         }
         observed
@@ -182,9 +181,8 @@ impl<'s> Observed<'s> {
         let Balance { change, residual, .. } = simulation.balance();
         self.tally.add(iterations, change, residual);
         let (from, to) = (simulation.old_level().t, simulation.t());
-        for k in 1..=POINTS_PER_STEP {
-            let t = if k == POINTS_PER_STEP { to } else { from + (to - from) * k as f64 / POINTS_PER_STEP as f64 };
-            self.tally.include(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
+        for u_tip in simulation.tip_range() {
+            self.tally.include(u_tip);
         }
         self.sample(simulation, from, to);
     }
@@ -198,7 +196,7 @@ impl<'s> Observed<'s> {
                 self.history.push(state);
             }
         }
-        if self.times > 0 {
+        if self.framed {
             for t in grid(t_end, FRAMES, from, to) {
                 self.frame(simulation, t);
             }
@@ -220,6 +218,7 @@ impl<'s> Observed<'s> {
             ends: [self.first, last],
             extremes: self.tally.extremes,
             energy: self.tally.energy(self.first.energy, last.energy),
+            started_in: self.started_in,
             events: simulation.events().to_vec(),
             work: simulation.work(),
             history: self.history,
@@ -236,16 +235,18 @@ fn grid(t_end: f64, count: usize, from: f64, to: f64) -> impl Iterator<Item = f6
     (first.max(1)..=count).map(time).skip_while(move |&t| t <= from).take_while(move |&t| t <= to)
 }
 
-fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> State {
+fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> Sample {
     let space = simulation.space();
     let at = |field, x| level.value_and_slope(space, field, x).0;
-    State {
+    let u_tip = at(Field::U, 1.0);
+    Sample {
         t: level.t,
-        u_tip: at(Field::U, 1.0),
+        u_tip,
         phi_tip: at(Field::Phi, 1.0),
         u_t_tip: at(Field::V, 1.0),
         phi_t_tip: at(Field::W, 1.0),
         theta_mid: at(Field::Theta, 0.5) + 0.5 * scene.beam.theta_a,
+        contact_force: scene.obstacles.map_or(0.0, |obstacles| obstacles.force(u_tip)),
         energy: simulation.energy(level).total(),
     }
 }
@@ -253,9 +254,9 @@ fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> State
 impl AnyOrderRun {
     /// The history as comma-separated values, with enough digits to read back every bit.
     pub fn csv(&self) -> String {
-        let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,energy\n");
+        let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy\n");
         for s in &self.history {
-            let row = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.energy];
+            let row = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.contact_force, s.energy];
             let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
             csv += &(cells.join(",") + "\n");
         }
@@ -264,10 +265,10 @@ impl AnyOrderRun {
 
     /// Names of files and their SVG documents; none where no history was asked for.
     pub fn pictures(&self, scene: &AnyOrderScene) -> Vec<(&'static str, String)> {
-        if self.history.is_empty() {
+        if self.frames.times.is_empty() {
             return vec![];
         }
-        let over_time = |value: fn(&State) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
+        let over_time = |value: fn(&Sample) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
         let motion = SceneMotion {
             name: &scene.name,
             beam: &scene.beam,
@@ -275,7 +276,7 @@ impl AnyOrderRun {
             u_tip: over_time(|state| state.u_tip),
             phi_tip: over_time(|state| state.phi_tip),
             energy: over_time(|state| state.energy),
-            contact: self.contact_phases(scene.t_end),
+            contact: self.contact_phases(),
             times: &self.frames.times,
             points: &self.frames.points,
             frames: &self.frames.u,
@@ -283,15 +284,16 @@ impl AnyOrderRun {
         motion.pictures()
     }
 
-    /// Intervals of time in which the free end touched an obstacle, from the events.
-    pub fn contact_phases(&self, t_end: f64) -> Vec<(f64, f64)> {
-        let mut phases: Vec<(f64, f64)> = vec![];
+    /// Intervals of time in which the free end touched an obstacle, from the phase at the start and the events.
+    pub fn contact_phases(&self) -> Vec<(f64, f64)> {
+        let [start, end] = self.ends.map(|state| state.t);
+        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
         for event in &self.events {
             if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
                 phase.1 = event.t;
             }
             if event.to != Phase::Free {
-                phases.push((event.t, t_end));
+                phases.push((event.t, end));
             }
         }
         phases
@@ -310,7 +312,7 @@ pub struct AnyOrderObject<'r> {
     #[serde(skip_serializing_if = "Option::is_none")]
     wall_seconds: Option<f64>,
     #[serde(rename = "final")]
-    last: State,
+    last: Sample,
     extremes: Extremes,
     energy: EnergySummary,
     scheme: &'static str,
@@ -318,16 +320,10 @@ pub struct AnyOrderObject<'r> {
     time_degree: usize,
     restart_dt: f64,
     growth: f64,
-    work: Work,
+    work: Counts,
     events: Vec<Event>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
-}
-
-#[derive(Debug, Serialize)]
-struct Work {
-    passes: usize,
-    factorizations: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -378,7 +374,7 @@ impl<'r> AnyOrderObject<'r> {
             time_degree: scene.stepping.degree,
             restart_dt: scene.stepping.restart_dt,
             growth: scene.stepping.growth,
-            work: Work { passes: run.work.solves, factorizations: run.work.factorizations },
+            work: Counts { passes: run.work.solves, factorizations: run.work.factorizations },
             events: run.events.iter().map(event).collect(),
             failure: run.failure.as_ref().map(|failure| Failure {
                 step: run.steps + 1,
@@ -392,6 +388,7 @@ impl<'r> AnyOrderObject<'r> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expression::{Expression, Variable};
     use crate::scene::any_order::SceneFile;
 
     fn scene(time: &str) -> AnyOrderScene {
@@ -406,12 +403,27 @@ mod tests {
     }
 
     #[test]
+    fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
+        let pressed = |t_end: f64| {
+            let mut scene = scene(&format!("t_end = {t_end}"));
+            scene.initial.u = Some(Expression::parse("0.15*x^2", Variable::X).expect("a function"));
+            run(&scene, 0, &mut |_| ()).expect("a run")
+        };
+        let run = pressed(0.005);
+        assert_eq!((run.started_in, run.events.len()), (Phase::Upper, 0));
+        assert_eq!(run.contact_phases(), [(0.0, 0.005)]);
+        let run = pressed(0.02);
+        assert_eq!((run.events[0].from, run.events[0].to), (Phase::Upper, Phase::Free));
+        assert_eq!(run.contact_phases()[0], (0.0, run.events[0].t));
+    }
+
+    #[test]
     fn the_first_experiment_comes_out_to_seven_digits_with_its_events() {
         let run = run(&scene("t_end = 1.0"), 100, &mut |_| ()).expect("a run");
         assert_eq!(run.failure, None);
         assert!((run.ends[1].u_tip - -0.011_764_243_810).abs() < 1e-7, "{:?}", run.ends);
         assert_eq!(run.events.len(), 3);
-        let phases = run.contact_phases(1.0);
+        let phases = run.contact_phases();
         assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
         assert_eq!(phases[1].1, 1.0);
         // Each time once, whatever the steps.

@@ -27,7 +27,6 @@ mod together;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
@@ -40,16 +39,12 @@ use crate::expression::Expression;
 use crate::run::driver::{Driver, RunError, Step};
 use crate::scene::Scene;
 
-pub use super::tally::{EnergySummary, Extremes, Iterations};
+pub use super::tally::{EnergySummary, Extremes, Iterations, Sample};
 pub use figures::figures;
 pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
+pub(super) use object::Counts;
 pub use object::Object;
 pub use together::{Together, run_together};
-
-/// The value at x = 1/2 of nodal values on a mesh.
-pub(crate) fn middle_value(mesh: &Mesh, values: &[f64]) -> f64 {
-    Middle::of(mesh).value(values)
-}
 
 /// Where x = 1/2 lies in a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -71,28 +66,6 @@ impl Middle {
     fn value(self, y: &[f64]) -> f64 {
         (1.0 - self.fraction) * y[self.node] + self.fraction * y[self.node + 1]
     }
-}
-
-/// Observed quantities of a time level; the JSON object of a run has them, except the contact force.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Sample {
-    /// Time.
-    pub t: f64,
-    /// u(1).
-    pub u_tip: f64,
-    /// φ(1).
-    pub phi_tip: f64,
-    /// û(1).
-    pub u_t_tip: f64,
-    /// φ̂(1).
-    pub phi_t_tip: f64,
-    /// The physical temperature at x = 1/2.
-    pub theta_mid: f64,
-    /// The contact force of the step that led here, positive on the upper obstacle; g(u(1)) at the start.
-    #[serde(skip)]
-    pub contact_force: f64,
-    /// E^n, with the term of θ_A.
-    pub energy: f64,
 }
 
 /// What to keep beside the summary.
@@ -183,7 +156,7 @@ impl Simulator {
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
         let driver = Driver::new(problem(scene), stepping)?.timed();
-        let sampler = Sampler { middle: Middle::of(&scene.mesh), dt: scene.dt };
+        let sampler = Sampler::new(&scene.mesh);
         Ok(Self { driver, sampler, steps: scene.steps })
     }
 
@@ -224,16 +197,18 @@ impl Simulator {
 
 /// Reads samples off the levels of a simulation.
 #[derive(Debug, Clone, Copy)]
-struct Sampler {
+pub(crate) struct Sampler {
     middle: Middle,
-    dt: f64,
 }
 
 impl Sampler {
-    fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
+        Self { middle: Middle::of(mesh) }
+    }
+
+    pub(crate) fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
         let theta_a = simulation.problem().beam.theta_a;
-        let t = simulation.step() as f64 * self.dt;
-        Sample::of(level, t, self.middle, theta_a, simulation.energy(level).total())
+        Sample::of(level, simulation.t(), self.middle, theta_a, simulation.energy(level).total())
     }
 }
 

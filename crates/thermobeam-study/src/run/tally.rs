@@ -1,7 +1,30 @@
-//! What is summed up over the steps of a run, by whatever scheme.
+//! What is observed of a run at one time, and summed up over its steps, by whatever scheme.
 
 use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
+use thiserror::Error;
+
+/// Observed quantities at one time; the JSON object of a run has them, except the contact force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sample {
+    /// Time.
+    pub t: f64,
+    /// u(1).
+    pub u_tip: f64,
+    /// φ(1).
+    pub phi_tip: f64,
+    /// u_t(1); of a one-step scheme û(1).
+    pub u_t_tip: f64,
+    /// φ_t(1); of a one-step scheme φ̂(1).
+    pub phi_t_tip: f64,
+    /// The physical temperature at x = 1/2.
+    pub theta_mid: f64,
+    /// The contact force, positive on the upper obstacle: g(u(1)); of a one-step scheme that of the step that led here.
+    #[serde(skip)]
+    pub contact_force: f64,
+    /// The energy (3.9), with the term of θ_A.
+    pub energy: f64,
+}
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -35,16 +58,40 @@ pub struct EnergySummary {
     pub largest_balance_residual: f64,
 }
 
-/// The rise of the energy in one step that is no longer taken for round-off or a loose tolerance, in parts of the initial
-/// energy, or of 1 where that is less: every step of every scheme lowers the energy, or leaves it.
-const RISE: f64 = 1e-3;
+/// The part of the initial energy, or of 1 where that is less, that neither round-off nor a loose tolerance explains: every step
+/// of every scheme lowers the energy, or leaves it, and balances what it loses.
+const UNEXPLAINED: f64 = 1e-3;
+
+/// Why the numbers of a run mean nothing, although every step of it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Unsound {
+    /// The energy rose by this.
+    #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
+    Rise(f64),
+    /// The balance of the energy is violated by this.
+    #[error(
+        "the balance of the energy is violated by {0:.3e} in a step, where every exactly solved step keeps it: {EXPECTED}"
+    )]
+    Imbalance(f64),
+}
+
+const EXPECTED: &str =
+    "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
 impl EnergySummary {
-    /// The largest rise of the energy in a step where it is far beyond what rounding and tolerance explain: the numbers of such a
-    /// run mean nothing. `None` for a sound run, and where no step was done.
-    pub fn rise(&self, steps: usize) -> Option<f64> {
-        let is_sound = self.largest_increase <= RISE * self.initial.abs().max(1.0);
-        (steps > 0 && !is_sound).then_some(self.largest_increase)
+    /// Whether the energy rose, or its balance is violated, far beyond what rounding and tolerance explain. A run without a step
+    /// is sound.
+    ///
+    /// # Errors
+    /// [`Unsound`], with the number.
+    pub fn sound(&self, steps: usize) -> Result<(), Unsound> {
+        let most = UNEXPLAINED * self.initial.abs().max(1.0);
+        match (self.largest_increase, self.largest_balance_residual) {
+            _ if steps == 0 => Ok(()),
+            (rise, _) if !(rise <= most) => Err(Unsound::Rise(rise)),
+            (_, residual) if !(residual <= most) => Err(Unsound::Imbalance(residual)),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -96,15 +143,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rise_of_the_energy_beyond_rounding_is_found_and_nan_is_one() {
-        let rise = |initial, largest_increase, steps| {
-            EnergySummary { initial, last: 0.0, largest_increase, largest_balance_residual: 0.0 }.rise(steps)
+    fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_nan() {
+        let sound = |initial, largest_increase, largest_balance_residual, steps| {
+            EnergySummary { initial, last: 0.0, largest_increase, largest_balance_residual }.sound(steps)
         };
-        for sound in [-1.0, 0.0, 1e-12, 9e-4] {
-            assert_eq!(rise(0.5, sound, 1), None, "{sound}");
+        for rise in [-1.0, 0.0, 1e-12, 9e-4] {
+            assert_eq!(sound(0.5, rise, 9e-4, 1), Ok(()), "{rise}");
         }
-        assert_eq!([rise(0.5, 2e-3, 1), rise(100.0, 2e-3, 1), rise(0.5, 1e264, 7)], [Some(2e-3), None, Some(1e264)]);
-        assert!(rise(0.5, f64::NAN, 1).is_some_and(f64::is_nan));
-        assert_eq!(rise(0.5, f64::NAN, 0), None, "no step was done");
+        assert_eq!(sound(0.5, 2e-3, 0.0, 1), Err(Unsound::Rise(2e-3)));
+        assert_eq!(sound(100.0, 2e-3, 2e-3, 1), Ok(()));
+        assert_eq!(sound(0.5, 1e264, 0.0, 7), Err(Unsound::Rise(1e264)));
+        assert_eq!(sound(0.5, -1.0, 2e-3, 1), Err(Unsound::Imbalance(2e-3)));
+        assert!(matches!(sound(0.5, f64::NAN, 0.0, 1), Err(Unsound::Rise(rise)) if rise.is_nan()));
+        assert!(matches!(sound(0.5, 0.0, f64::NAN, 1), Err(Unsound::Imbalance(residual)) if residual.is_nan()));
+        assert_eq!(sound(0.5, f64::NAN, 0.0, 0), Ok(()), "no step was done");
     }
 }

@@ -15,13 +15,14 @@ impl Template {
     /// The file's text.
     ///
     /// * `name`: the study's id, or the scene's name; see [`is_name`].
-    pub fn text(self, name: &str) -> String {
+    /// * `program`: what users type before a command, such as `thermobeam`.
+    pub fn text(self, name: &str, program: &str) -> String {
         let text = match self {
             Self::Study => include_str!("template/study.toml"),
             Self::Scene => include_str!("template/scene.toml"),
             Self::AnyOrderScene => include_str!("template/any-order-scene.toml"),
         };
-        text.replace("NAME", name)
+        text.replace("NAME", name).replace("PROGRAM", program)
     }
 }
 

@@ -24,7 +24,8 @@ fn tip(t: f64) -> f64 {
 pub(crate) fn contraction_factors() -> Contraction {
     let dt = |k: i32| 10f64.powf(-4.0 + 0.25 * f64::from(k));
     let alpha = |eps: f64, k: i32| dt(k).powf(1.5) / (eps * 0.1_f64.sqrt());
-    let family = |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k))).collect();
+    let family =
+        |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k).min(1.0))).collect();
     Contraction {
         title: None,
         series: vec![
@@ -46,7 +47,7 @@ pub(crate) fn equilibria() -> Bifurcation {
     };
     Bifurcation {
         title: None,
-        x_label: "axial force β (dimensionless)".into(),
+        x_label: "axial force β".into(),
         y_label: "tip displacement u(1) (dimensionless)".into(),
         branches: vec![
             branch("free", true, (69..140).map(|k| (beta(k), 0.0)).collect()),

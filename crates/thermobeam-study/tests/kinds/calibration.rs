@@ -1,11 +1,13 @@
 use convergence_study::judge::calibration::Calibration;
+use convergence_study::judge::calibration::bars::Bars;
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
+use convergence_study::study::{CaseFailure, FromFile, Header, Kind, run_cases_here};
+use thermobeam_study::kinds::calibration::bars::{self, BarCalibration};
 use thermobeam_study::kinds::calibration::{Counted, ROW, RuleCalibration};
 
-use crate::file;
 use crate::refused::refusal;
 use crate::typed::{changed, report};
+use crate::{file, text};
 
 /// A change of what a case found, with its name.
 type Defect<F> = (&'static str, fn(&mut F));
@@ -57,6 +59,42 @@ fn files_with_errors_are_refused() {
         ("hidden = ", "hidden = 2", "laws.hidden"),
     ] {
         let error = refusal(&ROW, "rule-calibration.toml", from, to);
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn bars_can_hold_too_little_be_refused_too_often_or_be_too_long() {
+    let read = |from: &str, to: &str| {
+        let changed = text("error-bars.toml").replacen(from, to, 1);
+        convergence_study::input::parse_beside(&changed, &file("error-bars.toml"), |root, folder| {
+            BarCalibration::from_document(Header::from_document(root)?, root, folder)
+        })
+        .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let study = read("", "");
+    let sound = run_cases_here(&study);
+    assert_eq!(study.judge(&sound).verdict, Verdict::Pass, "{}", report(&study.judge(&sound)));
+    let planted: [Defect<Bars>; 4] = [
+        ("all bars miss", |found| found.declared.bars[1] = 0),
+        ("those of a law miss", |found| found.laws[3].bars[1] /= 2),
+        ("those of six values miss", |found| found.by_values[3].bars[1] /= 2),
+        ("none is given", |found| found.declared.bars = [0, 0]),
+    ];
+    for (what, plant) in planted {
+        let runs = changed::<BarCalibration>(&sound, |_, found| plant(found));
+        assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what}");
+    }
+    for (from, to) in [("width = 0.2", "width = 0.1"), ("refused = 0.27", "refused = 0.2")] {
+        assert_eq!(read(from, to).judge(&sound).verdict, Verdict::Fail, "{to}");
+    }
+    assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+    for (from, to, message) in [
+        ("samples = 150", "samples = 1", "bars.samples"),
+        ("coverage = 0.95", "coverage = 1.5", "bars.coverage"),
+        ("width = ", "length = ", "length"),
+    ] {
+        let error = refusal(&bars::ROW, "error-bars.toml", from, to);
         assert!(error.contains(message), "{error}");
     }
 }

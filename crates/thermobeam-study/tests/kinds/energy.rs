@@ -1,5 +1,5 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind};
+use convergence_study::study::{FromFile, Kind, Outcome};
 use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
 use thermobeam_study::kinds::energy::runs::{Found, Runs};
 use thermobeam_study::kinds::energy::{End, ROW};
@@ -121,4 +121,18 @@ fn files_with_errors_are_refused() {
         let error = refusal(&ROW, name, from, to);
         assert!(error.contains(message), "{error}");
     }
+}
+
+#[test]
+fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
+    let study = runs("energy-decay.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    assert!(sound.iter().filter_map(|ran| ran.ok()).all(|found| found.samples[0].t == 0.0));
+    let allowed = |outcome: &Outcome, what: &str| {
+        let figure = outcome.figures.iter().find(|figure| figure.file.ends_with(what)).expect(what);
+        figure.svg.contains(">allowed<") || figure.svg.contains("allowed\n")
+    };
+    assert!(allowed(&study.judge(&sound), "balance.svg"));
+    let study = runs("extremes.toml");
+    assert!(allowed(&study.judge(&passes_but_not_without_each_case(&study)), "drift.svg"));
 }

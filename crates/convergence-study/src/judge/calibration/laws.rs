@@ -157,6 +157,11 @@ impl Law {
     /// Draws the numbers of the law and its errors on the mesh.
     pub(crate) fn draw(&self, mesh: Mesh, random: &mut SplitMix) -> Table {
         let steps: Vec<f64> = (0..mesh.levels).map(|k| mesh.ratio.powi(-(k as i32))).collect();
+        self.draw_at(&steps, random)
+    }
+
+    /// The same at any steps, the first of them 1.
+    pub(crate) fn draw_at(&self, steps: &[f64], random: &mut SplitMix) -> Table {
         let mut shown = random.within([0.5, 4.0]);
         let mut order = Some(shown);
         if let Shape::LowerOrder = self.shape {
@@ -166,7 +171,7 @@ impl Law {
         } else if self.group == Group::Stagnating {
             order = None;
         }
-        let mut error = self.shape.draw(shown, order, &steps, random);
+        let mut error = self.shape.draw(shown, order, steps, random);
         let levels = steps.iter().map(|&step| Level { step, error: error(step) }).collect();
         Table { levels, shown, order }
     }

@@ -47,6 +47,8 @@ pub struct RateInterval {
     pub pollution: Option<f64>,
     /// `rate` ± its half-width.
     pub interval: [f64; 2],
+    /// How far log e of the finest level may be from its law, at the confidence of the interval.
+    pub scatter: f64,
 }
 
 /// One explanation of the data.
@@ -56,6 +58,8 @@ struct Candidate {
     rate: f64,
     log_weight: f64,
     half_width: f64,
+    /// Student's quantile times the deviation of log e at the finest level.
+    scatter: f64,
 }
 
 /// Fits all the candidates over the levels given, which should be an asymptotic range, and takes their weighted mean.
@@ -75,8 +79,9 @@ pub fn rate_interval(levels: &[Level], quantiles: &Quantiles) -> Option<RateInte
     let rate = mean(&|candidate| candidate.rate);
     // Two standard deviations between the candidates, beside the half-width of each.
     let half = mean(&|c| c.half_width.powi(2) + 4.0 * (c.rate - rate).powi(2)).sqrt();
+    let scatter = mean(&|c| c.scatter.powi(2)).sqrt();
     let sound = rate.is_finite() && half.is_finite();
-    sound.then_some(RateInterval { rate, pollution: heaviest.pollution, interval: [rate - half, rate + half] })
+    sound.then_some(RateInterval { rate, pollution: heaviest.pollution, interval: [rate - half, rate + half], scatter })
 }
 
 /// The logarithms of steps and errors.
@@ -186,7 +191,8 @@ impl<'a> Weighted<'a> {
         };
         let rare = if pollution.is_some_and(|r| r < SLOW) { SLOW_PENALTY } else { 0.0 };
         let log_weight = -0.5 * m as f64 * rss.ln() - PENALTY * parameters as f64 - rare;
-        Candidate { pollution, rate, log_weight, half_width }
+        let scatter = self.data.quantiles.t(dof) * (variance / self.weights[m - 1]).sqrt();
+        Candidate { pollution, rate, log_weight, half_width, scatter }
     }
 
     // Plain loops: these three are where the time of a calibration goes.

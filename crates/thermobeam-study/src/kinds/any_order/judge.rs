@@ -81,10 +81,11 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
             (format!("p = {p}, slopes"), p as f64, |errors| errors.slopes),
         ],
     };
-    let column = |(name, order, of): &ClaimOf| ErrorColumn {
+    let column = |(look, (name, order, of)): (usize, &ClaimOf)| ErrorColumn {
         name: name.clone(),
         errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, of)).collect(),
         claim: Some(Claim { order: *order, tolerance: series.tolerance }),
+        look,
     };
     let refinement = |ran: &Ran<Resolution, Errors>| {
         let Resolution { degree, elements, time_degree, steps } = ran.case.data;
@@ -101,7 +102,7 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
     Levels {
         axis: if study.over == Over::Time { Axis::Time } else { Axis::Space },
         refinements: ran.iter().map(refinement).collect(),
-        columns: claims.iter().map(column).collect(),
+        columns: claims.iter().enumerate().map(column).collect(),
     }
 }
 

@@ -91,6 +91,7 @@ fn levels(study: &BifurcationStudy, forces: &[f64]) -> Levels {
             name: "buckling force of P1 elements".to_owned(),
             errors: forces.iter().map(|force| (force - BUCKLING).abs()).collect(),
             claim: Some(Claim { order: 2.0, tolerance: study.tolerance }),
+            look: 0,
         }],
     }
 }

@@ -123,7 +123,7 @@ fn drawing(
     let ends: Vec<(f64, f64)> = study.betas.iter().zip(rests).map(|(beta, rest)| (*beta, u_tip(*rest))).collect();
     figures::bifurcation(&figures::Bifurcation {
         title: None,
-        x_label: "axial force at rest β (dimensionless)".into(),
+        x_label: "axial force at rest β".into(),
         y_label: "tip displacement u(1) (dimensionless)".into(),
         branches,
         obstacles: scene.obstacles.map_or(vec![], |o| {

@@ -16,6 +16,7 @@
 //! hidden = 0.24          # allowed share of tables that pass though a tenth of the finest error is a term of lower order
 //! ```
 
+pub mod bars;
 mod laws;
 
 use convergence_study::input::{InputError, Section};

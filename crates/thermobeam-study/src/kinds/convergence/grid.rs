@@ -73,8 +73,8 @@ fn surface(study: &Convergence, ran: &[Run], norm: Norm) -> Figure {
     // The cases run over the steps first, elements being the outer loop.
     let at = |k: usize, j: usize| ran.get(j * refine.steps.len() + k).map_or(f64::NAN, |run| error(run, norm));
     let svg = plots::surface(&plots::Surface {
-        x: plots::Axis::log("mesh width h (dimensionless)"),
-        y: plots::Axis::log("time step dt (dimensionless)"),
+        x: plots::Axis::log("mesh width h"),
+        y: plots::Axis::log("time step dt"),
         z: plots::Axis::log(format!("error, {}", norm.name())),
         x_values: refine.elements.iter().map(|&elements| 1.0 / elements as f64).collect(),
         y_values: refine.steps.iter().map(|&steps| refine.dt(steps)).collect(),

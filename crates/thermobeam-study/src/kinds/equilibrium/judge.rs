@@ -6,9 +6,9 @@ use convergence_study::study::{Axis, Check, Outcome, Quantity, Ran, Table};
 use convergence_study::text::number::{decimals, max_or_nan};
 
 use super::{AnyOrder, End, EndStates, Fields, OnMesh};
-use crate::error::richardson;
 use crate::kinds::steady::name_of;
 use crate::scene::Scene;
+use convergence_study::judge::richardson;
 
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;
@@ -68,13 +68,14 @@ fn errors<'e>(study: &EndStates, scenes: impl Iterator<Item = &'e Ends<'e>>) -> 
         parameters: vec![("elements".to_owned(), elements as f64)],
         step: 1.0 / elements as f64,
     };
-    let columns = scenes.flat_map(|ends| {
-        let column = |field: &str, error: fn(&Fields) -> f64| ErrorColumn {
+    let columns = scenes.enumerate().flat_map(|(k, ends)| {
+        let column = |look: usize, field: &str, error: fn(&Fields) -> f64| ErrorColumn {
             name: format!("{}: {field}", ends.scene.name),
             errors: ends.ends.iter().map(|end| end.map_or(f64::NAN, |end| error(&end.error))).collect(),
             claim: Some(Claim { order: ORDER, tolerance: study.tolerance }),
+            look,
         };
-        [column("u", |fields| fields.u), column("φ", |fields| fields.phi)]
+        [column(2 * k, "u", |fields| fields.u), column(2 * k + 1, "φ", |fields| fields.phi)]
     });
     Levels {
         axis: Axis::Space,

@@ -7,9 +7,9 @@ use thermobeam::simulation::Stepping;
 
 use super::{ExactExperiments, Method, Run, Shown};
 use crate::kinds::tables::Discretisation;
-use crate::run::any_order::{self, State};
+use crate::run::any_order;
 use crate::run::driver::Driver;
-use crate::run::simulate;
+use crate::run::simulate::{self, Sampler};
 use crate::scene::Scene;
 
 /// Times at which the free end is compared over the whole time.
@@ -62,7 +62,7 @@ fn own_run(study: &ExactExperiments, scene: &Scene) -> Result<Shown, CaseFailure
     let mut driver = Driver::new(simulate::problem(scene), stepping)?;
     let tip_step: Vec<usize> = (1..=TIP_TIMES).map(|k| step_of(t_end * k as f64 / TIP_TIMES as f64)).collect();
     let mut shown = Shown { steps, balance: [f64::NAN; 2], ..Shown::default() };
-    let mut next = 0;
+    let (sampler, mut next) = (Sampler::new(&scene.mesh), 0);
     let wanted: Vec<usize> = study.times.iter().map(|&t| step_of(t)).collect();
     driver.run(steps, |step| -> ControlFlow<()> {
         let (level, n) = (step.new, step.simulation.step());
@@ -72,16 +72,7 @@ fn own_run(study: &ExactExperiments, scene: &Scene) -> Result<Shown, CaseFailure
             next += 1;
         }
         if wanted.contains(&n) {
-            let middle = simulate::middle_value(&scene.mesh, &level.theta) + 0.5 * scene.beam.theta_a;
-            shown.states.push(State {
-                t: step.simulation.t(),
-                u_tip: level.u[last],
-                phi_tip: level.phi[last],
-                u_t_tip: level.v[last],
-                phi_t_tip: level.w[last],
-                theta_mid: middle,
-                energy: step.simulation.energy(level).total(),
-            });
+            shown.states.push(sampler.sample(step.simulation, level));
         }
         ControlFlow::Continue(())
     })?;

@@ -5,7 +5,7 @@ use convergence_study::study::{Check, Outcome, Quantity, Ran};
 use convergence_study::text::number::max_or_nan;
 
 use super::{ExactExperiments, Method, Run, Shown, report};
-use crate::run::any_order::State;
+use crate::run::tally::Sample;
 
 /// Residual of the balance that is round-off, over the initial energy.
 const CLOSED: f64 = 1e-12;
@@ -20,7 +20,7 @@ pub(super) struct OfScene<'r> {
     pub(super) own: Option<&'r Shown>,
 }
 
-pub(super) fn numbers(state: &State) -> [(&'static str, f64); 6] {
+pub(super) fn numbers(state: &Sample) -> [(&'static str, f64); 6] {
     [
         ("u(1)", state.u_tip),
         ("phi(1)", state.phi_tip),

@@ -15,7 +15,7 @@ use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRo
 use thermobeam::dg::ContactEvent;
 
 use crate::kinds::tables::Discretisation;
-use crate::run::any_order::State;
+use crate::run::tally::Sample;
 use crate::scene::Scene;
 
 /// The row of the table of kinds.
@@ -51,7 +51,7 @@ pub struct Run {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shown {
     /// States at the times listed.
-    pub states: Vec<State>,
+    pub states: Vec<Sample>,
     /// Contact events; none by the scene's own scheme, which does not locate them.
     pub events: Vec<ContactEvent>,
     /// `(t, u(1, t))` at equally spaced times.

@@ -53,6 +53,7 @@ fn errors(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
         name: format!("omega-{}", mode + 1),
         errors: ran.iter().map(|level| found(level, mode) - exact[mode]).collect(),
         claim: Some(Claim { order: study.order, tolerance: study.tolerance }),
+        look: mode,
     };
     Levels {
         axis: Axis::Space,

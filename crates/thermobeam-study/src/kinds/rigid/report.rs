@@ -94,22 +94,16 @@ fn penetrations(results: &Results<'_>) -> String {
         points: results.by_compliance.iter().map(|of| (of.epsilon, number(of))).collect(),
         ..ErrorSeries::default()
     };
-    let rest = results.numbers(|of| of.resting_penetration());
-    let boundary = results.by_compliance.first().map_or(f64::NAN, |of| of.alpha() * of.epsilon);
-    let range = [rest.last(), rest.first()].map(|end| (boundary, end.copied().unwrap_or(f64::NAN)));
+    let resolved = results.by_compliance.first().map(|of| of.alpha() * of.epsilon);
     convergence(&Convergence {
-        x_label: "compliance of the obstacles ε (dimensionless)".into(),
+        x_label: "compliance of the obstacles ε".into(),
         y_label: "penetration (dimensionless)".into(),
         series: vec![
             over_epsilon(LARGEST, |of| of.largest_penetration()),
             over_epsilon("peak of a resolved impact", |of| of.peak_penetration()),
             over_epsilon("at rest", |of| of.resting_penetration()),
-            ErrorSeries {
-                label: "α = 1: left of it the fixed point fails".into(),
-                points: range.to_vec(),
-                ..ErrorSeries::default()
-            },
         ],
+        beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
         slopes: vec![1.0, 2.0 / 3.0],
         ..Convergence::default()
     })

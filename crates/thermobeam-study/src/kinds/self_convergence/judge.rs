@@ -5,9 +5,9 @@ use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinem
 use convergence_study::study::{Axis, Check, LevelErrors, Outcome, Quantity, Ran, Table};
 
 use super::{Observable, Resolution, Run, Sample, SelfConvergence, Traced, figures};
-use crate::error::richardson;
 use crate::kinds::tables::Refine;
 use crate::run::rerun::resampled;
+use convergence_study::judge::richardson;
 use convergence_study::text::number::max_or_nan;
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
@@ -64,7 +64,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
     let both: Vec<(String, RateVerdict)> = rates.iter().chain(&shown).cloned().collect();
     let to_reference = differences(study, ran, Reading::Reference, |_| true).figure(
         format!("{}-errors.svg", study.header.id),
-        Some(format!("No exact solution: {}", study.scene.name)),
+        Some(format!("Differences to a run of any order: {}", study.scene.name)),
         "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
         &both,
     );
@@ -109,6 +109,7 @@ fn differences(
             name: format!("{}, {}", observable.name(), reading.name()),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
+            look: observable.look(),
         })
     };
     Levels {

@@ -6,6 +6,7 @@ use thermobeam::solve::Level;
 
 use super::{Sample, Traced};
 use crate::error::evaluator::{distance, prolong, restrict};
+use crate::kinds::tables::Norm;
 
 /// A difference of two runs; each the maximum over the times compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +51,15 @@ impl Observable {
             Observable::TipMax => "tip-max",
             Observable::Theorem34 => "theorem-3.4",
             Observable::Superclose => "superclose",
+        }
+    }
+
+    /// Which look it has in all figures: norms that are also those of errors have the same.
+    pub(super) fn look(self) -> usize {
+        match self {
+            Observable::Theorem34 => Norm::Theorem34 as usize,
+            Observable::Superclose => Norm::Superclose as usize,
+            other => Norm::ALL.len() + other as usize,
         }
     }
 

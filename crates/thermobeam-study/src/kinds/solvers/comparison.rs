@@ -36,6 +36,8 @@ pub struct Agreement {
     pub most_iterations: usize,
     /// Its iterations in each step, as (t, iterations).
     pub iterations: Vec<(f64, f64)>,
+    /// The same of Newton's method.
+    pub newton: Vec<(f64, f64)>,
     /// Intervals of time of the steps that end in contact.
     pub contact: Vec<(f64, f64)>,
 }
@@ -66,9 +68,9 @@ impl Comparison {
         let mut fixed = driver(Settings { solver: Solver::FixedPoint, tolerance, ..Settings::default() })?;
         let lengths: Vec<f64> = scene.mesh.lengths().collect();
         let (mut distance, mut total, mut most_iterations) = (0.0, 0, 0);
-        let (mut iterations, mut contact) = (vec![], vec![]);
+        let (mut iterations, mut of_newton, mut contact) = (vec![], vec![], vec![]);
         for _ in 0..self.steps {
-            newton.advance(|_, _| ())?;
+            let solved = newton.advance(|_, _| ())?;
             let report = fixed.advance(|_, _| ())?;
             let t = fixed.simulation().t();
             let level = fixed.level();
@@ -76,12 +78,13 @@ impl Comparison {
             total += report.iterations;
             most_iterations = most_iterations.max(report.iterations);
             iterations.push((t, report.iterations as f64));
+            of_newton.push((t, solved.iterations as f64));
             if level.contact_force != 0.0 {
                 contact.push((t - scene.dt, t));
             }
         }
         let mean_iterations = total as f64 / self.steps as f64;
-        Ok(Agreement { distance, mean_iterations, most_iterations, iterations, contact })
+        Ok(Agreement { distance, mean_iterations, most_iterations, iterations, newton: of_newton, contact })
     }
 }
 
@@ -117,11 +120,14 @@ pub(super) fn judge(id: &str, found: &[(f64, &Agreement)]) -> Part {
 
 fn figure(id: &str, found: Option<&Agreement>) -> Figure {
     let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
-    let points = curve(|found| &found.iterations);
-    let series = vec![plots::Series { label: "fixed point".to_owned(), points }];
+    let series = |label: &str, points| plots::Series { label: label.to_owned(), points };
+    let series = vec![
+        series("fixed point", curve(|found| &found.iterations)),
+        series("Newton's method", curve(|found| &found.newton)),
+    ];
     let phases = plots::Phases { label: "in contact".to_owned(), intervals: curve(|found| &found.contact) };
     let svg = plots::iterations(&plots::Iterations { series, phases, ..plots::Iterations::default() });
-    let caption =
-        "Iterations per step of the fixed point at the smallest tolerance; shaded where the tip is in contact.";
+    let caption = "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method; shaded where the tip is \
+         in contact.";
     Figure { file: format!("{id}-iterations.svg"), caption: caption.to_owned(), svg }
 }

@@ -129,6 +129,7 @@ fn figure(id: &str, found: &[([f64; 3], &Contraction)]) -> Figure {
         plots::Series { label: format!("ζ = {zeta}"), points }
     });
     let svg = figures::contraction(&figures::Contraction { title: None, series: series.collect() });
-    let caption = "Contraction factor of the fixed point in contact, measured over predicted; past 1 it diverges.";
+    let caption =
+        "Contraction factor of the fixed point in contact, measured over predicted; from 1 on it does not converge.";
     Figure { file: format!("{id}-contraction.svg"), caption: caption.to_owned(), svg }
 }

@@ -29,6 +29,7 @@ pub(crate) fn norm_levels<'r>(
         name: norm.name().to_owned(),
         errors: ran.clone().map(|(_, errors)| errors.map_or(f64::NAN, |errors| errors[norm])).collect(),
         claim: claim(norm),
+        look: norm as usize,
     };
     Levels {
         axis: refine.axis,

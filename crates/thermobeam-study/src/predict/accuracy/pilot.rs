@@ -8,9 +8,9 @@
 
 use super::{Request, Trust};
 use crate::error::evaluator::{ErrorMeasure, distance, prolong};
-use crate::error::richardson::{growth, orthogonal_growth};
 use crate::run::family::{Family, Spent};
 use convergence_study::judge::fit::{Level, Quantiles, fit_line, pairwise_rates};
+use convergence_study::judge::richardson::{growth, orthogonal_growth};
 use convergence_study::study::CaseFailure;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;

@@ -29,18 +29,18 @@ pub struct Object<'a> {
     /// Whether the temperature was computed.
     heated: bool,
     contact_steps: usize,
-    work: Work,
+    work: Counts,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_budget: Option<&'a Budget>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
 }
 
-/// Counts of the solver, which knows no JSON.
+/// Counts of the solvers, which know no JSON.
 #[derive(Debug, Serialize)]
-struct Work {
-    passes: usize,
-    factorizations: usize,
+pub(in crate::run) struct Counts {
+    pub(in crate::run) passes: usize,
+    pub(in crate::run) factorizations: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -92,7 +92,7 @@ impl<'a> Object<'a> {
             solver: scene.settings.solver.name(),
             heated: run.is_heated,
             contact_steps: run.contact_steps,
-            work: Work { passes: run.work.passes, factorizations: run.work.factorizations },
+            work: Counts { passes: run.work.passes, factorizations: run.work.factorizations },
             error_budget: None,
             failure: run.failure.as_ref().map(failure),
         }

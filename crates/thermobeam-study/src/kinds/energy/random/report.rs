@@ -64,7 +64,7 @@ pub(super) fn figure(id: &str, batches: &[&Batch]) -> Figure {
     let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();
     let cells = Surface {
         title: None,
-        x: Axis::log("time step dt (dimensionless)"),
+        x: Axis::log("time step dt"),
         y: Axis::log("shortest element (dimensionless)"),
         z: Axis::log("largest residual / energy"),
         x_values: centres(DT),

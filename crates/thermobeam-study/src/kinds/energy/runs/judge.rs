@@ -1,7 +1,7 @@
 //! A check for each run: its end, rise and residual of every step, and the sum of the residuals.
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::plots::{self, Axis, Series};
+use convergence_study::plots::{self, Axis, Guide, Series};
 use convergence_study::study::levels::completion;
 use convergence_study::study::{Check, Figure, Outcome, Quantity, Ran, Table};
 use convergence_study::text::number::max_or_nan;
@@ -127,11 +127,10 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
         svg: plots::history(&history),
     };
     if study.figures == Figures::Drift {
-        let mut series = series(&|_, sample| (sample.step as f64, sample.drift.abs()));
-        // A sum of exactly zero has no place on a logarithmic axis.
-        series.iter_mut().for_each(|series| series.points.retain(|(_, drift)| *drift != 0.0));
+        let series = not_zero(series(&|_, sample| (sample.step as f64, sample.drift.abs())));
         let y = Axis::log("|sum of residuals| / energy");
-        let history = plots::History { x_label: "steps".to_owned(), y, series, ..plots::History::default() };
+        let guides = allowed(found, |run| run.drift);
+        let history = plots::History { x_label: "steps".to_owned(), y, series, guides, ..plots::History::default() };
         return vec![figure("drift", "Sum of the signed residuals of the energy balance up to each step.", history)];
     }
     let energy = plots::History {
@@ -141,7 +140,11 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
     };
     let balance = plots::History {
         y: Axis::log("residual / initial energy"),
-        series: series(&|_, sample| (sample.t, sample.residual)),
+        series: not_zero(series(&|_, sample| (sample.t, sample.residual))),
+        guides: allowed(found, |run| match run.bound {
+            Bound::Share(tolerance) => Some(tolerance),
+            Bound::Rounding => None,
+        }),
         ..plots::History::default()
     };
     vec![
@@ -152,4 +155,18 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
             balance,
         ),
     ]
+}
+
+/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.
+fn not_zero(mut series: Vec<Series>) -> Vec<Series> {
+    series.iter_mut().for_each(|series| series.points.retain(|(_, value)| *value != 0.0));
+    series
+}
+
+/// A line for each bound that the runs drawn must keep.
+fn allowed(found: &[(&Run, &Found)], bound: impl Fn(&Run) -> Option<f64>) -> Vec<Guide> {
+    let mut bounds: Vec<f64> = found.iter().filter(|(run, _)| run.is_drawn).filter_map(|(run, _)| bound(run)).collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.dedup();
+    bounds.into_iter().map(|value| Guide { label: "allowed".to_owned(), value }).collect()
 }

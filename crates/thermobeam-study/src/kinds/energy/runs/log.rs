@@ -48,15 +48,17 @@ impl Log {
     fn new(driver: &mut Driver, every: usize) -> Self {
         let (simulation, level) = driver.present();
         let watch = Watch::new(simulation.energy_scale(level));
+        let energy = simulation.energy(level);
+        let start = Sample { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
         let found = Found {
             end: End::Answer,
             steps: 0,
             contact_steps: 0,
             most_iterations: 0,
-            initial_energy: size(&simulation.energy(level)),
+            initial_energy: size(&energy),
             worst: watch.worst(),
             drift: 0.0,
-            samples: vec![],
+            samples: vec![start],
         };
         Self { watch, every, peak: 0.0, found }
     }

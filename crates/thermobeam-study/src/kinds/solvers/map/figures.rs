@@ -100,7 +100,7 @@ impl Maps<'_> {
         };
         let cells = Surface {
             title: None,
-            x: Axis::log("time step dt (dimensionless)"),
+            x: Axis::log("time step dt"),
             y: self.second_axis(),
             z,
             x_values: self.map.time_steps(),

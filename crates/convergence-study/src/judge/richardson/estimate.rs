@@ -1,0 +1,264 @@
+//! The rate of the differences, judged by the rule, and the error bar that follows from it.
+
+use std::f64::consts::SQRT_2;
+
+use thiserror::Error;
+
+use super::gci::{Gci, observed_order};
+use super::growth;
+use crate::judge::fit::{FLOOR_MARGIN, Level};
+use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason};
+
+/// How well the only rate of three values is known, at best: half the distance between two integer orders.
+pub const DOUBT_OF_A_SINGLE_RATE: f64 = 0.5;
+
+/// Round-off of a value of size 1 that was summed up over a mesh, in the manner of [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
+const ROUND_OFF: f64 = 1e-13;
+
+/// Ratios that differ by less are one ratio.
+const SAME_RATIO: f64 = 1e-9;
+
+/// Rates between which the rate of values with unequal ratios is looked for.
+const RATES: [f64; 2] = [1e-2, 64.0];
+
+/// A value at a step, NaN where there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Value {
+    /// Step size, h or dt; positive, and smaller from level to level.
+    pub step: f64,
+    /// What was computed.
+    pub value: f64,
+}
+
+/// Why there is no error bar.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Refusal {
+    /// Fewer than three.
+    #[error("{0} values; three are the fewest that tell an order")]
+    TooFewValues(usize),
+    /// NaN or infinite.
+    #[error("a value is not finite")]
+    NotFinite,
+    /// Steps that are not positive, finite and decreasing.
+    #[error("{}", Reason::StepsNotDecreasing.text())]
+    Steps,
+    /// A difference is zero.
+    #[error("the values of two neighbouring levels do not differ")]
+    NoChange,
+    /// The finest difference is at round-off.
+    #[error("the finest values differ by {difference:.1e}, no more than the round-off floor of {floor:.1e}")]
+    RoundOff {
+        /// Size of the finest difference.
+        difference: f64,
+        /// What it has to exceed.
+        floor: f64,
+    },
+    /// The differences change their sign.
+    #[error("the values oscillate: their differences change sign")]
+    Oscillating,
+    /// The differences do not fall.
+    #[error("the values diverge: their differences do not fall")]
+    Diverging,
+    /// What the rule says of the differences.
+    #[error("the rule refuses the differences: {}", .0.text())]
+    NotAsymptotic(Reason),
+    /// Some rate in the interval is not positive, and promises no limit.
+    #[error("the rate may be as low as {0:.3}: nothing bounds the error")]
+    RateMayBeZero(f64),
+}
+
+/// What is left between the finest value and the limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar {
+    /// Observed rate at h → 0.
+    pub rate: f64,
+    /// Its interval: that of the rule; of three values [`DOUBT_OF_A_SINGLE_RATE`] below and above both the rate and the order claimed.
+    pub rate_interval: [f64; 2],
+    /// Estimated error of the finest value, finest value - limit: it has a sign.
+    pub error: f64,
+    /// The interval of the error, from lower to higher.
+    pub error_interval: [f64; 2],
+    /// The limit: finest value - error.
+    pub extrapolated: f64,
+    /// The interval of the limit.
+    pub limit: [f64; 2],
+}
+
+/// What values say of their limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// The rule's judgement of the reduced differences. Its level k, from 0, is the difference of the values k and k + 1.
+    pub judged: RateVerdict,
+    /// The bar of the finest value.
+    pub bar: Result<Bar, Refusal>,
+    /// Roache's index for it.
+    pub gci: Result<Gci, Refusal>,
+}
+
+/// The rule for values, with its settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimator {
+    judge: Judge,
+    floor: Option<f64>,
+}
+
+impl Estimator {
+    /// * `tolerance`: half-width of the band about the order, as for errors.
+    ///
+    /// # Errors
+    /// [`JudgeError`] for a tolerance that tells nothing.
+    pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
+        Ok(Self { judge: Judge::new(tolerance)?, floor: None })
+    }
+
+    /// Differences that are not above this have no say. Without it, [`FLOOR_MARGIN`] times 1e-13 of the largest value.
+    ///
+    /// Who prints six digits gives a thousand units of the sixth.
+    ///
+    /// # Errors
+    /// [`JudgeError::Floor`] for a negative or infinite one.
+    pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
+        let judge = self.judge.clone().with_floor(floor)?;
+        Ok(Self { judge, floor: Some(floor) })
+    }
+
+    /// Estimates the error of the finest of the values, which come coarsest first.
+    ///
+    /// * `order`: what theory claims of them.
+    pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
+        let largest = values.iter().map(|level| level.value.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
+        // A finite number >= 0, which no judge refuses.
+        let judge = self.judge.clone().with_floor(floor).unwrap_or_else(|_| self.judge.clone());
+        let levels = differences(&judge, values, order);
+        let reading = judge.read(&levels);
+        let judged = judge.judge_read(&reading, order);
+        let scatter = reading.fit.map_or(0.0, |fit| fit.scatter);
+        let usable = if order > 0.0 && order.is_finite() {
+            usable(values, floor)
+        } else {
+            Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
+        };
+        let bar = usable.and_then(|()| bar(values, &judged, scatter, floor / FLOOR_MARGIN));
+        let gci = usable.and_then(|()| Gci::of(values, order, judge.tolerance()));
+        Estimate { judged, bar, gci }
+    }
+}
+
+/// Whether there is a difference to extrapolate from.
+fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
+    let step_usable = |level: &Value| level.step > 0.0 && level.step.is_finite();
+    let [.., before, finest] = values else { return Err(Refusal::TooFewValues(values.len())) };
+    let difference = (before.value - finest.value).abs();
+    if values.iter().any(|level| !level.value.is_finite()) {
+        Err(Refusal::NotFinite)
+    } else if !values.iter().all(step_usable) || values.windows(2).any(|pair| pair[1].step >= pair[0].step) {
+        Err(Refusal::Steps)
+    } else if values.len() < FEWEST_LEVELS {
+        Err(Refusal::TooFewValues(values.len()))
+    } else if difference == 0.0 {
+        Err(Refusal::NoChange)
+    } else if difference <= floor {
+        Err(Refusal::RoundOff { difference, floor })
+    } else {
+        Ok(())
+    }
+}
+
+/// The differences as they would be if all ratios were the last one, each at the finer of its steps; see the [module](super).
+pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
+    let ratio = |pair: &[Value]| pair[0].step / pair[1].step;
+    let Some(last) = values.windows(2).last().map(ratio) else { return vec![] };
+    let level = |pair: &[Value]| {
+        let here = ratio(pair);
+        let same = (here / last - 1.0).abs() <= SAME_RATIO;
+        let factor = if same { 1.0 } else { growth(last, rate) / growth(here, rate) };
+        Level { step: pair[1].step, error: (pair[0].value - pair[1].value).abs() * factor }
+    };
+    values.windows(2).map(level).collect()
+}
+
+/// The reduced differences of values whose rate is known, by finding the rate that they have when they are reduced with it.
+fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
+    let ratios: Vec<f64> = values.windows(2).map(|pair| pair[0].step / pair[1].step).collect();
+    let start = if order > 0.0 { order } else { 1.0 };
+    if ratios.windows(2).all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO) {
+        return reduced(values, start);
+    }
+    let excess = |rate: f64| Some(judge.read(&reduced(values, rate)).fit?.rate - rate);
+    reduced(values, crossing(excess, RATES).unwrap_or(start))
+}
+
+/// Where a function that falls from above zero to below it crosses zero, by false position (Illinois); `None` where it has no value.
+fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64; 2]) -> Option<f64> {
+    let (mut above, mut below) = (f(low)?, f(high)?);
+    let mut middle = low;
+    for _ in 0..60 {
+        let next = low + (high - low) * above / (above - below);
+        if (next - middle).abs() <= 1e-12 || !next.is_finite() {
+            break;
+        }
+        middle = next;
+        let here = f(middle)?;
+        if here > 0.0 {
+            (low, above, below) = (middle, here, 0.5 * below);
+        } else {
+            (high, below, above) = (middle, here, 0.5 * above);
+        }
+    }
+    Some(middle)
+}
+
+/// What the rule needs to have said for its interval to mean something: anything about the claim, nothing about the levels.
+fn asymptotic(reason: Reason) -> Result<(), Refusal> {
+    match reason {
+        Reason::Agrees | Reason::TooLow | Reason::TooHigh | Reason::IntervalTooWide | Reason::AtTheEdge => Ok(()),
+        Reason::ErrorGrows => Err(Refusal::Diverging),
+        Reason::ZeroError => Err(Refusal::NoChange),
+        other => Err(Refusal::NotAsymptotic(other)),
+    }
+}
+
+/// Observed rate and its interval, of differences that fall as the rule asks, without a change of sign.
+fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refusal> {
+    let differences: Vec<f64> = values.windows(2).map(|pair| pair[0].value - pair[1].value).collect();
+    let one_sign = |differences: &[f64]| differences.windows(2).all(|pair| pair[0] * pair[1] >= 0.0);
+    if !one_sign(&differences[differences.len() - 2..]) {
+        return Err(Refusal::Oscillating);
+    }
+    let Some(interval) = judged.interval else {
+        if values.len() > FEWEST_LEVELS {
+            return Err(asymptotic(judged.kind).err().unwrap_or(Refusal::NotAsymptotic(judged.kind)));
+        }
+        let (rate, order) = (observed_order(values)?, judged.order);
+        return Ok((rate, [rate.min(order) - DOUBT_OF_A_SINGLE_RATE, rate.max(order) + DOUBT_OF_A_SINGLE_RATE]));
+    };
+    asymptotic(judged.kind)?;
+    if !one_sign(&differences[judged.used.clone()]) {
+        return Err(Refusal::Oscillating);
+    }
+    Ok((0.5 * (interval[0] + interval[1]), interval))
+}
+
+/// * `scatter`: of the logarithm of the last difference, at the confidence of the interval.
+/// * `round_off`: of a value.
+fn bar(values: &[Value], judged: &RateVerdict, scatter: f64, round_off: f64) -> Result<Bar, Refusal> {
+    let (rate, rate_interval) = rate(values, judged)?;
+    if rate_interval[0] <= 0.0 {
+        return Err(Refusal::RateMayBeZero(rate_interval[0]));
+    }
+    let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
+    let (difference, ratio) = (before.value - finest.value, before.step / finest.step);
+    let size = |rate: f64| difference.abs() / growth(ratio, rate);
+    // What scatters the difference of two values by S scatters the distance of Richardson's estimate from the error by this.
+    let power = ratio.powf(rate);
+    let scatter = scatter * SQRT_2 * power / power.hypot(1.0);
+    let rounding = round_off * (1.0 + 2.0 / growth(ratio, rate_interval[0]));
+    // A higher rate leaves less.
+    let least = size(rate_interval[1]) * (-scatter).exp() - rounding;
+    let most = size(rate_interval[0]) * scatter.exp() + rounding;
+    let error = size(rate).copysign(difference);
+    let error_interval = if difference > 0.0 { [least, most] } else { [-most, -least] };
+    let limit = [finest.value - error_interval[1], finest.value - error_interval[0]];
+    Ok(Bar { rate, rate_interval, error, error_interval, extrapolated: finest.value - error, limit })
+}

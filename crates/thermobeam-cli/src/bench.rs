@@ -1,0 +1,162 @@
+//! `bench`: how long things take on this machine. Written to `reports/bench.md`, which no verdict depends on.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use convergence_study::project::Project;
+use convergence_study::store::atomic;
+use convergence_study::store::provenance::Provenance;
+use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
+use convergence_study::{report, run as runner};
+use thermobeam_study::error::evaluator::ErrorMeasure;
+use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
+use thermobeam_study::run::{any_order_time, step_time};
+use thermobeam_study::scene::Scene;
+
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::flags::Flags;
+use convergence_study::cli::output::Format;
+use convergence_study::cli::{output, screen, selection, workspace};
+use convergence_study::judge::verdict::Verdict;
+
+/// Elements of the scaling table.
+const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
+
+/// Where the runs of any order end: three contact events of the paper's first experiment.
+const ANY_ORDER_END: f64 = 1.0;
+
+/// Studies in the table of the costliest.
+const COSTLIEST: usize = 12;
+
+/// Time per step, and run time against error, on this machine; writes reports/bench.md
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The scene that is timed
+    #[arg(long, default_value = "studies/scenes/paper-1-beta-0.toml")]
+    scene: PathBuf,
+    /// The tier of `verify` that is timed on one thread and on all
+    #[arg(long, value_parser = selection::tier_parser(), default_value = Tier::Quick.name())]
+    tier: Tier,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `bench --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    tables: &'a [Table],
+}
+
+/// Runs the command.
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let root = workspace::root()?;
+    let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
+    let scene = Scene::read(&path)?;
+    let studies = workspace::studies(project, &root)?;
+    let Flags { quiet, format, out, jobs } = &arguments.flags;
+    let folder = out.clone().unwrap_or_else(|| root.join("reports"));
+    let shows = !quiet && *format == Format::Text;
+    let mut page = Page { text: heading(project, &root, &path), folder, tables: vec![], shows };
+    page.add(step_time::ways(&scene, 100)?)?;
+    page.add(step_time::ways(&scene, 1000)?)?;
+    page.add(step_time::scenes(&scene, 100)?)?;
+    page.add(step_time::scaling(&scene, &ELEMENTS)?)?;
+    let any_order = any_order_time::times(&scene, scene.t_end.min(ANY_ORDER_END));
+    page.add(any_order.map_err(|failure| Unusable::because(&failure.reason))?)?;
+    for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
+        accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
+    }
+    threads(studies, arguments.tier, screen::jobs(*jobs), &mut page)?;
+    let file = page.folder.join("bench.md");
+    atomic::write(&file, &page.text)?;
+    let sentence = format!("written to {}", file.display());
+    let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
+    arguments.flags.print(Verdict::Pass, &Object { tables: &page.tables }, &words)?;
+    Ok(Ended::Well)
+}
+
+/// What has been measured so far, as Markdown.
+struct Page {
+    text: String,
+    folder: PathBuf,
+    tables: Vec<Table>,
+    /// Whether a table is shown as soon as it is there.
+    shows: bool,
+}
+
+impl Page {
+    /// Adds a table, and shows it.
+    fn add(&mut self, table: Table) -> std::io::Result<()> {
+        let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
+        self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
+        if self.shows {
+            output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
+        }
+        self.tables.push(table);
+        Ok(())
+    }
+
+    /// Adds a figure, in a file beside the page.
+    fn draw(&mut self, name: &str, caption: &str, svg: &str) -> std::io::Result<()> {
+        self.text += &format!("![{caption}](bench/{name})\n\n");
+        atomic::write(&self.folder.join("bench").join(name), svg)
+    }
+}
+
+fn heading(project: &Project, root: &Path, scene: &Path) -> String {
+    let command = format!("{} bench", project.command);
+    let machine = Provenance::collect(root, command.clone(), 1, &[]);
+    let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    format!(
+        "# Benchmarks\n\nWritten by `{command}` on {}, {} threads, {}; scene {name}. Each time is the best of \
+         several runs; counts are exact. Another machine gives other times: compare ratios.\n\n",
+        machine.cpu.as_deref().unwrap_or("an unknown CPU"),
+        machine.threads_available.map_or("?".to_owned(), |threads| threads.to_string()),
+        machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
+    )
+}
+
+/// Run time against error, in every quantity.
+fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
+    let runs = study.timed().map_err(|failure| Unusable::because(&failure.reason))?;
+    #[cfg(feature = "ode-library")]
+    let runs = [runs, study.timed_library().map_err(|failure| Unusable::because(&failure.reason))?].concat();
+    let id = &study.header().id;
+    for quantity in ErrorMeasure::ALL {
+        let table = study.seconds(quantity, &runs);
+        if table.rows.is_empty() {
+            continue;
+        }
+        page.add(table)?;
+        let caption = format!("{id}: error ({}) over seconds", quantity.name());
+        page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &study.seconds_figure(quantity, &runs))?;
+    }
+    Ok(())
+}
+
+/// A tier on one thread and on `all`, and what its studies cost on one.
+fn threads(files: Vec<StudyFile>, tier: Tier, all: NonZeroUsize, page: &mut Page) -> Result<(), Unusable> {
+    let studies: Vec<_> =
+        files.into_iter().map(|file| file.study).filter(|study| study.header().tier <= tier).collect();
+    let (mut rows, mut one, mut costs) = (vec![], f64::NAN, vec![]);
+    for jobs in [NonZeroUsize::MIN, all] {
+        let start = Instant::now();
+        let finished = runner::run(&studies, jobs, &|_| ())?;
+        let seconds = start.elapsed().as_secs_f64();
+        if jobs == NonZeroUsize::MIN {
+            one = seconds;
+            costs = finished.iter().map(|study| (study.spent.busy.as_secs_f64(), study.header.id.clone())).collect();
+        }
+        rows.push(vec![jobs.to_string(), format!("{seconds:.2}"), format!("{:.2}", one / seconds)]);
+    }
+    let table = |title: String, head: [&str; 3], rows| Table { title, head: head.map(str::to_owned).to_vec(), rows };
+    page.add(table(format!("The {} tier of verify", tier.name()), ["threads", "seconds", "speed-up"], rows))?;
+    costs.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let row = |(seconds, id): &(f64, String)| {
+        vec![id.clone(), format!("{seconds:.2}"), format!("{:.0} %", 100.0 * seconds / one)]
+    };
+    let rows = costs.iter().take(COSTLIEST).map(row).collect();
+    page.add(table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
+    Ok(())
+}

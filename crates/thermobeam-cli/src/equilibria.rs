@@ -1,0 +1,127 @@
+//! `equilibria SCENE`: all steady states of a scene.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria, lists_all};
+use thermobeam_study::scene::Scene;
+
+use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::flags::Flags;
+use convergence_study::cli::output;
+use convergence_study::judge::verdict::Verdict;
+
+/// List all steady states of a scene
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The scene file; only its beam and its obstacles matter
+    scene: PathBuf,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let scene = Scene::read(&arguments.scene)?;
+    let states = match equilibria(&scene.beam, scene.obstacles.as_ref()) {
+        Ok(states) => states,
+        Err(error @ EquilibriumError::Parameter(_)) => return Err(Unusable::file(&arguments.scene, &error)),
+        Err(error) => {
+            output::complain(&format!("{}: {error}", arguments.scene.display()));
+            return Ok(Ended::Badly);
+        }
+    };
+    let flags = &arguments.flags;
+    let stable = states.iter().filter(|state| state.stable).count();
+    let sentence = format!("{}, {stable} of them stable", counted(states.len()));
+    let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
+    flags.show("equilibria", Verdict::Pass, &Object::new(&scene, &states), &words)?;
+    Ok(Ended::Well)
+}
+
+#[derive(Debug, Serialize)]
+struct Object {
+    equilibria: Vec<State>,
+    /// Whether these are all: below beta = -0.9996 unstable states accumulate, and only some of them are listed.
+    complete: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct State {
+    contact: &'static str,
+    n_value: f64,
+    u_tip: f64,
+    phi_tip: f64,
+    stable: bool,
+    contact_force: f64,
+    /// `null` where there are infinitely many.
+    unstable_directions: Option<usize>,
+}
+
+impl Object {
+    fn new(scene: &Scene, states: &[Equilibrium]) -> Self {
+        let state = |state: &Equilibrium| State {
+            contact: name(state.contact),
+            n_value: state.n_value,
+            u_tip: state.u_tip,
+            phi_tip: state.phi_tip,
+            stable: state.stable,
+            contact_force: state.contact_force,
+            unstable_directions: state.unstable_directions,
+        };
+        Self { equilibria: states.iter().map(state).collect(), complete: lists_all(&scene.beam) }
+    }
+}
+
+fn name(contact: Contact) -> &'static str {
+    match contact {
+        Contact::Free => "free",
+        Contact::Upper => "upper",
+        Contact::Lower => "lower",
+    }
+}
+
+fn counted(states: usize) -> String {
+    match states {
+        1 => "one steady state".to_owned(),
+        n => format!("{n} steady states"),
+    }
+}
+
+fn text(scene: &Scene, states: &[Equilibrium]) -> String {
+    let count = counted(states.len());
+    let beam = &scene.beam;
+    let mut text = format!("{}: {count} for beta = {:?}, theta_a = {:?}\n\n", scene.name, beam.beta, beam.theta_a);
+    let _ = writeln!(
+        text,
+        "  {:<8}{:>20}{:>20}{:>20}{:>20}  stability",
+        "contact", "u(1)", "phi(1)", "axial force N", "contact force"
+    );
+    for state in states {
+        let stability = match (state.stable, state.unstable_directions) {
+            (true, _) => "stable".to_owned(),
+            (false, Some(0)) => "on the verge of stability".to_owned(),
+            (false, Some(1)) => "unstable in 1 direction".to_owned(),
+            (false, Some(n)) => format!("unstable in {n} directions"),
+            (false, None) => "unstable in infinitely many directions".to_owned(),
+        };
+        let _ = writeln!(
+            text,
+            "  {:<8}{:>20.12e}{:>20.12e}{:>20.12e}{:>20.12e}  {stability}",
+            name(state.contact),
+            state.u_tip,
+            state.phi_tip,
+            state.n_value,
+            state.contact_force,
+        );
+    }
+    if !lists_all(beam) {
+        text.push_str(
+            "\nNot all: so far below the buckling force infinitely many unstable states accumulate at N = -1.\n\
+             Every stable state is listed.\n",
+        );
+    }
+    text
+}

@@ -1,0 +1,68 @@
+//! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
+//!
+//! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study registered in [`project()`]. This
+//! file adds the beam's own commands, and only dispatches.
+
+mod bench;
+mod equilibria;
+mod merge;
+mod new;
+mod project;
+mod run;
+mod sweep;
+
+use clap::{Parser, Subcommand};
+use convergence_study::cli::{self, exit};
+use convergence_study::project::Project;
+
+pub use project::project;
+
+/// The command line of `thermobeam`.
+#[derive(Debug, Parser)]
+pub struct Thermobeam {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands. What each does stands at its arguments, from where `--help` takes it.
+#[allow(missing_docs)]
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    #[command(flatten)]
+    Harness(cli::Command),
+    Run(run::Arguments),
+    Equilibria(equilibria::Arguments),
+    Sweep(sweep::Arguments),
+    Merge(merge::Arguments),
+    New(new::Arguments),
+    Bench(bench::Arguments),
+}
+
+/// The commands by what a user wants to do.
+pub const GROUPS: [(&str, &[&str]); 6] = [
+    ("Simulate a scene", &["run", "equilibria"]),
+    ("Verify", &["verify", "study", "list", "explain", "new"]),
+    ("What has changed", &["compare"]),
+    ("Errors of other codes", &["rates"]),
+    ("Many scenes", &["sweep", "merge"]),
+    ("Everything else", &["bench", "completions"]),
+];
+
+impl Command {
+    /// Runs the command; `program` is the whole command line, for completions.
+    ///
+    /// # Errors
+    /// [`exit::Unusable`]: exit status 2.
+    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+        match self {
+            Self::Harness(command) => command.run(project, program),
+            Self::Run(arguments) => run::run(arguments),
+            Self::Equilibria(arguments) => equilibria::run(arguments),
+            Self::Sweep(arguments) => sweep::run(arguments),
+            Self::Merge(arguments) => merge::run(arguments),
+            Self::New(arguments) => new::run(project, arguments),
+            Self::Bench(arguments) => bench::run(project, arguments),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The program `thermobeam`.
+
+use std::process::ExitCode;
+
+use convergence_study::cli::{command_line, ended};
+use thermobeam_cli::{GROUPS, Thermobeam, project};
+
+fn main() -> ExitCode {
+    let project = project("thermobeam");
+    let line = command_line::<Thermobeam>(&project, &GROUPS);
+    ended(line.clone(), |asked: Thermobeam| asked.command.run(&project, line))
+}

@@ -1,0 +1,69 @@
+//! The beam as a project of the harness.
+
+use convergence_study::project::Project;
+use thermobeam_study::kinds::{KINDS, TERMS};
+
+/// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
+pub const fn project(command: &'static str) -> Project {
+    Project {
+        name: "thermobeam",
+        command,
+        about: "Simulate the beam between its obstacles, and verify the scheme that does",
+        kinds: &KINDS,
+        groups: &[
+            "space",
+            "time",
+            "coupled",
+            "contact",
+            "energy",
+            "steady states",
+            "vibrations",
+            "robustness",
+            "cost",
+            "the harness",
+        ],
+        terms: &TERMS,
+        // Others show this picture, and need a name that studies do not change.
+        front_pictures: &[("section-5-beam.svg", "beam.svg")],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use convergence_study::cli::workspace;
+    use convergence_study::explain;
+    use convergence_study::project::Project;
+
+    use super::project;
+
+    const PROJECT: Project = project("thermobeam");
+
+    #[test]
+    fn every_study_of_the_repository_is_explained() {
+        let files = workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")).unwrap();
+        assert!(files.len() > 10);
+        for file in files {
+            let header = file.study.header();
+            let text = explain::study(&PROJECT, file.study.as_ref());
+            let text = text.unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+            for title in ["what is claimed", "why it should hold", "how it is judged", "what a failure would mean"] {
+                assert!(text.contains(&format!("\n{title}\n")), "{text}");
+            }
+            assert!(text.starts_with(&header.id) && text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_term_has_one_meaning() {
+        let names = explain::terms(&PROJECT);
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
+        for name in names {
+            let text = explain::term(&PROJECT, name).unwrap_or_else(|| panic!("{name}"));
+            assert!(text.starts_with(name) && text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+        assert_eq!(explain::meant(&PROJECT, [], "superclosed").as_deref(), Some("superclose"));
+    }
+}

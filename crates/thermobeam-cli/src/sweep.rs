@@ -1,0 +1,152 @@
+//! `sweep FILE`: many scenes from one.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use indicatif::ProgressBar;
+use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
+
+use convergence_study::cli::exit::{Ended, Outcome};
+use convergence_study::cli::flags::Flags;
+use convergence_study::cli::interrupt;
+use convergence_study::cli::progress;
+use convergence_study::cli::running::seconds;
+use convergence_study::cli::screen;
+use convergence_study::judge::verdict::Verdict;
+
+/// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
+///
+/// One JSON line for each case: its parameters and what `run --format json` prints, without the wall time. A case that fails
+/// has a line with the reason; the exit status is then 1. With --out the folder gets a journal, and results.jsonl at the end; without,
+/// the lines go to standard output.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The sweep file
+    file: PathBuf,
+    /// Time limit of a case; its line says where it was stopped, and the others continue [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    case_limit: Option<Duration>,
+    /// Continue the sweep in the folder; start it where the folder is empty
+    #[arg(long, requires = "out")]
+    resume: bool,
+    /// Run share k of n, which the values of a case determine; `merge` joins the shares
+    #[arg(long, value_name = "k/n", default_value_t = Share::ALL, hide_default_value = true)]
+    partition: Share,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let sweep = Sweep::read(&arguments.file)?;
+    let share = arguments.partition;
+    let is_mine = |index: &usize| share == Share::ALL || share.holds(sweep.case(*index).hash());
+    let mine: Vec<usize> = (0..sweep.cases()).filter(is_mine).collect();
+    let failed = match &arguments.flags.out {
+        Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
+        None => to_stdout(arguments, &sweep, mine)?,
+    };
+    Ok(if failed == 0 { Ended::Well } else { Ended::Badly })
+}
+
+/// Lines to standard output, in the order of the cases; returns how many failed.
+fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
+    let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
+    let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
+    let outcome = sweep::run(sweep, &mine, jobs(arguments), arguments.case_limit, |line: Line| {
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.1 += usize::from(!line.passed);
+        bar.inc(1);
+        state.0.add(line)
+    });
+    bar.finish_and_clear();
+    match outcome {
+        // A reader that stops early, such as `head`, is no error.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+        _ => Ok(state.into_inner().unwrap_or_else(PoisonError::into_inner).1),
+    }
+}
+
+/// Lines to the folder's journal, then the results in order; returns how many failed.
+fn to_folder(
+    arguments: &Arguments,
+    sweep: &Sweep,
+    mine: Vec<usize>,
+    folder: &Path,
+) -> Result<usize, sweep::SweepError> {
+    let journal = Journal::open(folder, sweep, arguments.partition, arguments.resume)?;
+    let cases = mine.len();
+    let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
+    let begun = pending.len();
+    let bar = progress::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
+    let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
+    interrupt::say(move || {
+        let done = before + counted.position() as usize;
+        format!("{done} of {cases} cases are saved in {place}; continue with --resume")
+    });
+    let start = Instant::now();
+    let journal = journaled(sweep, pending, arguments, journal, &bar)?;
+    let took = start.elapsed();
+    bar.finish_and_clear();
+    let failed = journal.failed();
+    let results = journal.finish()?;
+    let flags = &arguments.flags;
+    let verdict = if failed == 0 { Verdict::Pass } else { Verdict::Fail };
+    let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
+    let words = flags.words(verdict, &sentence, || summary(arguments, sweep, [cases, begun, failed], took, &results));
+    flags.print(verdict, &Object { sweep: &sweep.name, cases, failed, results }, &words)?;
+    Ok(failed)
+}
+
+/// What `sweep --out DIR --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    sweep: &'a str,
+    cases: usize,
+    failed: usize,
+    results: PathBuf,
+}
+
+fn jobs(arguments: &Arguments) -> usize {
+    screen::jobs(arguments.flags.jobs).get()
+}
+
+fn journaled(
+    sweep: &Sweep,
+    pending: Vec<usize>,
+    arguments: &Arguments,
+    journal: Journal,
+    bar: &ProgressBar,
+) -> Result<Journal, io::Error> {
+    let journal = Mutex::new(journal);
+    sweep::run(sweep, &pending, jobs(arguments), arguments.case_limit, |line| {
+        bar.inc(1);
+        journal.lock().unwrap_or_else(PoisonError::into_inner).append(&line)
+    })?;
+    Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+fn summary(
+    arguments: &Arguments,
+    sweep: &Sweep,
+    [cases, begun, failed]: [usize; 3],
+    took: Duration,
+    results: &Path,
+) -> String {
+    let share = if arguments.partition == Share::ALL {
+        String::new()
+    } else {
+        format!(", share {}: {cases} of {}", arguments.partition, sweep.cases())
+    };
+    let each = 1e3 * took.as_secs_f64() / begun.max(1) as f64;
+    format!(
+        "{}: {cases} cases{share}; {failed} failed\n{begun} run now in {:.2} s, {each:.3} ms each; {} were there\nwrote {}\n",
+        sweep.name,
+        took.as_secs_f64(),
+        cases - begun,
+        results.display()
+    )
+}

@@ -1,0 +1,53 @@
+use crate::{Folder, ended, keys, thermobeam};
+
+/// The paper's beam between its obstacles at β, with the time table that a scene must have.
+fn scene(beta: f64) -> String {
+    format!("[beam]\nbeta = {beta:?}\n[obstacles]\n[time]\ndt = 0.1\nt_end = 1\n")
+}
+
+#[test]
+fn the_states_below_the_buckling_force_are_listed() {
+    let folder = Folder::new();
+    let path = folder.file("buckled.toml", &scene(-0.8));
+    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"]));
+    assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
+    let state = ["contact", "n_value", "u_tip", "phi_tip", "stable"];
+    let found = keys(&json.stdout);
+    assert_eq!(found[..3], ["schema", "verdict", "equilibria"]);
+    assert_eq!(found[3..8].iter().map(|key| key.trim_start()).collect::<Vec<_>>(), state);
+
+    let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
+    assert_eq!(value["complete"], true);
+    let states = value["equilibria"].as_array().expect("a list");
+    let expected = [("lower", -0.0100012352, true), ("free", 0.0, false), ("upper", 0.1000098954, true)];
+    assert_eq!(states.len(), expected.len());
+    for (state, (contact, u_tip, stable)) in states.iter().zip(expected) {
+        assert_eq!([&state["contact"], &state["stable"]], [&contact.into(), &serde_json::Value::from(stable)]);
+        assert!(state["u_tip"].as_f64().is_some_and(|found| (found - u_tip).abs() < 1e-10), "{state}");
+    }
+
+    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+    assert!(text.contains("3 steady states") && text.contains("unstable in 1 direction"), "{text}");
+}
+
+#[test]
+fn a_list_that_is_not_complete_says_so() {
+    let folder = Folder::new();
+    let path = folder.file("crushed.toml", &scene(-1.5));
+    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+    assert!(text.contains("Not all"), "{text}");
+    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
+    let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(value["complete"], false);
+}
+
+#[test]
+fn a_question_without_an_answer_fails() {
+    let folder = Folder::new();
+    // The linear beam at its second buckling force in contact with nothing: a continuum of states.
+    let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
+    let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
+    let ended = ended(thermobeam().arg("equilibria").arg(folder.file("linear.toml", &text)));
+    assert_eq!((ended.status, ended.stdout.as_str()), (Some(1), ""));
+    assert!(ended.stderr.contains("linear.toml") && ended.stderr.contains("buckling value"), "{}", ended.stderr);
+}

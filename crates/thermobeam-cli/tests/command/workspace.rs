@@ -1,0 +1,75 @@
+//! A small workspace for `verify`, and what is in it afterwards.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::{Folder, thermobeam};
+
+/// A study of a few milliseconds that passes.
+pub(crate) fn quick(id: &str) -> String {
+    study(id, "[5, 10, 20, 40]")
+}
+
+/// A study whose last case takes hours.
+pub(crate) fn endless(id: &str) -> String {
+    study(id, "[10, 20, 40, 9000000000]")
+}
+
+fn study(id: &str, steps: &str) -> String {
+    format!(
+        "[study]\nid = \"{id}\"\nclaim = \"first order in dt\"\ntier = \"quick\"\n[exact]\n\
+         u = [{{ x = \"0.3*sin(1.3*pi*x)\", t = \"cos(3*t) + 0.2*t\" }}]\n\
+         [refine]\naxis = \"time\"\nisolate = true\nelements = 8\nsteps = {steps}\nt_end = 1.0\n\
+         [[expect]]\nnorm = \"theorem-3.4\"\norder = 1.0\ntolerance = 0.2\n"
+    )
+}
+
+/// Makes these the studies of a workspace.
+pub(crate) fn with_studies(root: &Path, studies: &[(&str, String)]) {
+    let folder = root.join("studies");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    for (id, text) in studies {
+        fs::write(folder.join(format!("{id}.toml")), text).expect("a study");
+    }
+}
+
+/// A workspace with these studies.
+pub(crate) fn workspace(folder: &Folder, name: &str, studies: &[(&str, String)]) -> PathBuf {
+    let root = folder.path(name);
+    with_studies(&root, studies);
+    root
+}
+
+/// `verify` in a workspace.
+pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
+    let mut command = thermobeam();
+    command.arg("verify").args(arguments).current_dir(root);
+    command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
+    command
+}
+
+/// Files below a folder with their bytes, but for those that tell of the machine.
+pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
+    all(reports).into_iter().filter(|(name, _)| !name.starts_with("local/")).collect()
+}
+
+/// All files below a folder.
+pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(&next).into_iter().flatten() {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(folder).expect("below").display().to_string();
+                files.insert(name, fs::read(&path).expect("a file"));
+            }
+        }
+    }
+    files
+}

@@ -2,9 +2,12 @@
 
 pub mod atomic;
 pub mod baseline;
+mod content;
 pub mod file_set;
 pub mod junit;
 pub mod provenance;
 pub mod record;
 pub mod regular;
 pub mod writing;
+
+pub use content::content_hash;

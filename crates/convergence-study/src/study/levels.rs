@@ -36,6 +36,31 @@ pub struct ErrorColumn {
     pub look: usize,
 }
 
+impl ErrorColumn {
+    /// A column for every error that is claimed or was found: claimed ones first, then each in the order in which it occurs.
+    ///
+    /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed. An error that a level lacks is NaN.
+    pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
+        let mut names: Vec<&str> = claims.iter().map(|(name, _)| name.as_ref()).collect();
+        for (name, _) in found.iter().copied().flatten().flatten() {
+            if !names.contains(&name.as_ref()) {
+                names.push(name.as_ref());
+            }
+        }
+        let error = |errors: &Option<&[(M, f64)]>, name: &str| {
+            let named = errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
+            named.map_or(f64::NAN, |(_, error)| *error)
+        };
+        let column = |(look, name): (usize, &str)| Self {
+            name: name.to_owned(),
+            errors: found.iter().map(|errors| error(errors, name)).collect(),
+            claim: claims.iter().find(|(known, _)| known.as_ref() == name).map(|(_, claim)| *claim),
+            look,
+        };
+        names.into_iter().enumerate().map(column).collect()
+    }
+}
+
 /// One level of refinement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {

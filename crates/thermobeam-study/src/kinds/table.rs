@@ -1,5 +1,6 @@
-//! The kinds of study of the beam.
+//! The kinds of study of the beam, and that of any program.
 
+use convergence_study::program;
 use convergence_study::study::KindRow;
 
 use super::{
@@ -8,7 +9,7 @@ use super::{
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 18] = [
+pub const KINDS: [KindRow; 19] = [
     convergence::ROW,
     any_order::ROW,
     any_order_cost::ROW,
@@ -26,5 +27,6 @@ pub const KINDS: [KindRow; 18] = [
     rigid::ROW,
     work_precision::ROW,
     calibration::ROW,
+    program::ROW,
     calibration::bars::ROW,
 ];

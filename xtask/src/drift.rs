@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::judge::verdict::Verdict;
 use convergence_study::report;
+use convergence_study::store::record::{QuantityRecord, Record, RecordError};
 use convergence_study::store::{atomic, provenance};
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
-use serde::Deserialize;
 
 use crate::PROJECT;
 
@@ -68,27 +69,6 @@ const VARIANTS: [Variant; 5] = [
     },
 ];
 
-/// Of the record that `study --format json` prints: what is compared.
-#[derive(Deserialize)]
-struct Record {
-    studies: Vec<StudyRecord>,
-}
-
-#[derive(Deserialize)]
-struct StudyRecord {
-    id: String,
-    verdict: String,
-    quantities: Vec<Guarded>,
-}
-
-#[derive(Deserialize)]
-struct Guarded {
-    name: String,
-    /// `null` where it is not finite.
-    value: Option<f64>,
-    tolerance: Option<f64>,
-}
-
 /// Value and tolerance by study and name, and the studies that do not pass.
 #[derive(Debug, Default, PartialEq)]
 struct Numbers {
@@ -97,16 +77,15 @@ struct Numbers {
 }
 
 impl Numbers {
-    fn parse(json: &str) -> serde_json::Result<Self> {
-        let record: Record = serde_json::from_str(json)?;
+    /// * `path`: of the program that printed the record.
+    fn parse(json: &str, path: &Path) -> Result<Self, RecordError> {
         let mut numbers = Self::default();
-        for study in record.studies {
-            if study.verdict != "pass" {
+        for study in Record::parse(json, path)?.studies {
+            if study.verdict != Verdict::Pass {
                 numbers.not_passing.push(study.id.clone());
             }
-            for Guarded { name, value, tolerance } in study.quantities {
-                let both = (value.unwrap_or(f64::NAN), tolerance.unwrap_or(f64::NAN));
-                numbers.values.insert(format!("{}: {name}", study.id), both);
+            for QuantityRecord { name, value, tolerance } in study.quantities {
+                numbers.values.insert(format!("{}: {name}", study.id), (value, tolerance));
             }
         }
         Ok(numbers)
@@ -225,9 +204,9 @@ fn numbers_of(program: &Path, jobs: usize, files: &[PathBuf]) -> Result<Numbers,
         .output()
         .map_err(|error| Unusable::file(program, &error))?;
     let text = String::from_utf8_lossy(&output.stdout);
-    Numbers::parse(&text).map_err(|error| {
+    Numbers::parse(&text, program).map_err(|error| {
         let complaint = String::from_utf8_lossy(&output.stderr);
-        Unusable::because(&format!("{} printed no record: {error}\n{complaint}", program.display()))
+        Unusable::because(&format!("{error}\n{complaint}"))
     })
 }
 
@@ -255,10 +234,12 @@ mod tests {
             |(name, value): &(&str, &str)| format!(r#"{{"name": "{name}", "value": {value}, "tolerance": 1e-3}}"#);
         let quantities: Vec<String> = values.iter().map(quantity).collect();
         let json = format!(
-            r#"{{"schema": 1, "studies": [{{"id": "s", "verdict": "pass", "quantities": [{}]}}]}}"#,
+            r#"{{"schema": 1, "crate_version": "0", "scope": "files", "verdict": "pass", "baseline_changes": [], "studies": [{{
+                "id": "s", "claim": "c", "tier": "quick", "kind": "k", "verdict": "pass", "summary": "", "levels": [], "rates": [],
+                "checks": [], "quantities": [{}], "failed_cases": [], "not_finite": []}}]}}"#,
             quantities.join(", ")
         );
-        Numbers::parse(&json).unwrap()
+        Numbers::parse(&json, Path::new("program")).unwrap()
     }
 
     #[test]

@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 13] = [
+const TESTS: [Test; 16] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -44,6 +44,9 @@ const TESTS: [Test; 13] = [
     ("rates_come_in_words_and_as_an_object", rates_come_in_words_and_as_an_object),
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
+    ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
+    ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
+    ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
 ];
 
@@ -186,7 +189,9 @@ fn annotations_are_commands_and_nothing_else_is() {
     assert_eq!(status, Some(1));
     let commands: Vec<&str> = out.lines().filter(|line| line.trim_start().starts_with("::")).collect();
     assert!(commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"), "{commands:?}");
-    assert!(commands[1..].iter().all(|line| line.starts_with("::error title=baseline::")), "{commands:?}");
+    // GitHub shows ten: the last one counts the others.
+    assert!(commands[1..9].iter().all(|line| line.starts_with("::error title=baseline::")), "{commands:?}");
+    assert!(commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "), "{commands:?}");
     let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
     assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
     is_harmless(&out);
@@ -364,6 +369,87 @@ fn rates_write_figure_markdown_and_junit() {
     assert!(page.contains("| 0.2 | 4.000e-2 | 2.000000 | 2.000e-1 | 1.000000 |"), "{page}");
     fs::write(root.path().join("file"), "").unwrap();
     assert_eq!(run(&root, &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]).0, Some(2));
+}
+
+fn study_writes_a_report_that_says_how_to_repeat_it() {
+    let root = workspace(true);
+    let (status, out, err) =
+        run(&root, &["study", "studies/one.toml", "studies/two.toml", "--out", "out/a b", "--quiet"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""));
+    assert!(out.starts_with("two: fail") && out.ends_with("fail: 1 of 2 fail (two)\n"), "{out}");
+    let read = |name: &str| fs::read_to_string(root.path().join("out/a b").join(name)).unwrap();
+    let page = read("README.md");
+    assert!(page.contains("**fail**: 1 of 2 fail (two)\n"), "{page}");
+    assert_eq!(
+        page.matches("Again: `powers study studies/one.toml studies/two.toml` (tier quick").count(),
+        2,
+        "{page}"
+    );
+    for (name, piece) in [("index.html", "<svg"), ("junit.xml", "<failure"), ("results.json", "\"fail\"")] {
+        assert!(read(name).contains(piece), "{name}");
+    }
+    // A report of `verify` goes where it is wanted, and each of its studies can be run by its id.
+    assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
+    let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
+    assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
+}
+
+fn json_is_alone_on_standard_output() {
+    let root = workspace(true);
+    for arguments in [&["verify"][..], &["study", "studies/two.toml"]] {
+        let mut command = command(root.path(), arguments);
+        let summary = root.path().join("summary.md");
+        command.args(["--format", "json"]).env("GITHUB_ACTIONS", "true").env("GITHUB_STEP_SUMMARY", &summary);
+        let (status, out, err) = texts(command.output().unwrap());
+        let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &1.into()));
+        assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
+        assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
+        fs::remove_file(summary).unwrap();
+    }
+}
+
+fn records_are_compared_with_0_1_or_2() {
+    let root = workspace(true);
+    let write = |name: &str, files: &[&str]| {
+        let (_, out, _) = run(&root, &[&["study", "--format", "json"], files].concat());
+        fs::write(root.path().join(name), out).unwrap();
+    };
+    write("old.json", &["studies/one.toml", "studies/two.toml"]);
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.8)).unwrap();
+    write("new.json", &["studies/one.toml", "studies/two.toml"]);
+    write("part.json", &["studies/two.toml"]);
+    let (status, out, err) = run(&root, &["compare", "old.json", "new.json"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    let (finding, rest) = out.split_once('\n').unwrap();
+    assert!(finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"), "{out}");
+    assert_eq!(rest, "worse: 1 worse, 0 better, 1 the same, in 2 studies\n");
+    let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
+    assert!(status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"), "{out}");
+    let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
+    let named = "note: the study one is in the old record only\nsame: 0 worse, 0 better, 1 the same, in 1 studies\n";
+    assert_eq!((status, out.as_str()), (Some(0), named));
+    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--format", "json"]);
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["change"], &object["studies"][0]["norms"][0]["change"]), (&"worse".into(), &"worse".into()));
+    assert!(object["studies"][0]["norms"][0]["lines"][1]["order_interval"].is_array(), "{out}");
+    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
+    assert!(out.contains("two: error: same: errors the same at the same step: 1.0000 times"), "{out}");
+    fs::write(root.path().join("bad.json"), "{\n}").unwrap();
+    write("other.json", &["studies/one.toml"]);
+    for (arguments, message) in [
+        (
+            &["compare", "old.json", "bad.json"][..],
+            "bad.json: missing field `schema` at line 2 column 1; expected a record",
+        ),
+        (&["compare", "old.json", "none.json"], "none.json: No such file"),
+        (&["compare", "part.json", "other.json"], "other.json: found no study that part.json has, too"),
+        (&["compare", "old.json", "new.json", "--within", "-1"], "expected a number >= 0"),
+        (&["compare", "old.json", "new.json", "--floor", "-1"], "floor = -1: expected a finite number >= 0"),
+    ] {
+        let (status, out, err) = run(&root, arguments);
+        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
+    }
 }
 
 fn every_command_is_in_the_help() {

@@ -32,9 +32,9 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 13] = [
-    "text", "judge", "input", "plots", "study", "run", "project", "store", "program", "report", "explain", "verify",
-    "cli",
+const ORDER: [&str; 14] = [
+    "text", "judge", "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain",
+    "verify", "cli",
 ];
 
 /// Uses against the order: module, path used, reason.
@@ -45,7 +45,7 @@ const EXCEPTIONS: [(&str, &str, &str); 1] = [(
 )];
 
 /// Libraries that are known to some modules only.
-const LIBRARIES: [(&str, &[&str]); 14] = [
+const LIBRARIES: [(&str, &[&str]); 15] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("console", &["cli"]),
@@ -59,6 +59,7 @@ const LIBRARIES: [(&str, &[&str]); 14] = [
     ("plotters", &["plots"]),
     ("pulldown_cmark", &["report"]),
     ("quick_junit", &["store"]),
+    ("chrono", &["store"]),
     ("rayon", &["run"]),
 ];
 

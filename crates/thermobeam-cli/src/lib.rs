@@ -40,9 +40,10 @@ pub enum Command {
 }
 
 /// The commands by what a user wants to do.
-pub const GROUPS: [(&str, &[&str]); 5] = [
+pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate a scene", &["run", "equilibria"]),
     ("Verify", &["verify", "study", "list", "explain", "new"]),
+    ("What has changed", &["compare"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
     ("Everything else", &["bench", "completions"]),

@@ -1,16 +1,18 @@
-//! The command line: `verify`, `study`, `list`, `rates`, `explain`, `completions`, for any project.
+//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
 //! error. Exit status: [`exit::HELP`].
 
+mod compare;
 mod completions;
+mod earlier;
 pub mod exit;
 mod explain;
+pub mod flags;
 mod github;
 mod guard;
 mod help;
-mod history;
 pub mod interrupt;
 mod list;
 mod moved;
@@ -41,12 +43,13 @@ pub enum Command {
     List(list::Arguments),
     Explain(explain::Arguments),
     Rates(rates::Arguments),
+    Compare(compare::Arguments),
     Completions(completions::Arguments),
     Guard(guard::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 6] = ["verify", "study", "list", "explain", "rates", "completions"];
+pub const COMMANDS: [&str; 7] = ["verify", "study", "list", "explain", "rates", "compare", "completions"];
 
 impl Command {
     /// Runs the command for a project; `whole` is the whole command line, for completions.
@@ -61,6 +64,7 @@ impl Command {
             Self::List(arguments) => list::run(project, arguments),
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
+            Self::Compare(arguments) => compare::run(arguments),
             Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
             Self::Guard(arguments) => guard::run(arguments),
         }

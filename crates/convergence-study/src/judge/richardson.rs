@@ -10,7 +10,7 @@
 //!     q_(k+1) - Q  ≈  d_k / (ρ_k^p - 1).
 //! ```
 //!
-//! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called [reduced differences](reduced), are a sequence of errors of
+//! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called reduced differences, are a sequence of errors of
 //! order p, polluted by the same powers as q. [The rule](crate::judge::verdict) reads their rate with its interval, and says whether they are asymptotic.
 //! With one ratio for all levels they are the differences. Otherwise they depend on p itself: p is the number for which the rate read is p.
 //!

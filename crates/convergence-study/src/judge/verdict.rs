@@ -88,6 +88,11 @@ impl Judge {
         self.tolerance
     }
 
+    /// Errors that are not above it have no say.
+    pub fn floor(&self) -> f64 {
+        self.floor
+    }
+
     /// Judges the levels, coarsest first, against the order that theory claims.
     pub fn judge(&self, levels: &[Level], order: f64) -> RateVerdict {
         self.judge_read(&self.read(levels), order)

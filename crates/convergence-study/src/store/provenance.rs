@@ -6,18 +6,19 @@ use std::process::Command;
 use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use serde::Serialize;
+use chrono::DateTime;
+use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::record::SCHEMA;
 
 /// Origin of a run. What cannot be found out is `null`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// [`SCHEMA`].
     pub schema: u32,
     /// Version of this crate.
-    pub crate_version: &'static str,
+    pub crate_version: String,
     /// What was run, as a command.
     pub command: String,
     /// Git revision of the working tree.
@@ -41,7 +42,7 @@ pub struct Provenance {
 }
 
 /// Time of a study.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudyTime {
     /// Its id.
     pub id: String,
@@ -60,7 +61,7 @@ impl Provenance {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self {
             schema: SCHEMA,
-            crate_version: env!("CARGO_PKG_VERSION"),
+            crate_version: env!("CARGO_PKG_VERSION").to_owned(),
             command,
             git_revision: output_of(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
             git_modified: output_of(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
@@ -73,6 +74,24 @@ impl Provenance {
             finished_at: SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
             studies: finished.iter().map(time).collect(),
         }
+    }
+}
+
+impl Provenance {
+    /// Commit, date, machine and tools in a sentence each, as far as they are known.
+    pub fn sentences(&self) -> Vec<String> {
+        let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };
+        let commit = self.git_revision.as_ref().map(|revision| format!("Commit {revision}{changed}."));
+        let date = self.finished_at.and_then(|seconds| DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0));
+        let date = date.map(|date| format!("{}.", date.format("%Y-%m-%d %H:%M UTC")));
+        let threads = match self.threads_available {
+            Some(available) => format!("{} of {available} threads", self.jobs),
+            None => format!("{} threads", self.jobs),
+        };
+        let cpu = self.cpu.as_deref().unwrap_or("an unknown processor");
+        let machine = Some(format!("{cpu}, {}, {threads}.", self.platform));
+        let toolchain = self.toolchain.as_ref().map(|toolchain| format!("{toolchain}."));
+        [commit, date, machine, toolchain].into_iter().flatten().collect()
     }
 }
 

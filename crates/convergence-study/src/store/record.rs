@@ -4,14 +4,23 @@
 //! the file under version control, which must not change by a byte when nothing has changed. Times, machine and revision
 //! are in neither: they belong to the [`provenance`](crate::store::provenance).
 //!
-//! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why.
+//! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why. Read back, `null` is NaN.
 
-use serde::ser::{Serialize, SerializeMap, Serializer};
+mod form;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
+use crate::store::regular;
 use crate::study::outcome::{Check, LevelErrors, Outcome, Quantity};
 use crate::text::number::{committed, committed_rate};
+use crate::text::visible;
+use form::{null_is_nan, null_is_nan_in, null_is_nan_of_pair};
 
 /// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
 pub const SCHEMA: u32 = 1;
@@ -26,16 +35,17 @@ pub enum Precision {
 }
 
 /// A whole run.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// [`SCHEMA`].
     pub schema: u32,
     /// Version of this crate.
-    pub crate_version: &'static str,
+    pub crate_version: String,
     /// What was run, such as `quick`.
     pub scope: String,
     /// The verdict on the run, changes against the baseline included.
-    pub verdict: &'static str,
+    #[serde(with = "form::verdict")]
+    pub verdict: Verdict,
     /// What moved away from the baseline, in words.
     pub baseline_changes: Vec<String>,
     /// One entry for each study.
@@ -43,18 +53,19 @@ pub struct Record {
 }
 
 /// One study of a run.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudyRecord {
     /// Its id.
     pub id: String,
     /// What it claims.
     pub claim: String,
     /// `quick` or `full`.
-    pub tier: &'static str,
+    pub tier: String,
     /// The kind of study.
     pub kind: String,
     /// `pass`, `fail` or `inconclusive`.
-    pub verdict: &'static str,
+    #[serde(with = "form::verdict")]
+    pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
     /// Errors by level.
@@ -72,11 +83,17 @@ pub struct StudyRecord {
 }
 
 /// Errors at one level.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LevelRecord {
     /// Its parameters, such as elements and steps, as keys of their own.
     #[serde(flatten)]
     pub parameters: Parameters,
+    /// The step that the errors are judged over; not there in records of versions before, nor where the errors have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+    /// What the level cost, in a unit of the study's choice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work: Option<f64>,
     /// Error by norm.
     pub errors: Errors,
 }
@@ -90,52 +107,60 @@ pub struct Errors(pub Vec<(String, f64)>);
 pub struct Parameters(pub Vec<(String, f64)>);
 
 /// A rate that was judged.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RateRecord {
     /// The norm.
     pub norm: String,
     /// What theory says.
+    #[serde(deserialize_with = "null_is_nan")]
     pub order: f64,
     /// Half-width of the band about the order.
+    #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
     /// Rates between neighbouring levels.
+    #[serde(deserialize_with = "null_is_nan_in")]
     pub pairwise: Vec<f64>,
     /// The rate fitted over the asymptotic range.
     pub fitted: Option<f64>,
     /// Its interval.
+    #[serde(deserialize_with = "null_is_nan_of_pair")]
     pub interval: Option<[f64; 2]>,
     /// The limit of the pairwise rates.
     pub extrapolated: Option<f64>,
     /// `pass`, `fail` or `inconclusive`.
-    pub verdict: &'static str,
+    #[serde(with = "form::verdict")]
+    pub verdict: Verdict,
     /// Why, in words.
     pub reason: String,
 }
 
 /// A check.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CheckRecord {
     /// What is claimed.
     pub claim: String,
     /// `pass`, `fail` or `inconclusive`.
-    pub verdict: &'static str,
+    #[serde(with = "form::verdict")]
+    pub verdict: Verdict,
     /// The evidence, with numbers.
     pub evidence: String,
 }
 
 /// A guarded number.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityRecord {
     /// Its name.
     pub name: String,
     /// Its value.
+    #[serde(deserialize_with = "null_is_nan")]
     pub value: f64,
     /// The relative change that is tolerated.
+    #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
 }
 
 /// A case without a result.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FailedCaseRecord {
     /// Which one.
     pub case: String,
@@ -144,7 +169,7 @@ pub struct FailedCaseRecord {
 }
 
 /// A number that JSON cannot hold.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NotFinite {
     /// Where in the study, such as `levels[2].errors.velocity`.
     pub at: String,
@@ -152,7 +177,61 @@ pub struct NotFinite {
     pub value: String,
 }
 
+/// A record that cannot be read.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// The file cannot be read.
+    #[error("{}: {error}", visible::path(.path))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong.
+        error: io::Error,
+    },
+    /// Not the form of a record.
+    #[error("{}: {}; expected a record as `verify` writes it to results.json, or `study --format json` prints it", visible::path(.path), visible::visible(&.error.to_string()))]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong, with line and column.
+        error: serde_json::Error,
+    },
+    /// Written by a version with another form.
+    #[error("{}: schema: found {found}; expected {SCHEMA}", visible::path(.path))]
+    Schema {
+        /// The file.
+        path: PathBuf,
+        /// The version found.
+        found: u32,
+    },
+}
+
 impl Record {
+    /// Reads a record that [`json`] has written.
+    ///
+    /// # Errors
+    /// [`RecordError`].
+    pub fn read(path: &Path) -> Result<Self, RecordError> {
+        let path = path.to_owned();
+        match regular::read_to_string(&path) {
+            Ok(text) => Self::parse(&text, &path),
+            Err(error) => Err(RecordError::File { path, error }),
+        }
+    }
+
+    /// The same from its text.
+    ///
+    /// # Errors
+    /// [`RecordError`], naming `path`.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
+        let path = path.to_owned();
+        match serde_json::from_str::<Self>(text) {
+            Ok(record) if record.schema == SCHEMA => Ok(record),
+            Ok(record) => Err(RecordError::Schema { path, found: record.schema }),
+            Err(error) => Err(RecordError::Malformed { path, error }),
+        }
+    }
+
     /// The record of a run.
     pub fn new<'f>(
         scope: &str,
@@ -163,9 +242,9 @@ impl Record {
     ) -> Self {
         Self {
             schema: SCHEMA,
-            crate_version: env!("CARGO_PKG_VERSION"),
+            crate_version: env!("CARGO_PKG_VERSION").to_owned(),
             scope: scope.to_owned(),
-            verdict: verdict.name(),
+            verdict,
             baseline_changes,
             studies: finished.into_iter().map(|finished| StudyRecord::new(finished, precision)).collect(),
         }
@@ -179,9 +258,9 @@ impl StudyRecord {
         Self {
             id: header.id.clone(),
             claim: header.claim.clone(),
-            tier: header.tier.name(),
+            tier: header.tier.name().to_owned(),
             kind: header.kind.clone(),
-            verdict: outcome.verdict.name(),
+            verdict: outcome.verdict,
             summary: outcome.summary.clone(),
             levels: outcome.levels.iter().map(|level| precision.level(level)).collect(),
             rates: outcome.rates.iter().map(|(norm, rate)| precision.rate(norm, rate)).collect(),
@@ -206,7 +285,13 @@ impl Precision {
 
     fn level(self, level: &LevelErrors) -> LevelRecord {
         let errors = level.errors.iter().map(|(norm, error)| (norm.clone(), self.number(*error)));
-        LevelRecord { parameters: Parameters(level.parameters.clone()), errors: Errors(errors.collect()) }
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite()).map(|value| self.number(value));
+        LevelRecord {
+            parameters: Parameters(level.parameters.clone()),
+            step: finite(level.step),
+            work: finite(level.work),
+            errors: Errors(errors.collect()),
+        }
     }
 
     fn rate(self, norm: &str, rate: &RateVerdict) -> RateRecord {
@@ -218,7 +303,7 @@ impl Precision {
             fitted: rate.fitted.map(|rate| self.rate_number(rate)),
             interval: rate.interval.map(|ends| ends.map(|end| self.rate_number(end))),
             extrapolated: rate.extrapolated.map(|rate| self.rate_number(rate)),
-            verdict: rate.verdict.name(),
+            verdict: rate.verdict,
             reason: rate.reason.clone(),
         }
     }
@@ -231,7 +316,7 @@ impl Precision {
 
 fn check(check: &Check) -> CheckRecord {
     let Check { claim, verdict, evidence } = check;
-    CheckRecord { claim: claim.clone(), verdict: verdict.name(), evidence: evidence.clone() }
+    CheckRecord { claim: claim.clone(), verdict: *verdict, evidence: evidence.clone() }
 }
 
 /// Every number of an outcome that JSON cannot hold.
@@ -256,27 +341,6 @@ fn not_finite(outcome: &Outcome) -> Vec<NotFinite> {
         look(format!("quantities[{i}].value"), quantity.value);
     }
     found
-}
-
-impl Serialize for Errors {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (norm, error) in &self.0 {
-            map.serialize_entry(norm, error)?;
-        }
-        map.end()
-    }
-}
-
-impl Serialize for Parameters {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, value) in &self.0 {
-            let whole = *value as i64;
-            if whole as f64 == *value { map.serialize_entry(name, &whole)? } else { map.serialize_entry(name, value)? }
-        }
-        map.end()
-    }
 }
 
 /// A record as JSON text with a line end, as it stands in a file.

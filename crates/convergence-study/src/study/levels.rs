@@ -155,6 +155,8 @@ impl Levels {
     pub fn errors(&self) -> Vec<LevelErrors> {
         let level = |(i, level): (usize, &Refinement)| LevelErrors {
             parameters: level.parameters.clone(),
+            step: Some(level.step),
+            work: None,
             errors: self.columns.iter().map(|column| (column.name.clone(), at(&column.errors, i))).collect(),
         };
         self.refinements.iter().enumerate().map(level).collect()

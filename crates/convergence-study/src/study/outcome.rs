@@ -30,6 +30,10 @@ pub struct Outcome {
 pub struct LevelErrors {
     /// Its parameters by name, such as elements and steps.
     pub parameters: Vec<(String, f64)>,
+    /// The step that the errors are judged over; nothing where they are not.
+    pub step: Option<f64>,
+    /// What the level cost, in a unit of the study's choice, where that is known.
+    pub work: Option<f64>,
     /// Errors by name; NaN where the case failed.
     pub errors: Vec<(String, f64)>,
 }
@@ -66,7 +70,7 @@ impl Check {
 }
 
 /// A table, printed with its columns lined up.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Table {
     /// What it shows.
     pub title: String,

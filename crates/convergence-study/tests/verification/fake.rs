@@ -98,6 +98,8 @@ impl Kind for Fake {
         let rate = verdict::judge_pairs(pairs, 1.0, 0.1);
         let level = |(i, error): (usize, &f64)| LevelErrors {
             parameters: vec![("elements".to_owned(), f64::from(8 << i)), ("steps".to_owned(), 20.0)],
+            step: Some(1.0 / f64::from(8 << i)),
+            work: None,
             errors: vec![("velocity".to_owned(), *error)],
         };
         let finest = *errors.last().unwrap();
@@ -149,5 +151,12 @@ pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
 /// A verification of the quick tier in which there are these studies.
 pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
     let scope = Scope::Tier(Tier::Quick, ids(known));
-    Request { scope, effort: jobs(2).into(), bless: false, reason: None, root: root.to_owned() }
+    Request {
+        scope,
+        effort: jobs(2).into(),
+        bless: false,
+        reason: None,
+        root: root.to_owned(),
+        reports: root.join("reports"),
+    }
 }

@@ -97,8 +97,13 @@ struct Program {
     command: Command,
 }
 
+/// The command line of a project that adds no commands of its own.
+pub fn program(project: &Project) -> clap::Command {
+    command_line::<Program>(project, &[("Commands", &COMMANDS)])
+}
+
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
-    let line = command_line::<Program>(project, &[("Commands", &COMMANDS)]);
+    let line = program(project);
     ended(line.clone(), |asked: Program| asked.command.run(project, line))
 }

@@ -35,7 +35,8 @@
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
-//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time left.)
+//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time
+//! left.)
 
 pub mod cli;
 pub mod compare;

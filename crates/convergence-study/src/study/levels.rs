@@ -135,7 +135,7 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| power_law(&points, rate)),
+                fit: rate.and_then(|(_, rate)| power_law(rate)),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -186,6 +186,7 @@ fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
         tolerance,
         pairwise: vec![],
         fitted: None,
+        constant: None,
         interval: None,
         extrapolated: None,
         used: 0..0,
@@ -204,15 +205,9 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// The observed rate as a power law, `error = constant · step^rate`.
-///
-/// The constant is that of least squares, in logarithms, over the levels that the rate was fitted to.
-pub fn power_law(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
-    let used = levels.get(rate.used.clone())?;
-    let rate = rate.fitted?;
-    let logs = used.iter().map(|level| level.error.ln() - rate * level.step.ln());
-    let constant = (logs.sum::<f64>() / used.len() as f64).exp();
-    constant.is_finite().then_some(PowerLaw { rate, constant })
+/// The observed rate as a curve for a figure; `None` where there is no rate.
+pub fn power_law(rate: &RateVerdict) -> Option<PowerLaw> {
+    Some(PowerLaw { rate: rate.fitted?, constant: rate.constant? })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.

@@ -12,7 +12,7 @@ fn a_new_study_passes_as_it_is() {
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
     assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
     // Each table once.
-    for title in ["\nRates\n", "\nErrors"] {
+    for title in ["\nRates\n", "\nErrors\n"] {
         assert_eq!(study.stdout.matches(title).count(), 1, "{}", study.stdout);
     }
 }

@@ -65,8 +65,6 @@ pub struct AnyOrderRun {
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
-    /// States at the times asked for.
-    pub at_times: Vec<Sample>,
     /// States at equally spaced times; empty unless asked for.
     pub history: Vec<Sample>,
     /// Displacement over space and time; empty unless asked for.
@@ -83,31 +81,34 @@ pub struct AnyOrderRun {
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
 pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
-    observe(scene, &[], times, true, progress)
+    watched(scene, &[], &mut |_, _| (), times, true, progress)
 }
 
-/// Runs a scene without frames for pictures; a step ends at each of the times `at`, which increase, and the state there is kept.
+/// Runs a scene without frames for pictures; a step ends at each of the times `at`, which increase, and is shown to `observe` with
+/// the state there.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_at(
     scene: &AnyOrderScene,
     at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
-    observe(scene, at, times, false, progress)
+    watched(scene, at, observe, times, false, progress)
 }
 
-fn observe(
+fn watched(
     scene: &AnyOrderScene,
     at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
     framed: bool,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
     let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
-    let mut observed = Observed::new(&simulation, scene, at, times, framed && times > 0);
+    let mut observed = Observed::new(&simulation, scene, times, framed && times > 0);
     let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
@@ -121,7 +122,12 @@ fn observe(
         let outcome = simulation.step(limit);
         wall += started.elapsed();
         match outcome {
-            Ok(Some(report)) => observed.step(&simulation, report.iterations),
+            Ok(Some(report)) => {
+                observed.step(&simulation, report.iterations);
+                if at.contains(&simulation.t()) {
+                    observe(&simulation, state(&simulation, scene, simulation.level()));
+                }
+            }
             Ok(None) => break,
             Err(error) => {
                 failure = Some(error.into());
@@ -140,8 +146,6 @@ struct Observed<'s> {
     first: Sample,
     started_in: Phase,
     tally: Tally,
-    at: &'s [f64],
-    at_times: Vec<Sample>,
     times: usize,
     framed: bool,
     history: Vec<Sample>,
@@ -149,7 +153,7 @@ struct Observed<'s> {
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, at: &'s [f64], times: usize, framed: bool) -> Self {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize, framed: bool) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -159,8 +163,6 @@ impl<'s> Observed<'s> {
             first,
             started_in: simulation.phase(),
             tally: Tally::new(first.u_tip),
-            at,
-            at_times: vec![],
             times,
             framed,
             history: vec![],
@@ -188,12 +190,6 @@ impl<'s> Observed<'s> {
     /// The states of the history that lie in the last step.
     fn sample(&mut self, simulation: &Simulation, from: f64, to: f64) {
         let t_end = self.scene.t_end;
-        for &t in self.at.iter().filter(|&&t| t > from && t <= to) {
-            if simulation.level_into(t, &mut self.level) {
-                let state = state(simulation, self.scene, &self.level);
-                self.at_times.push(state);
-            }
-        }
         for t in grid(t_end, self.times, from, to) {
             if simulation.level_into(t, &mut self.level) {
                 let state = state(simulation, self.scene, &self.level);
@@ -225,7 +221,6 @@ impl<'s> Observed<'s> {
             started_in: self.started_in,
             events: simulation.events().to_vec(),
             work: simulation.work(),
-            at_times: self.at_times,
             history: self.history,
             frames: self.frames,
             failure,

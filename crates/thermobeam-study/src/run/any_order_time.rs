@@ -107,7 +107,7 @@ pub(crate) fn by(
 }
 
 pub(crate) fn finished(scene: &AnyOrderScene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
-    let run = run_at(scene, &[], times, &mut |_| ())?;
+    let run = run_at(scene, &[], &mut |_, _| (), times, &mut |_| ())?;
     match run.failure {
         Some(failure) => Err(failure.into()),
         None => Ok(run),

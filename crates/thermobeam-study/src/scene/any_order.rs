@@ -91,12 +91,16 @@ impl SceneFile {
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
         input::parse(text, file_name, |root| {
             root.allow(&super::TABLES)?;
-            let name = stem(file_name);
-            Ok(if is_any_order(root)? {
-                Self::AnyOrder(from_document(root, name)?)
-            } else {
-                Self::OneStep(Scene::from_tables(root, name)?)
-            })
+            Self::from_tables(root, stem(file_name))
+        })
+    }
+
+    /// The scene of the tables in a section, which may hold other keys besides.
+    pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
+        Ok(if is_any_order(root)? {
+            Self::AnyOrder(from_document(root, name)?)
+        } else {
+            Self::OneStep(Scene::from_tables(root, name)?)
         })
     }
 }

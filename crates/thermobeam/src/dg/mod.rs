@@ -47,7 +47,7 @@
 
 mod block;
 mod contact_event;
-mod element;
+pub(crate) mod element;
 mod energy;
 mod error;
 mod factor;

@@ -51,9 +51,16 @@ pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Files below a folder with their bytes, but for those that tell of the machine.
+/// Files below a folder with their bytes, but for what tells of machine and time.
 pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
-    all(reports).into_iter().filter(|(name, _)| !name.starts_with("local/")).collect()
+    let mut files = all(reports);
+    files.retain(|name, _| !name.starts_with("local/"));
+    for (_, page) in files.iter_mut().filter(|(name, _)| name.ends_with("index.html")) {
+        let text = String::from_utf8_lossy(page);
+        let lines = text.lines().filter(|line| !line.starts_with("<p class=\"provenance\">"));
+        *page = lines.collect::<Vec<_>>().join("\n").into_bytes();
+    }
+    files
 }
 
 /// All files below a folder.

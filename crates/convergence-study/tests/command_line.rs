@@ -459,6 +459,11 @@ fn every_command_is_in_the_help() {
     assert_eq!(status, Some(0));
     assert!(cli::COMMANDS.iter().all(|name| out.contains(&format!("\n  {name}"))), "{out}");
     assert!(out.contains("Exit status: 0 "), "{out}");
+    for name in cli::COMMANDS {
+        let (status, out, _) = run(&workspace(false), &[name, "--help"]);
+        let widest = out.lines().map(|line| line.chars().count()).max();
+        assert!(status == Some(0) && widest <= Some(100), "{out}");
+    }
 }
 
 /// Blocks of a page of Markdown: the words behind the fence, and the text.

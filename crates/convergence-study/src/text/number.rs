@@ -45,7 +45,7 @@ pub fn error_text(value: f64) -> String {
 
 /// A rate as reports show it: three decimals; a dash where there is none.
 pub fn rate_text(rate: Option<f64>) -> String {
-    rate.map_or_else(|| "-".to_owned(), |rate| format!("{:.3}", committed_rate(rate)))
+    rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, 3))
 }
 
 /// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most `most`.

@@ -2,7 +2,7 @@
 
 use crate::program::guard;
 
-use super::exit::{Ended, Outcome};
+use super::exit::{Ended, Outcome, Unusable};
 
 /// End a process group when standard input ends (the harness starts this itself)
 #[derive(Debug, clap::Args)]
@@ -15,8 +15,13 @@ pub struct Arguments {
 /// Guards the process group that it leads.
 ///
 /// # Errors
-/// None.
+/// Started by anyone but the harness: it would end the process group of its caller.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if !guard::is_guard() {
+        return Err(Unusable::because(
+            "found the command guard; expected another: the harness starts its guards itself",
+        ));
+    }
     guard::serve(&arguments.mark);
     Ok(Ended::Well)
 }

@@ -434,5 +434,7 @@ fn a_study_of_a_program_is_guarded_and_explained() {
     let (status, out, _) = run(&["explain", "s"]);
     assert!(status == Some(0) && out.contains("what is run") && out.contains("error L2 2 ± 0.05"), "{out}");
     assert!(run(&["list"]).1.contains("program"), "the kind is listed");
+    // Guards are started by the harness alone: by hand, one would end the group of its caller.
     assert!(!run(&["--help"]).1.contains("guard"));
+    assert_eq!(run(&["guard", "mark"]).0, Some(2));
 }

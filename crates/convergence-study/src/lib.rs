@@ -35,7 +35,7 @@
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`,
-//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time left.)
+//! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time left.)
 
 pub mod cli;
 pub mod compare;
@@ -45,6 +45,7 @@ pub mod judge;
 pub mod plots;
 pub mod project;
 pub mod report;
+pub mod review;
 pub mod run;
 pub mod store;
 pub mod study;

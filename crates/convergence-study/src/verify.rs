@@ -1,5 +1,6 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless, write the report.
 
+use std::fs::File;
 use std::io;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -57,7 +58,8 @@ impl Scope {
         }
     }
 
-    fn known(&self) -> Option<&[Header]> {
+    /// The headers of all studies that there are, where a whole tier was asked for.
+    pub fn known(&self) -> Option<&[Header]> {
         match self {
             Self::Tier(_, known) => Some(known),
             Self::Selection(_) => None,
@@ -99,6 +101,22 @@ pub struct Request {
     pub reason: Option<String>,
     /// The workspace: `reports/` and `studies/baseline.json` are below.
     pub root: PathBuf,
+}
+
+impl Request {
+    /// The file of the baseline.
+    pub fn baseline(&self) -> PathBuf {
+        self.root.join("studies").join("baseline.json")
+    }
+
+    /// Waits for other processes that write here, and keeps them waiting.
+    ///
+    /// # Errors
+    /// [`VerificationError::Reports`].
+    pub(crate) fn lock(&self) -> Result<File, VerificationError> {
+        let folder = self.root.join("reports");
+        lock(&folder.join("local").join("lock")).map_err(|error| VerificationError::Reports { folder, error })
+    }
 }
 
 /// The result of a verification.
@@ -145,14 +163,14 @@ pub fn verify(
     request: &Request,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    let baseline_file = request.root.join("studies").join("baseline.json");
+    let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
     tidy(request).map_err(|error| VerificationError::Reports { folder: request.root.join("reports"), error })?;
     let finished = run::run(studies, request.effort, progress)?;
 
     let folder = request.root.join("reports");
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
-    let _lock = lock(&folder.join("local").join("lock")).map_err(fail)?;
+    let _lock = request.lock()?;
     // A request to end the process waits until everything is written.
     let _writing = writing::begin();
     // Another run may have blessed in the meantime: under the lock it is read again.
@@ -206,7 +224,7 @@ fn tidy(request: &Request) -> io::Result<()> {
     }
     let _lock = lock(&local.join("lock"))?;
     let _writing = writing::begin();
-    atomic::remove_leftovers(&request.root.join("studies").join("baseline.json"))?;
+    atomic::remove_leftovers(&request.baseline())?;
     atomic::remove_leftovers(&local.join("provenance.json"))?;
     let whole = |tier| Scope::Tier(tier, vec![]);
     [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]

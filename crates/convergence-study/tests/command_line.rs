@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 14] = [
+const TESTS: [Test; 15] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -45,6 +45,7 @@ const TESTS: [Test; 14] = [
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
+    ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
 ];
 
@@ -408,6 +409,61 @@ fn records_are_compared_with_0_1_or_2() {
         let (status, out, err) = run(&root, arguments);
         assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
     }
+}
+
+fn changes_are_accepted_one_some_or_all_with_a_reason() {
+    let root = workspace(false);
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    let (status, out, _) = run(&root, &["review"]);
+    assert_eq!((status, out.as_str()), (Some(0), "nothing differs from the baseline\n"));
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.01)).unwrap();
+    let file = root.path().join("studies/baseline.json");
+    let before = fs::read_to_string(&file).unwrap();
+    // Without a terminal nothing is asked, and nothing is accepted that was not named.
+    let (status, out, err) = run(&root, &["review"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""));
+    assert!(out.starts_with("one:claim exponent: was 1, is 1.01\n  claim: c: pass\n"), "{out}");
+    let rate = "one:rate error: moved from 1 to 1.01, by +1 %, tolerated 0.01 %\n  interval 1.0100 to 1.0100, pairwise 1.010 1.010 1.010 1.010\n  \
+                order 1 ± 0.05: the rate agrees with the order: 1.010 to 1.010 from levels 1 to 5 of 5, claimed 1 ± 0.05\n";
+    assert!(out.contains(rate), "{out}");
+    assert!(out.ends_with("0 accepted, 7 differ from the baseline; accept with --accept ID --reason TEXT\n"), "{out}");
+    for (arguments, message) in [
+        (&["review", "--accept", "one:rate *"][..], "--reason"),
+        (
+            &["review", "--accept", "two:*", "--reason", "x"],
+            "--accept: found `two:*`, which matches no change; expected one of 7",
+        ),
+        (&["review", "--accept", "*", "--reason", "a\nb"], "expected one line of text"),
+    ] {
+        let (status, out, err) = run(&root, arguments);
+        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), before);
+    let (status, out, _) = run(&root, &["review", "--accept", "one:rate error", "--reason", "new mesh"]);
+    assert_eq!(status, Some(1));
+    assert!(out.starts_with("accepted: one:rate error: new mesh\n") && out.contains("\n1 accepted, 6 differ"), "{out}");
+    let baseline = |path: &[&str]| {
+        let text = fs::read_to_string(&file).unwrap();
+        let object: serde_json::Value = serde_json::from_str(&text).unwrap();
+        path.iter().fold(object, |object, key| object[key].clone())
+    };
+    assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
+    assert_eq!(baseline(&["studies", "one", "error error, n = 8", "value"]), 0.125);
+    let (status, out, _) = run(&root, &["review", "one", "--accept", "one:*", "--reason", "and all the rest"]);
+    assert!(status == Some(0) && out.ends_with("\n6 accepted, nothing else differs from the baseline\n"), "{out}");
+    assert_eq!(baseline(&["claims", "one", "exponent", "reason"]), "and all the rest");
+    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    // A blessing of what has not moved keeps the reasons.
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
+    // A study that fails has no number that a baseline takes.
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
+    let (status, _, err) = run(&root, &["review", "--accept", "*", "--reason", "x"]);
+    assert!(
+        status == Some(2) && err.contains("one:claim exponent: not blessed: the verdict on `one` is fail"),
+        "{err}"
+    );
+    assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
 }
 
 fn every_command_is_in_the_help() {

@@ -1,4 +1,4 @@
-//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `explain`, `completions`, for any project.
+//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `review`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -17,6 +17,7 @@ mod moved;
 pub mod output;
 pub mod progress;
 mod rates;
+mod review;
 pub mod running;
 pub mod screen;
 pub mod selection;
@@ -41,11 +42,12 @@ pub enum Command {
     Explain(explain::Arguments),
     Rates(rates::Arguments),
     Compare(compare::Arguments),
+    Review(review::Arguments),
     Completions(completions::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`.
-pub const COMMANDS: [&str; 7] = ["verify", "study", "list", "explain", "rates", "compare", "completions"];
+pub const COMMANDS: [&str; 8] = ["verify", "study", "list", "explain", "rates", "compare", "review", "completions"];
 
 impl Command {
     /// Runs the command for a project; `program` is the whole command line, for completions.
@@ -60,6 +62,7 @@ impl Command {
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
+            Self::Review(arguments) => review::run(project, arguments),
             Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
         }
     }

@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Take the new numbers for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
-    /// Why claims of study files have changed; a changed claim is not blessed without, and the baseline keeps it
+    /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
     /// No progress bar, no table: what did not pass and why, and the verdict
@@ -50,7 +50,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &list)?;
-    let scope = scope(arguments, &all);
+    let scope = scope(arguments.tier, &arguments.ids, &all);
     let studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
@@ -66,17 +66,18 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 }
 
 /// A reason: it is kept in a file that people read, one line of text.
-fn reason(text: &str) -> Result<String, String> {
+pub(super) fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
     let is_line = !text.is_empty() && !text.contains(char::is_control);
     if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
 }
 
-fn scope(arguments: &Arguments, all: &[StudyFile]) -> Scope {
-    if arguments.ids.is_empty() {
-        Scope::Tier(arguments.tier, all.iter().map(|file| file.study.header().clone()).collect())
+/// The tier where nothing is named.
+pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
+    if ids.is_empty() {
+        Scope::Tier(tier, all.iter().map(|file| file.study.header().clone()).collect())
     } else {
-        Scope::Selection(arguments.ids.clone())
+        Scope::Selection(ids.to_vec())
     }
 }
 

@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 15] = [
+const TESTS: [Test; 17] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -46,6 +46,8 @@ const TESTS: [Test; 15] = [
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
+    ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
+    ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
 ];
 
@@ -464,6 +466,81 @@ fn changes_are_accepted_one_some_or_all_with_a_reason() {
         "{err}"
     );
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
+}
+
+fn runs_are_journaled_and_shown_as_page_and_badge() {
+    let root = workspace(true);
+    let read = |name: &str| fs::read_to_string(root.path().join(name)).unwrap();
+    for (exponent, status) in [(0.5, 1), (1.0, 0)] {
+        fs::write(root.path().join("studies/two.toml"), study("two", "c", exponent)).unwrap();
+        let arguments = ["study", "studies/one.toml", "studies/two.toml", "--journal", "runs.jsonl"];
+        assert_eq!(run(&root, &arguments).0, Some(status));
+    }
+    assert_eq!(run(&root, &["verify", "one", "--bless", "--quiet", "--journal", "runs.jsonl"]).0, Some(0));
+    let lines: Vec<serde_json::Value> =
+        read("runs.jsonl").lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!((&lines[0]["verdict"], &lines[0]["studies"][1]["verdict"]), (&"fail".into(), &"fail".into()));
+    assert_eq!(lines[0]["studies"][1]["rates"][0]["fitted"].as_f64().map(|rate| (1e6 * rate).round()), Some(5e5));
+    assert_eq!(lines[1]["studies"][0]["errors"]["error"], 1.0 / 64.0);
+    assert_eq!(lines[2]["command"], "powers verify one");
+    let (status, out, err) = run(&root, &["history", "runs.jsonl", "--badge", "out/badge.svg"]);
+    assert_eq!((status, out.as_str(), err.as_str()), (Some(0), "history.html: 3 runs, the last one pass\n", ""));
+    let page = read("history.html");
+    let (before, after) = page.split_once("<script>").unwrap();
+    let text = before.strip_prefix("<!DOCTYPE html>\n").unwrap().to_owned() + after.split_once("</script>").unwrap().1;
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let is_address = |node: &roxmltree::Node<'_, '_>| {
+        node.attributes().any(|a| matches!(a.name(), "src" | "href") && !a.value().starts_with("data:"))
+    };
+    assert!(!document.descendants().any(|node| is_address(&node)), "nothing is loaded");
+    let studies: Vec<_> = document.descendants().filter(|node| node.attribute("class") == Some("study")).collect();
+    let pictures = |k: usize| studies[k].descendants().filter(|node| node.has_tag_name("figure")).count();
+    assert_eq!((studies.len(), pictures(0), pictures(1)), (2, 3, 3));
+    assert!(page.contains("pass since run 2, in 2 runs") && page.contains("order 1"), "{page}");
+    assert!(roxmltree::Document::parse(&read("out/badge.svg")).is_ok() && read("out/badge.svg").contains(">pass<"));
+    // The badge is that of the last run, whatever came before.
+    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
+    assert_eq!(run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0, Some(1));
+    run(&root, &["history", "runs.jsonl", "--badge", "out/badge.svg", "--last", "1"]);
+    assert!(read("out/badge.svg").contains(">fail<") && !read("history.html").contains("id=\"two\""));
+}
+
+fn a_damaged_line_of_a_journal_is_named() {
+    let root = workspace(false);
+    let journal = root.path().join("runs.jsonl");
+    let append = || run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0;
+    assert_eq!(append(), Some(0));
+    let line = fs::read_to_string(&journal).unwrap();
+    for (damaged, found) in [
+        (format!("{line}{{\"schema\": 1,\n"), "runs.jsonl:2: EOF while parsing"),
+        (format!("{line}\n\u{7}\n"), "runs.jsonl:3: expected value at line 1 column 1"),
+        (
+            format!("{line}{}", line.replace("\"schema\":1", "\"schema\":9")),
+            "runs.jsonl:2: schema: found 9; expected 1",
+        ),
+        (line.replace("pass", "good"), "runs.jsonl:1: found the verdict `good`"),
+        (String::new(), "runs.jsonl: found no run"),
+    ] {
+        fs::write(&journal, &damaged).unwrap();
+        let (status, out, err) = run(&root, &["history", "runs.jsonl"]);
+        assert!(status == Some(2) && out.is_empty() && err.starts_with(&format!("error: {found}")), "{err}");
+        assert!(!root.path().join("history.html").exists());
+        is_harmless(&err);
+    }
+    // A run that was killed while it wrote spoils its own line only.
+    fs::write(&journal, format!("{line}{}", &line[..40])).unwrap();
+    assert_eq!(append(), Some(0));
+    let text = fs::read_to_string(&journal).unwrap();
+    assert_eq!(text.lines().count(), 3);
+    let whole: Vec<&str> = text.lines().enumerate().filter(|(k, _)| *k != 1).map(|(_, line)| line).collect();
+    fs::write(&journal, whole.join("\n")).unwrap();
+    assert_eq!(run(&root, &["history", "runs.jsonl"]).0, Some(0));
+    // What cannot be appended to is found before anything is run.
+    for place in ["studies", "nowhere/runs.jsonl", "/dev/null"] {
+        let (status, out, _) = run(&root, &["study", "studies/one.toml", "--journal", place]);
+        assert!(status == Some(2) && out.is_empty(), "{place}: {out}");
+    }
 }
 
 fn every_command_is_in_the_help() {

@@ -1,4 +1,4 @@
-//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `review`, `explain`, `completions`, for any project.
+//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `review`, `history`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -11,6 +11,7 @@ pub mod exit;
 mod explain;
 mod github;
 mod help;
+mod history;
 pub mod interrupt;
 mod list;
 mod moved;
@@ -43,11 +44,13 @@ pub enum Command {
     Rates(rates::Arguments),
     Compare(compare::Arguments),
     Review(review::Arguments),
+    History(history::Arguments),
     Completions(completions::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`.
-pub const COMMANDS: [&str; 8] = ["verify", "study", "list", "explain", "rates", "compare", "review", "completions"];
+pub const COMMANDS: [&str; 9] =
+    ["verify", "study", "list", "explain", "rates", "compare", "review", "history", "completions"];
 
 impl Command {
     /// Runs the command for a project; `program` is the whole command line, for completions.
@@ -63,6 +66,7 @@ impl Command {
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
             Self::Review(arguments) => review::run(project, arguments),
+            Self::History(arguments) => history::run(project, arguments),
             Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
         }
     }

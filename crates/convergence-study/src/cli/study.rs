@@ -1,6 +1,6 @@
-//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing.
+//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but a line of a journal, where one is named.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
@@ -11,6 +11,7 @@ use crate::study::{Study, StudyFile};
 use crate::text::visible::visible;
 
 use super::exit::Outcome;
+use super::history::Journal;
 use super::output::{self, Format};
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
@@ -26,6 +27,8 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     limits: Limits,
+    #[command(flatten)]
+    journal: Journal,
 }
 
 /// Runs the studies and prints what they found.
@@ -33,6 +36,7 @@ pub struct Arguments {
 /// # Errors
 /// Study files that cannot be used.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    arguments.journal.check()?;
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let watched = Watched::new(&studies, true);
@@ -40,6 +44,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     watched.clear();
     let finished = finished?;
     let verdict = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
+    let command = format!("{} study", project.command);
+    arguments.journal.append(Path::new("."), command, verdict, &finished)?;
     output::print(&match arguments.format {
         Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
         Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),

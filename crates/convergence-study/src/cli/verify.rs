@@ -10,6 +10,7 @@ use crate::text::visible;
 use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
+use super::history::Journal;
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
 use crate::cli::workspace;
@@ -35,6 +36,8 @@ pub struct Arguments {
     /// Every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
+    #[command(flatten)]
+    journal: Journal,
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -46,6 +49,7 @@ pub struct Arguments {
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
+    arguments.journal.check()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
@@ -60,6 +64,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let verification = verification?;
+    let command = request.scope.command(project);
+    arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
     output::print(&text(project, &verification, &request, arguments))?;
     github::announce(&verification.findings(project, &request.scope, &request.scope.command(project)));
     Ok(verification.verdict.into())

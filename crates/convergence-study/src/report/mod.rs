@@ -2,8 +2,10 @@
 //!
 //! The same outcomes give the same bytes. Nothing here knows of times or machines.
 
+mod badge;
 mod failures;
 mod forest;
+mod history;
 mod html;
 mod markdown;
 mod page;
@@ -24,7 +26,9 @@ use crate::study::outcome::Figure;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
+pub use badge::badge;
 pub use failures::{NotPassed, not_passed, text_of_failures};
+pub use history::history;
 pub use section::markdown;
 pub use tables::tables;
 pub use words::{blessing, can_be_blessed, key_numbers, sentence};

@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod baseline;
 pub mod file_set;
+pub mod journal;
 pub mod junit;
 pub mod provenance;
 pub mod record;

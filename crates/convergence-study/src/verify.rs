@@ -16,7 +16,7 @@ use crate::store::atomic;
 use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
-use crate::store::record;
+use crate::store::record::{self, Precision, Record};
 use crate::store::writing;
 use crate::study::{Header, Study, Tier};
 use crate::text::visible;
@@ -79,8 +79,8 @@ impl Scope {
 }
 
 /// A word quoted for a shell, which would otherwise resolve patterns.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
+pub(crate) fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_' | '/');
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
     } else {
@@ -99,8 +99,10 @@ pub struct Request {
     pub bless: bool,
     /// Why claims have changed, for a blessing of them.
     pub reason: Option<String>,
-    /// The workspace: `reports/` and `studies/baseline.json` are below.
+    /// The project's folder: `studies/baseline.json` is below.
     pub root: PathBuf,
+    /// The folder of its reports, by custom `reports/` in it.
+    pub reports: PathBuf,
 }
 
 impl Request {
@@ -114,8 +116,8 @@ impl Request {
     /// # Errors
     /// [`VerificationError::Reports`].
     pub(crate) fn lock(&self) -> Result<File, VerificationError> {
-        let folder = self.root.join("reports");
-        lock(&folder.join("local").join("lock")).map_err(|error| VerificationError::Reports { folder, error })
+        let fail = |error| VerificationError::Reports { folder: self.reports.clone(), error };
+        lock(&self.reports.join("local").join("lock")).map_err(fail)
     }
 }
 
@@ -165,11 +167,11 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
-    tidy(request).map_err(|error| VerificationError::Reports { folder: request.root.join("reports"), error })?;
+    let folder = &request.reports;
+    let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
+    tidy(request).map_err(fail)?;
     let finished = run::run(studies, request.effort, progress)?;
 
-    let folder = request.root.join("reports");
-    let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     let _lock = request.lock()?;
     // A request to end the process waits until everything is written.
     let _writing = writing::begin();
@@ -182,9 +184,9 @@ pub fn verify(
     }
     let changes = baseline.compare(&finished, known);
     let verdict = verdict(&finished, &changes);
-    let target = request.scope.report_folder(&folder);
+    let target = request.scope.report_folder(folder);
     let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
-    write_reports(project, &verification, request, &target, &folder).map_err(fail)?;
+    write_reports(project, &verification, request, &target).map_err(fail)?;
     Ok(verification)
 }
 
@@ -202,22 +204,40 @@ pub fn run_and_report(
 ) -> Result<Verification, VerificationError> {
     let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let finished = run::run(studies, jobs, &|_| {})?;
-    let verdict = verdict(&finished, &[]);
-    let found = Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() };
-    let scope = Scope::Selection(vec![]);
+    let found = findings(project, &finished, project.command);
+    publish(&found, jobs.get(), folder)?;
+    let verdict = found.verdict;
+    Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
+}
+
+/// What is reported on studies that have run without a baseline.
+///
+/// * `command`: what ran them.
+pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f str) -> Findings<'f> {
+    let (scope, verdict) = (Scope::Selection(vec![]).name(), verdict(finished, &[]));
+    Findings { project, scope, command, finished, changes: None, verdict, see_also: None, provenance: None }
+}
+
+/// Writes the report on them into a folder of their own; missing folders are made.
+///
+/// * `jobs`: threads that they ran on.
+///
+/// # Errors
+/// [`VerificationError::Reports`].
+pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
+    let local = folder.join("local");
     let publish = || {
-        let local = folder.join("local");
         let _lock = lock(&local.join("lock"))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        target.publish(&found.findings(project, &scope, project.command).files()?)
+        let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs, found.finished);
+        target.publish(&Findings { provenance: Some(&here), ..*found }.files()?)
     };
-    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })?;
-    Ok(found)
+    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
 }
 
 /// Completes or removes what killed runs have left, of any scope.
 fn tidy(request: &Request) -> io::Result<()> {
-    let reports = request.root.join("reports");
+    let reports = &request.reports;
     let local = reports.join("local");
     if !local.is_dir() {
         return Ok(());
@@ -229,7 +249,7 @@ fn tidy(request: &Request) -> io::Result<()> {
     let whole = |tier| Scope::Tier(tier, vec![]);
     [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
         .iter()
-        .try_for_each(|scope| scope.report_folder(&reports).tidy())
+        .try_for_each(|scope| scope.report_folder(reports).tidy())
 }
 
 /// The worst verdict of all studies; fail where the baseline differs.
@@ -242,22 +262,32 @@ impl Verification {
     /// What is reported on.
     pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
         let Self { finished, changes, verdict, .. } = self;
-        Findings { project, scope: scope.name(), command, finished, changes, verdict: *verdict, see_also: None }
+        Findings {
+            project,
+            scope: scope.name(),
+            command,
+            finished,
+            changes: Some(changes),
+            verdict: *verdict,
+            see_also: None,
+            provenance: None,
+        }
+    }
+
+    /// The same as data, with all digits.
+    pub fn record(&self, scope: &Scope) -> Record {
+        let changes = self.changes.iter().map(ToString::to_string).collect();
+        Record::new(scope.name(), self.verdict, changes, &self.finished, Precision::Full)
     }
 }
 
-fn write_reports(
-    project: &Project,
-    found: &Verification,
-    request: &Request,
-    target: &ReportFolder,
-    folder: &Path,
-) -> io::Result<()> {
-    let scope = &request.scope;
+fn write_reports(project: &Project, found: &Verification, request: &Request, target: &ReportFolder) -> io::Result<()> {
+    let Request { scope, reports: folder, .. } = request;
     let command = scope.command(project);
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
-    target.publish(&Findings { see_also, ..found.findings(project, scope, &command) }.files()?)?;
-    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &found.finished);
+    let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
+    let findings = found.findings(project, scope, &command);
+    target.publish(&Findings { see_also, provenance: Some(&provenance), ..findings }.files()?)?;
     atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
 }

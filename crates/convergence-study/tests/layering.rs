@@ -45,7 +45,7 @@ const EXCEPTIONS: [(&str, &str, &str); 1] = [(
 )];
 
 /// Libraries that are known to some modules only.
-const LIBRARIES: [(&str, &[&str]); 13] = [
+const LIBRARIES: [(&str, &[&str]); 14] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("console", &["cli"]),
@@ -58,6 +58,7 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
     ("plotters", &["plots"]),
     ("pulldown_cmark", &["report"]),
     ("quick_junit", &["store"]),
+    ("chrono", &["store"]),
     ("rayon", &["run"]),
 ];
 

@@ -342,7 +342,7 @@ fn infinite_steps_are_none() {
 #[test]
 fn a_verdict_says_on_what_it_rests() {
     let outcome = judge(&with_rates(&[0.4, 1.0, 1.0, 1.0]), 1.0, 0.05);
-    let expected = "the rate agrees with the order: 1.000 to 1.000 from levels 2 to 5 of 5, claimed 1 ± 0.05";
+    let expected = "the rate agrees with the order: 1.0000 ± 0.00005 from levels 2 to 5 of 5, claimed 1 ± 0.05";
     assert_eq!(outcome.reason, expected);
     assert_eq!((outcome.order, outcome.tolerance), (1.0, 0.05));
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));

@@ -15,7 +15,10 @@ use thermobeam_study::run::{any_order_time, step_time};
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::flags::Flags;
+use convergence_study::cli::output::Format;
 use convergence_study::cli::{output, screen, selection, workspace};
+use convergence_study::judge::verdict::Verdict;
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -35,6 +38,14 @@ pub struct Arguments {
     /// The tier of `verify` that is timed on one thread and on all
     #[arg(long, value_parser = selection::tier_parser(), default_value = Tier::Quick.name())]
     tier: Tier,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `bench --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    tables: &'a [Table],
 }
 
 /// Runs the command.
@@ -43,20 +54,25 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
     let scene = Scene::read(&path)?;
     let studies = workspace::studies(project, &root)?;
-    let mut page = Page { text: heading(project, &root, &path), folder: root.join("reports") };
-    page.add(&step_time::ways(&scene, 100)?)?;
-    page.add(&step_time::ways(&scene, 1000)?)?;
-    page.add(&step_time::scenes(&scene, 100)?)?;
-    page.add(&step_time::scaling(&scene, &ELEMENTS)?)?;
+    let Flags { quiet, format, out, jobs } = &arguments.flags;
+    let folder = out.clone().unwrap_or_else(|| root.join("reports"));
+    let shows = !quiet && *format == Format::Text;
+    let mut page = Page { text: heading(project, &root, &path), folder, tables: vec![], shows };
+    page.add(step_time::ways(&scene, 100)?)?;
+    page.add(step_time::ways(&scene, 1000)?)?;
+    page.add(step_time::scenes(&scene, 100)?)?;
+    page.add(step_time::scaling(&scene, &ELEMENTS)?)?;
     let any_order = any_order_time::times(&scene, scene.t_end.min(ANY_ORDER_END));
-    page.add(&any_order.map_err(|failure| Unusable::because(&failure.reason))?)?;
+    page.add(any_order.map_err(|failure| Unusable::because(&failure.reason))?)?;
     for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
         accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }
-    threads(studies, arguments.tier, &mut page)?;
+    threads(studies, arguments.tier, screen::jobs(*jobs), &mut page)?;
     let file = page.folder.join("bench.md");
     atomic::write(&file, &page.text)?;
-    output::print(&format!("written to {}\n", file.display()))?;
+    let sentence = format!("written to {}", file.display());
+    let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
+    arguments.flags.print(Verdict::Pass, &Object { tables: &page.tables }, &words)?;
     Ok(Ended::Well)
 }
 
@@ -64,14 +80,21 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 struct Page {
     text: String,
     folder: PathBuf,
+    tables: Vec<Table>,
+    /// Whether a table is shown as soon as it is there.
+    shows: bool,
 }
 
 impl Page {
     /// Adds a table, and shows it.
-    fn add(&mut self, table: &Table) -> std::io::Result<()> {
+    fn add(&mut self, table: Table) -> std::io::Result<()> {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
-        self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(table));
-        output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))
+        self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
+        if self.shows {
+            output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
+        }
+        self.tables.push(table);
+        Ok(())
     }
 
     /// Adds a figure, in a file beside the page.
@@ -105,19 +128,19 @@ fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
         if table.rows.is_empty() {
             continue;
         }
-        page.add(&table)?;
+        page.add(table)?;
         let caption = format!("{id}: error ({}) over seconds", quantity.name());
         page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &study.seconds_figure(quantity, &runs))?;
     }
     Ok(())
 }
 
-/// A tier on one thread and on all, and what its studies cost on one.
-fn threads(files: Vec<StudyFile>, tier: Tier, page: &mut Page) -> Result<(), Unusable> {
+/// A tier on one thread and on `all`, and what its studies cost on one.
+fn threads(files: Vec<StudyFile>, tier: Tier, all: NonZeroUsize, page: &mut Page) -> Result<(), Unusable> {
     let studies: Vec<_> =
         files.into_iter().map(|file| file.study).filter(|study| study.header().tier <= tier).collect();
     let (mut rows, mut one, mut costs) = (vec![], f64::NAN, vec![]);
-    for jobs in [NonZeroUsize::MIN, screen::jobs(None)] {
+    for jobs in [NonZeroUsize::MIN, all] {
         let start = Instant::now();
         let finished = runner::run(&studies, jobs, &|_| ())?;
         let seconds = start.elapsed().as_secs_f64();
@@ -128,12 +151,12 @@ fn threads(files: Vec<StudyFile>, tier: Tier, page: &mut Page) -> Result<(), Unu
         rows.push(vec![jobs.to_string(), format!("{seconds:.2}"), format!("{:.2}", one / seconds)]);
     }
     let table = |title: String, head: [&str; 3], rows| Table { title, head: head.map(str::to_owned).to_vec(), rows };
-    page.add(&table(format!("The {} tier of verify", tier.name()), ["threads", "seconds", "speed-up"], rows))?;
+    page.add(table(format!("The {} tier of verify", tier.name()), ["threads", "seconds", "speed-up"], rows))?;
     costs.sort_by(|a, b| b.0.total_cmp(&a.0));
     let row = |(seconds, id): &(f64, String)| {
         vec![id.clone(), format!("{seconds:.2}"), format!("{:.0} %", 100.0 * seconds / one)]
     };
     let rows = costs.iter().take(COSTLIEST).map(row).collect();
-    page.add(&table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
+    page.add(table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
     Ok(())
 }

@@ -9,16 +9,17 @@ use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
-use convergence_study::cli::output::{self, Format};
+use convergence_study::cli::flags::Flags;
+use convergence_study::cli::output;
+use convergence_study::judge::verdict::Verdict;
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The scene file; only its beam and its obstacles matter
     scene: PathBuf,
-    /// How the result is printed
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 /// Runs the command.
@@ -32,10 +33,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             return Ok(Ended::Badly);
         }
     };
-    match arguments.format {
-        Format::Text => output::print(&text(&scene, &states))?,
-        Format::Json => output::print_json(&Object::new(&scene, &states))?,
-    }
+    let flags = &arguments.flags;
+    let stable = states.iter().filter(|state| state.stable).count();
+    let sentence = format!("{}, {stable} of them stable", counted(states.len()));
+    let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
+    flags.show("equilibria", Verdict::Pass, &Object::new(&scene, &states), &words)?;
     Ok(Ended::Well)
 }
 
@@ -81,11 +83,15 @@ fn name(contact: Contact) -> &'static str {
     }
 }
 
-fn text(scene: &Scene, states: &[Equilibrium]) -> String {
-    let count = match states.len() {
+fn counted(states: usize) -> String {
+    match states {
         1 => "one steady state".to_owned(),
         n => format!("{n} steady states"),
-    };
+    }
+}
+
+fn text(scene: &Scene, states: &[Equilibrium]) -> String {
+    let count = counted(states.len());
     let beam = &scene.beam;
     let mut text = format!("{}: {count} for beta = {:?}, theta_a = {:?}\n\n", scene.name, beam.beta, beam.theta_a);
     let _ = writeln!(

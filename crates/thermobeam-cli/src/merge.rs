@@ -5,31 +5,33 @@ use std::path::PathBuf;
 use clap::Args;
 use thermobeam_study::sweep;
 
-use convergence_study::cli::exit::{Ended, Outcome};
-use convergence_study::cli::output;
+use convergence_study::cli::exit::{Outcome, Unusable};
+use convergence_study::cli::flags::Flags;
+use convergence_study::judge::verdict::Verdict;
 
 /// Join the shares of a sweep into the file that one run would have written
 ///
-/// A missing or repeated case is an error, and nothing is written.
+/// Writes results.jsonl to the folder that --out names, with a line for each case in their order. A missing or repeated case is an
+/// error, and nothing is written.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The folders of all shares
     #[arg(required = true, value_name = "DIR")]
     folders: Vec<PathBuf>,
-    /// The file to write, in the order of the cases
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
-    /// Print nothing on success
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let merged = sweep::merge(&arguments.folders, &arguments.out)?;
-    if !arguments.quiet {
-        let out = arguments.out.display();
-        output::print(&format!("{} cases, {} failed\nwrote {out}\n", merged.cases, merged.failed))?;
-    }
-    Ok(if merged.failed == 0 { Ended::Well } else { Ended::Badly })
+    let flags = &arguments.flags;
+    let Some(folder) = &flags.out else {
+        return Err(Unusable::because("--out DIR: expected the folder for the joined results; found none"));
+    };
+    let merged = sweep::merge(&arguments.folders, folder)?;
+    let verdict = if merged.failed == 0 { Verdict::Pass } else { Verdict::Fail };
+    let sentence = format!("{} cases, {} failed", merged.cases, merged.failed);
+    let words = flags.words(verdict, &sentence, || format!("{sentence}\nwrote {}\n", merged.results.display()));
+    flags.print(verdict, &merged, &words)?;
+    Ok(verdict.into())
 }

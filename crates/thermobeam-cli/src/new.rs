@@ -8,8 +8,10 @@ use clap::{Args, ValueEnum};
 use thermobeam_study::scene::template::{Template, is_name};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
-use convergence_study::cli::output;
+use convergence_study::cli::flags::Flags;
+use convergence_study::judge::verdict::Verdict;
 use convergence_study::project::Project;
+use convergence_study::store::atomic;
 use convergence_study::text::visible;
 
 /// Write a commented study or scene that runs as it is
@@ -21,12 +23,8 @@ pub struct Arguments {
     /// Its name: small letters, digits, `.` and `-`
     #[arg(value_parser = name)]
     name: String,
-    /// The folder for NAME.toml, which must exist; default: the current one
-    #[arg(long, value_name = "DIR")]
-    dir: Option<PathBuf>,
-    /// Say nothing where all is well
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -35,6 +33,12 @@ enum What {
     Study,
     /// A scene: a beam, how it starts, a mesh, time steps
     Scene,
+}
+
+/// What `new --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object {
+    wrote: String,
 }
 
 fn name(text: &str) -> Result<String, String> {
@@ -48,7 +52,8 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         What::Scene => (Template::Scene, "run"),
     };
     let file = format!("{}.toml", arguments.name);
-    let path = arguments.dir.as_ref().map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file));
+    let flags = &arguments.flags;
+    let path = flags.out.as_ref().map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file));
     let unusable = |error: std::io::Error| match error.kind() {
         ErrorKind::AlreadyExists => Unusable::because(&format!(
             "{}: expected a new file, found one of that name; take another name, or remove the file first",
@@ -56,15 +61,17 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         )),
         _ => Unusable::file(&path, &error),
     };
+    if let Some(folder) = &flags.out {
+        atomic::prepare_folder(folder)?;
+    }
     let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(unusable)?;
     file.write_all(template.text(&arguments.name, project.command).as_bytes()).map_err(unusable)?;
-    if !arguments.quiet {
-        let (path, program) = (path.display(), project.command);
-        let mut text = format!("wrote {path}\nnow  {program} {command} {path}\n");
-        if arguments.what == What::Study {
-            text += &format!("and  {program} explain {path}\n");
-        }
-        output::print(&text)?;
+    let (path, program) = (path.display().to_string(), project.command);
+    let mut text = format!("wrote {path}\nnow  {program} {command} {path}\n");
+    if arguments.what == What::Study {
+        text += &format!("and  {program} explain {path}\n");
     }
+    let words = flags.words(Verdict::Pass, &format!("wrote {path}"), || text);
+    flags.print(Verdict::Pass, &Object { wrote: path }, &words)?;
     Ok(Ended::Well)
 }

@@ -13,6 +13,7 @@ use std::time::Duration;
 use clap::Args;
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
+use serde::Serialize;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
@@ -20,22 +21,20 @@ use thermobeam_study::run::tally::Unsound;
 use thermobeam_study::scene::any_order::SceneFile;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::flags::Flags;
 use convergence_study::cli::interrupt;
-use convergence_study::cli::output::{self, Format};
+use convergence_study::cli::output;
 use convergence_study::cli::progress;
 use convergence_study::cli::running::seconds;
+use convergence_study::judge::verdict::Verdict;
 
 /// Simulate one scene
+///
+/// The folder that --out names gets the time history (history.csv), pictures (SVG) and run.json, the object of --format json.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
-    /// How the result is printed
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
-    /// Write the time history (CSV) and pictures (SVG) to this folder, which is made if need be
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper;
     /// for scheme = "dg" by space and time, three more runs
     #[arg(long)]
@@ -49,13 +48,30 @@ pub struct Arguments {
     /// The longest that the run may take; what was done until then is told, and the exit status is 1 [default: as long as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
-    /// Show no progress bar
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+impl Arguments {
+    /// Shows the result, and then the complaint if there is one: the verdict is fail.
+    fn show(
+        &self,
+        complaint: Option<String>,
+        object: &impl Serialize,
+        sentence: &str,
+        text: impl FnOnce() -> String,
+    ) -> Outcome {
+        let verdict = if complaint.is_none() { Verdict::Pass } else { Verdict::Fail };
+        self.flags.show("run", verdict, object, &self.flags.words(verdict, sentence, text))?;
+        if let Some(complaint) = complaint {
+            output::complain(&format!("{}: {complaint}", self.scene.display()));
+        }
+        Ok(verdict.into())
+    }
 }
 
 /// The JSON object, with what was asked for on top.
-#[derive(serde::Serialize)]
+#[derive(Serialize)]
 struct Printed<'a> {
     #[serde(flatten)]
     object: Object<'a>,
@@ -81,53 +97,45 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         },
     };
     let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
-    let recording = match &arguments.out {
+    let recording = match &arguments.flags.out {
         Some(folder) => {
             atomic::prepare_folder(folder)?;
             Recording::History
         }
         None => Recording::Summary,
     };
-    let bar = progress::bar(&scene.name, scene.steps, arguments.quiet);
+    let bar = progress::bar(&scene.name, scene.steps, arguments.flags.quiet);
     let (told, steps) = (bar.clone(), scene.steps);
     interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
     let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
     let (run, _) = time_limit::within(arguments.time_limit, simulate);
     bar.finish_and_clear();
-    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| {
+    let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {
         let history = run.history.iter().map(|history| ("history.csv", history.csv()));
         write_files(folder, history.chain(figures(&scene, &run)))
     })?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted.then(|| estimate(&scene)).transpose().map_err(|error| format!("error budget: {error}"));
+    let budget = wanted.then(|| estimate(&scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    match arguments.format {
-        Format::Text => {
-            let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
-            output::print(&format!("{}{budget}", summary::summary(&scene, &run, planned.as_ref(), &written)))?;
-        }
-        Format::Json => {
-            let object = Object::new(&scene, &run).with_budget(known);
-            output::print_json(&Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) })?;
-        }
-    }
-    if let Err(reason) = budget {
-        output::complain(&format!("{}: {reason}", arguments.scene.display()));
-        return Ok(Ended::Badly);
-    }
-    Ok(ending(&arguments.scene, run.failure.as_ref(), run.energy.sound(run.steps)))
+    let complaint = complaint(run.energy.sound(run.steps), run.failure.as_ref(), budget.as_ref().err());
+    let object = Object::new(&scene, &run).with_budget(known);
+    let object = Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) };
+    let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps, run.last.t);
+    arguments.show(complaint, &object, &sentence, || {
+        let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
+        summary::summary(&scene, &run, planned.as_ref(), &written) + &budget
+    })
 }
 
-/// How a run ended, with a complaint where it failed or its numbers mean nothing.
-fn ending(scene: &Path, failure: Option<&impl Display>, sound: Result<(), Unsound>) -> Ended {
-    let complaint = match (sound, failure) {
-        (Err(unsound), _) => unsound.to_string(),
-        (Ok(()), Some(failure)) => failure.to_string(),
-        (Ok(()), None) => return Ended::Well,
-    };
-    output::complain(&format!("{}: {complaint}", scene.display()));
-    Ended::Badly
+/// Why the numbers of a run mean nothing, or less than was asked for; none where all is well.
+fn complaint(
+    sound: Result<(), Unsound>,
+    failure: Option<&impl Display>,
+    no_budget: Option<&impl Display>,
+) -> Option<String> {
+    let no_budget = no_budget.map(|reason| format!("error budget: {reason}"));
+    no_budget.or(sound.err().map(|unsound| unsound.to_string())).or(failure.map(ToString::to_string))
 }
 
 /// Writes files into a folder; returns their paths.
@@ -138,5 +146,7 @@ fn write_files(folder: &Path, files: impl Iterator<Item = (&'static str, String)
         atomic::write(&path, content)?;
         written.push(path);
     }
+    // Written with the result.
+    written.push(folder.join("run.json"));
     Ok(written)
 }

@@ -10,25 +10,22 @@ use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
 use convergence_study::cli::exit::{Ended, Outcome};
+use convergence_study::cli::flags::Flags;
 use convergence_study::cli::interrupt;
-use convergence_study::cli::output;
 use convergence_study::cli::progress;
 use convergence_study::cli::running::seconds;
+use convergence_study::cli::screen;
+use convergence_study::judge::verdict::Verdict;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
 /// One JSON line for each case: its parameters and what `run --format json` prints, without the wall time. A case that fails
-/// has a line with the reason; the exit status is then 1.
+/// has a line with the reason; the exit status is then 1. With --out the folder gets a journal, and results.jsonl at the end; without,
+/// the lines go to standard output.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The sweep file
     file: PathBuf,
-    /// Write to this folder: a journal, and results.jsonl at the end; default: standard output
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Threads; default: one for each processor
-    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
-    jobs: usize,
     /// Time limit of a case; its line says where it was stopped, and the others continue [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     case_limit: Option<Duration>,
@@ -38,9 +35,8 @@ pub struct Arguments {
     /// Run share k of n, which the values of a case determine; `merge` joins the shares
     #[arg(long, value_name = "k/n", default_value_t = Share::ALL, hide_default_value = true)]
     partition: Share,
-    /// Show no progress bar
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 /// Runs the command.
@@ -49,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let share = arguments.partition;
     let is_mine = |index: &usize| share == Share::ALL || share.holds(sweep.case(*index).hash());
     let mine: Vec<usize> = (0..sweep.cases()).filter(is_mine).collect();
-    let failed = match &arguments.out {
+    let failed = match &arguments.flags.out {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
         None => to_stdout(arguments, &sweep, mine)?,
     };
@@ -58,9 +54,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 
 /// Lines to standard output, in the order of the cases; returns how many failed.
 fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
-    let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.quiet);
+    let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
     let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
-    let outcome = sweep::run(sweep, &mine, arguments.jobs, arguments.case_limit, |line: Line| {
+    let outcome = sweep::run(sweep, &mine, jobs(arguments), arguments.case_limit, |line: Line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
         state.1 += usize::from(!line.passed);
         bar.inc(1);
@@ -85,7 +81,7 @@ fn to_folder(
     let cases = mine.len();
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
     let begun = pending.len();
-    let bar = progress::counting(&sweep.name, begun, "cases", arguments.quiet);
+    let bar = progress::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
     let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
     interrupt::say(move || {
         let done = before + counted.position() as usize;
@@ -97,10 +93,25 @@ fn to_folder(
     bar.finish_and_clear();
     let failed = journal.failed();
     let results = journal.finish()?;
-    if !arguments.quiet {
-        output::print(&summary(arguments, sweep, [cases, begun, failed], took, &results))?;
-    }
+    let flags = &arguments.flags;
+    let verdict = if failed == 0 { Verdict::Pass } else { Verdict::Fail };
+    let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
+    let words = flags.words(verdict, &sentence, || summary(arguments, sweep, [cases, begun, failed], took, &results));
+    flags.print(verdict, &Object { sweep: &sweep.name, cases, failed, results }, &words)?;
     Ok(failed)
+}
+
+/// What `sweep --out DIR --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    sweep: &'a str,
+    cases: usize,
+    failed: usize,
+    results: PathBuf,
+}
+
+fn jobs(arguments: &Arguments) -> usize {
+    screen::jobs(arguments.flags.jobs).get()
 }
 
 fn journaled(
@@ -111,7 +122,7 @@ fn journaled(
     bar: &ProgressBar,
 ) -> Result<Journal, io::Error> {
     let journal = Mutex::new(journal);
-    sweep::run(sweep, &pending, arguments.jobs, arguments.case_limit, |line| {
+    sweep::run(sweep, &pending, jobs(arguments), arguments.case_limit, |line| {
         bar.inc(1);
         journal.lock().unwrap_or_else(PoisonError::into_inner).append(&line)
     })?;

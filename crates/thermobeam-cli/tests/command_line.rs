@@ -65,3 +65,27 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     assert!(read > 300, "{read}");
     assert_eq!(naming("let a = \"now  cargo xtask run\"; // or cargo xtask\n/// as `cargo xtask`\n").len(), 1);
 }
+
+/// Commands that answer with something else than a result, and why.
+const WITHOUT_FLAGS: [&str; 2] = ["completions", "help"];
+
+#[test]
+fn every_command_has_the_same_flags() {
+    let program = program();
+    let seen = |command: &clap::Command, name: &str| {
+        let flag = command.get_arguments().find(|argument| argument.get_long() == Some(name))?;
+        let values = flag.get_value_names().map(|names| names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let short = flag.get_short();
+        Some((flag.get_help()?.to_string(), values, short, flag.is_required_set()))
+    };
+    for name in ["quiet", "format", "out", "jobs"] {
+        let expected = seen(program.find_subcommand("verify").unwrap(), name);
+        assert!(expected.is_some(), "{name}");
+        for command in program.get_subcommands() {
+            let wanted = if WITHOUT_FLAGS.contains(&command.get_name()) { None } else { expected.clone() };
+            assert_eq!(seen(command, name), wanted, "{} --{name}", command.get_name());
+        }
+    }
+    let shorts = program.get_subcommands().flat_map(clap::Command::get_arguments).filter_map(clap::Arg::get_short);
+    assert_eq!(shorts.collect::<BTreeSet<char>>(), ['h', 'q'].into());
+}

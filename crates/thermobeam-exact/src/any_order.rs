@@ -59,39 +59,67 @@ pub struct LevelErrors {
     pub slopes: [f64; 5],
 }
 
-/// The errors of a level against the exact solution at its time.
-///
-/// * `theta_a`: temperature of the clamped end; a level holds the lifted temperature.
-pub fn errors(exact: &Manufactured, theta_a: f64, space: &Space, level: &Level) -> LevelErrors {
-    let fields = [
-        (Field::U, &exact.u, 0),
-        (Field::Phi, &exact.phi, 0),
-        (Field::V, &exact.u, 1),
-        (Field::W, &exact.phi, 1),
-        (Field::Theta, &exact.theta, 0),
-    ];
-    let mut squares = [[0.0_f64; 2]; 5];
-    let points = Space::gauss(space.degree() + EXTRA_POINTS);
-    for ends in space.mesh().nodes().windows(2) {
-        let half = 0.5 * (ends[1] - ends[0]);
-        for (xi, weight) in &points {
-            let x = ends[0] + half * (1.0 + xi);
-            for (square, (field, products, derivative)) in squares.iter_mut().zip(fields) {
-                let (mut value, mut slope) = level.value_and_slope(space, field, x);
-                if field == Field::Theta {
-                    value += theta_a * (1.0 - x);
-                    slope -= theta_a;
+/// Measures the errors of levels against a manufactured solution, whose functions of x it evaluates once.
+pub struct ErrorMeter<'a> {
+    exact: &'a Manufactured,
+    theta_a: f64,
+    space: Space,
+    /// x and weight of the quadrature points.
+    points: Vec<(f64, f64)>,
+    /// X and X' of each product of u, φ, θ at each point.
+    shapes: [Vec<Vec<[f64; 2]>>; 3],
+    factors: Factors,
+}
+
+impl<'a> ErrorMeter<'a> {
+    /// For levels on this space.
+    ///
+    /// * `theta_a`: temperature of the clamped end; a level holds the lifted temperature.
+    pub fn new(exact: &'a Manufactured, theta_a: f64, space: &Space) -> Self {
+        let gauss = Space::gauss(space.degree() + EXTRA_POINTS);
+        let on_element = |ends: &[f64]| {
+            let half = 0.5 * (ends[1] - ends[0]);
+            gauss.iter().map(|(xi, weight)| (ends[0] + half * (1.0 + xi), half * weight)).collect::<Vec<_>>()
+        };
+        let points: Vec<(f64, f64)> = space.mesh().nodes().windows(2).flat_map(on_element).collect();
+        let shapes = [&exact.u, &exact.phi, &exact.theta].map(|products| {
+            let shape = |product: &Product, x: f64| {
+                let [value, slope, _] = product.x.derivatives(x);
+                [value, slope]
+            };
+            products.iter().map(|product| points.iter().map(|(x, _)| shape(product, *x)).collect()).collect()
+        });
+        Self { exact, theta_a, space: space.clone(), points, shapes, factors: Factors::default() }
+    }
+
+    /// The errors of a level against the exact solution at its time.
+    pub fn errors(&mut self, level: &Level) -> LevelErrors {
+        self.factors.at(self.exact, level.t);
+        let Factors { u, phi, theta } = &self.factors;
+        let [shapes_u, shapes_phi, shapes_theta] = &self.shapes;
+        // In the order of `Field::ALL`.
+        let exact = [
+            (shapes_u, &u.value),
+            (shapes_phi, &phi.value),
+            (shapes_u, &u.rate),
+            (shapes_phi, &phi.rate),
+            (shapes_theta, &theta.value),
+        ];
+        let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
+        for (k, (x, weight)) in self.points.iter().enumerate() {
+            let mut found = level.values_and_slopes(&self.space, *x);
+            let (temperature, its_slope) = &mut found[4];
+            *temperature += self.theta_a * (1.0 - x);
+            *its_slope -= self.theta_a;
+            for ((square, (mut value, mut slope)), (shapes, factors)) in squares.iter_mut().zip(found).zip(exact) {
+                for (shape, factor) in shapes.iter().zip(factors) {
+                    value -= factor * shape[k][0];
+                    slope -= factor * shape[k][1];
                 }
-                for product in products {
-                    let factor = product.t.derivatives(level.t)[derivative];
-                    let [x0, x1, _] = product.x.derivatives(x);
-                    value -= factor * x0;
-                    slope -= factor * x1;
-                }
-                square[0] += half * weight * value * value;
-                square[1] += half * weight * slope * slope;
+                square[0] += weight * value * value;
+                square[1] += weight * slope * slope;
             }
         }
+        LevelErrors { values: squares.map(|square| square[0].sqrt()), slopes: squares.map(|square| square[1].sqrt()) }
     }
-    LevelErrors { values: squares.map(|square| square[0].sqrt()), slopes: squares.map(|square| square[1].sqrt()) }
 }

@@ -1,11 +1,14 @@
 //! Laws of asking for an accuracy: held against exact answers, and against much finer runs where the tip is in contact.
 
 use convergence_study::study::FromFile as _;
+use thermobeam::dg::Stepping;
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::Settings;
-use thermobeam_study::error::evaluator::{ErrorMeasure, Evaluator, Reference};
+use thermobeam_study::error::evaluator::{ErrorMeasure, Evaluator};
 use thermobeam_study::error::free_vibration::{beam, vibration};
+use thermobeam_study::error::reference::{Reference, fine_mesh};
 use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::tables::Discretisation;
 use thermobeam_study::predict::accuracy::{Choice, Request, Trust, Unreachable, choose};
 use thermobeam_study::run::family::Family;
 use thermobeam_study::scene::Scene;
@@ -103,12 +106,17 @@ fn a_coarse_answer_is_as_accurate_as_asked_for_whatever_the_pilots_cost() {
     }
 }
 
-fn thrown(t_end: f64) -> Family {
+fn thrown(t_end: f64) -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/scenes/paper-1-beta-0.toml");
-    let mut scene = Scene::read(path).unwrap();
-    scene.t_end = t_end;
-    Family::of_scene(&scene)
+    Scene { t_end, ..Scene::read(path).unwrap() }
 }
+
+/// Exact to eight digits.
+const EXACT: Discretisation = Discretisation {
+    elements: 1,
+    degree: 24,
+    stepping: Stepping { degree: 4, dt: 0.005, restart_dt: 2e-4, growth: 1.4, tolerance: 1e-14, max_iterations: 100 },
+};
 
 #[test]
 fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
@@ -119,10 +127,12 @@ fn in_contact_the_error_is_kept_too_and_no_order_is_taken_for_granted() {
         (2.0, ErrorMeasure::Tip, 1e-3),
         (2.0, ErrorMeasure::Tip, 1e-4),
     ] {
-        let family = thrown(t_end);
+        let scene = thrown(t_end);
+        let family = Family::of_scene(&scene);
         let choice = choose(&family, &Request::new(quantity, target)).unwrap();
         let steps = choice.steps.next_multiple_of(OBSERVATIONS);
-        let reference = Reference::compute(&family, choice.elements * 4, steps * 4, OBSERVATIONS).unwrap();
+        let mesh = fine_mesh(&scene, choice.elements).unwrap();
+        let reference = Reference::compute(&scene, &EXACT, mesh, t_end, OBSERVATIONS, 0).unwrap();
         let on = family.on(choice.elements).unwrap();
         let mut evaluator = Evaluator::new(&family, &on, Some(&reference)).unwrap();
         let mut run = on.start(choice.scheme, choice.settings, steps).unwrap();

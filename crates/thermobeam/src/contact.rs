@@ -28,6 +28,13 @@ impl Obstacles {
         self.depth(u) / self.epsilon
     }
 
+    /// How long an impact takes: `t* = (ε √ζ)^(2/3)`, or ε where viscosity is too small to matter (ζ < ε).
+    ///
+    /// `THEORY.md`, "Penetration of an impact"; without viscosity the tip obeys `p' = c - p/ε`, p being its penetration.
+    pub fn impact_time(&self, zeta: f64) -> f64 {
+        (self.epsilon * zeta.sqrt()).powf(2.0 / 3.0).max(self.epsilon)
+    }
+
     /// Contact energy G(u(1)) of (2.5).
     pub fn potential(&self, u: f64) -> f64 {
         let depth = self.depth(u);

@@ -82,6 +82,21 @@ fn every_result_names_tests_and_studies_that_exist() {
     assert_eq!(missing(&renamed, &known), ["energy-rise", "none_is"]);
 }
 
+/// Titles in quotes after the word "section" that no heading has.
+fn lost_sections(text: &str) -> Vec<String> {
+    let titles: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let quoted = words.split("section \"").skip(1).filter_map(|rest| rest.split('"').next().map(str::to_owned));
+    quoted.filter(|title| !titles.contains(&title.as_str())).collect()
+}
+
+#[test]
+fn every_section_that_is_referred_to_exists() {
+    assert_eq!(lost_sections(THEORY), Vec::<String>::new());
+    let renamed = THEORY.replace("## Penetration of an impact", "## How deep an impact goes");
+    assert_eq!(lost_sections(&renamed), ["Penetration of an impact"]);
+}
+
 #[test]
 fn only_functions_marked_as_tests_are_found() {
     let source =

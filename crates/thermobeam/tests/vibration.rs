@@ -183,13 +183,25 @@ fn overdamped_modes_are_accurate_for_long_times() {
 fn discrete_frequencies_are_those_of_the_dense_pencil() {
     for elements in [1, 2, 7, 40] {
         let dense = dense_frequencies(elements);
-        let found = discrete_frequencies(&uniform(elements), 2 * elements).expect("all of them");
+        let found = discrete_frequencies(&uniform(elements), 1, 2 * elements).expect("all of them");
         for (found, dense) in found.iter().zip(&dense) {
             close(*found, *dense, 1e-11 * dense.max(1.0) * elements as f64);
         }
     }
-    let too_many = discrete_frequencies(&uniform(3), 7);
-    assert_eq!(too_many, Err(SpectrumError { count: 7, available: 6 }));
+    let too_many = discrete_frequencies(&uniform(3), 1, 7);
+    assert_eq!(too_many, Err(SpectrumError::Count { count: 7, available: 6 }));
+    for degree in [0, 41] {
+        assert_eq!(discrete_frequencies(&uniform(3), degree, 1), Err(SpectrumError::Degree(degree)));
+    }
+}
+
+#[test]
+fn a_single_element_of_high_degree_has_the_frequencies_of_the_beam() {
+    let exact = frequencies(6);
+    for (degree, tolerance) in [(14, 1e-5), (20, 1e-12), (40, 1e-12)] {
+        let found = discrete_frequencies(&uniform(1), degree, 6).expect("six of them");
+        found.iter().zip(&exact).for_each(|(found, exact)| close(*found, *exact, tolerance));
+    }
 }
 
 #[test]
@@ -199,7 +211,7 @@ fn the_first_eight_discrete_frequencies_converge_at_second_order_from_above() {
         [&uniform, &|n| Mesh::mapped(n, |s| s + 0.1 * (2.0 * std::f64::consts::PI * s).sin()).expect("a graded mesh")];
     for mesh in meshes {
         let errors = |n: usize| -> Vec<f64> {
-            let found = discrete_frequencies(&mesh(n), 8).expect("eight of them");
+            let found = discrete_frequencies(&mesh(n), 1, 8).expect("eight of them");
             found.iter().zip(&exact).map(|(found, exact)| found - exact).collect()
         };
         for (coarse, fine) in errors(256).iter().zip(errors(512)) {

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::exit::{Ended, Outcome, Unusable};
-use super::output::{self, Format};
+use super::flags::Flags;
 use crate::cli::screen;
 use crate::compare::{Change, Comparison, Norm, Settings, Study, WITHIN, compare};
-use crate::store::record::{Record, SCHEMA};
+use crate::judge::verdict::Verdict;
+use crate::store::record::Record;
 use crate::text::visible::visible;
 
 /// Compare two versions by their records: order, errors at the same step, work for the same error
@@ -29,9 +30,8 @@ pub struct Arguments {
     /// Every error, not only those that differ
     #[arg(long)]
     all: bool,
-    /// What to print
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -42,7 +42,6 @@ fn share(text: &str) -> Result<f64, String> {
 /// What `--format json` prints.
 #[derive(Serialize)]
 struct Object<'a> {
-    schema: u32,
     within: f64,
     #[serde(flatten)]
     comparison: &'a Comparison,
@@ -53,7 +52,7 @@ struct Object<'a> {
 /// # Errors
 /// Files that are no records, and records without a common study.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let Arguments { old, new, within, floor, all, format } = arguments;
+    let Arguments { old, new, within, floor, all, flags } = arguments;
     let settings = Settings::new(*floor, *within)?;
     let records = [Record::read(old)?, Record::read(new)?];
     let comparison = compare(&records[0], &records[1], &settings);
@@ -61,11 +60,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let [old, new] = [old, new].map(|path| visible(&path.display().to_string()));
         return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));
     }
-    match format {
-        Format::Json => output::print_json(&Object { schema: SCHEMA, within: *within, comparison: &comparison })?,
-        Format::Text => output::print(&text(&comparison, *all))?,
-    }
-    Ok(if comparison.change == Change::Worse { Ended::Badly } else { Ended::Well })
+    let is_worse = comparison.change == Change::Worse;
+    let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
+    let words = if flags.quiet { sentence(&comparison) } else { text(&comparison, *all) };
+    flags.show("compare", verdict, &Object { within: *within, comparison: &comparison }, &words)?;
+    Ok(if is_worse { Ended::Badly } else { Ended::Well })
 }
 
 fn text(comparison: &Comparison, all: bool) -> String {

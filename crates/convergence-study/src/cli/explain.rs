@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{Ended, Outcome, Unusable};
-use super::{output, workspace};
+use super::flags::Flags;
+use super::workspace;
 use crate::explain;
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::StudyFile;
 use crate::text::visible::{self, visible};
@@ -21,6 +23,16 @@ pub struct Arguments {
     /// The folder with the studies [default: studies/ of the workspace]
     #[arg(long, value_name = "DIR")]
     dir: Option<PathBuf>,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `explain --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    /// None for the list of all that can be explained.
+    name: Option<&'a str>,
+    text: &'a str,
 }
 
 /// Prints the explanation.
@@ -29,8 +41,7 @@ pub struct Arguments {
 /// A name that nothing has, and a study file that cannot be used.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Some(name) = arguments.name.as_deref() else {
-        output::print(&contents(project))?;
-        return Ok(Ended::Well);
+        return show(arguments, &contents(project));
     };
     // Terms, reasons and files can be explained outside a workspace.
     let studies = || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
@@ -48,7 +59,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             })?
         }
     };
-    output::print(&text)?;
+    show(arguments, &text)
+}
+
+fn show(arguments: &Arguments, text: &str) -> Outcome {
+    let Arguments { name, flags, .. } = arguments;
+    // The first line is the name with what it is.
+    let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || text.to_owned());
+    flags.show("explain", Verdict::Pass, &Object { name: name.as_deref(), text }, &words)?;
     Ok(Ended::Well)
 }
 

@@ -2,31 +2,42 @@
 
 use std::env;
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Write};
 
 use crate::judge::verdict::Verdict;
 use crate::report::Findings;
 use crate::store::regular;
 use crate::text::visible::{self, visible};
 
-use crate::cli::output;
+use crate::cli::output::{self, Format};
 
 /// Appends the table to the job summary and annotates what did not pass.
 ///
+/// * `format`: where standard output is one JSON object, the annotations go to standard error; GitHub reads both.
+pub(super) fn announce(findings: &Findings<'_>, format: Format) {
+    summarise(&findings.digest());
+    if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
+        let annotations = annotations(findings);
+        // Where a stream is closed, annotations cannot be shown.
+        let _ = match format {
+            Format::Text => output::print_as_is(&annotations),
+            Format::Json => io::stderr().write_all(annotations.as_bytes()),
+        };
+    }
+}
+
+/// Appends Markdown to the job summary.
+///
 /// A summary that cannot be written is reported on standard error; it does not change the exit status.
-pub(super) fn announce(findings: &Findings<'_>) {
+pub(super) fn summarise(markdown: &str) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
         let file = regular::open(page.as_ref(), File::options().append(true).create(true));
-        if let Err(error) = file.and_then(|mut file| file.write_all(findings.digest().as_bytes())) {
+        if let Err(error) = file.and_then(|mut file| file.write_all(markdown.as_bytes())) {
             output::complain(&format!(
                 "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
                 visible::path(page.as_ref())
             ));
         }
-    }
-    if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
-        // Where standard output is closed, annotations cannot be shown.
-        let _ = output::print_as_is(&annotations(findings));
     }
 }
 
@@ -36,7 +47,20 @@ fn annotations(findings: &Findings<'_>) -> String {
         let outcome = &finished.outcome;
         annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &outcome.summary)
     });
-    studies.chain(findings.changes.iter().map(|change| annotation("baseline", &change.to_string()))).collect()
+    let changes = findings.moves().iter().map(|change| annotation("baseline", &change.to_string()));
+    capped(studies.chain(changes).collect())
+}
+
+/// GitHub shows so many annotations of a step and drops the others without a word.
+const SHOWN: usize = 10;
+
+/// As many as are shown; the last one says how many more there are.
+fn capped(mut annotations: Vec<String>) -> String {
+    if annotations.len() > SHOWN {
+        let more = annotations.split_off(SHOWN - 1).len();
+        annotations.push(annotation("and more", &format!("{more} more: see the summary of this job and the report")));
+    }
+    annotations.concat()
 }
 
 fn annotation(title: &str, message: &str) -> String {
@@ -51,11 +75,20 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::annotation;
+    use super::{SHOWN, annotation, capped};
 
     #[test]
     fn an_annotation_stays_on_its_line() {
         let line = annotation("a: fail, so", "50 %\n::warning::x\x1b[31m");
         assert_eq!(line, "::error title=a%3A fail%2C so::50 %25%0A::warning::x\u{fffd}[31m\n");
+    }
+
+    #[test]
+    fn more_annotations_than_are_shown_are_counted_in_the_last_one() {
+        let some = |count: usize| (0..count).map(|k| annotation("a", &k.to_string())).collect::<Vec<String>>();
+        assert_eq!(capped(some(SHOWN)), some(SHOWN).concat());
+        let text = capped(some(SHOWN + 25));
+        assert_eq!(text.lines().count(), SHOWN);
+        assert!(text.starts_with(&some(SHOWN - 1).concat()) && text.contains("title=and more::26 more: see"), "{text}");
     }
 }

@@ -6,9 +6,10 @@ use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
 
 use super::exit::{Ended, Outcome};
+use super::flags::Flags;
 use crate::cli::earlier::Earlier;
 use crate::cli::workspace;
-use crate::cli::{output, screen, selection};
+use crate::cli::{screen, selection};
 
 /// List the studies: tier, last verdict, cost, claim
 ///
@@ -23,6 +24,28 @@ pub struct Arguments {
     /// Only these: ids or patterns such as '*-space'
     #[arg(value_name = "ID")]
     ids: Vec<String>,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// A study as it is listed.
+#[derive(serde::Serialize)]
+struct Listed {
+    id: String,
+    tier: &'static str,
+    kind: String,
+    /// The last verdict; none where it never ran.
+    last: Option<String>,
+    /// Estimated, in millions of the units of cost of its kind.
+    work: f64,
+    seconds: Option<f64>,
+    claim: String,
+}
+
+/// What `list --format json` prints beside the verdict, which is the worst of the last ones.
+#[derive(serde::Serialize)]
+struct Object<'a> {
+    studies: &'a [Listed],
 }
 
 const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
@@ -41,21 +64,44 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
     let earlier = Earlier::read(&root)?;
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let mut rows: Vec<Vec<String>> = meant.map(|(file, _)| row(file, &earlier)).collect();
-    if let Some(width) = screen::width() {
-        fit(&mut rows, width);
-    }
-    output::print(&screen::table(&HEAD, &rows))?;
+    let studies: Vec<Listed> = meant.map(|(file, _)| listed(file, &earlier)).collect();
+    let passed = studies.iter().filter(|study| study.last.as_deref() == Some(Verdict::Pass.name())).count();
+    let failed = studies.iter().any(|study| study.last.as_deref() == Some(Verdict::Fail.name()));
+    let verdict = match (failed, passed == studies.len()) {
+        (true, _) => Verdict::Fail,
+        (false, true) => Verdict::Pass,
+        (false, false) => Verdict::Inconclusive,
+    };
+    let sentence = format!("{passed} of {} studies passed when they last ran", studies.len());
+    let words = arguments.flags.words(verdict, &sentence, || {
+        let mut rows: Vec<Vec<String>> = studies.iter().map(row).collect();
+        if let Some(width) = screen::width() {
+            fit(&mut rows, width);
+        }
+        screen::table(&HEAD, &rows)
+    });
+    arguments.flags.show("list", verdict, &Object { studies: &studies }, &words)?;
     Ok(Ended::Well)
 }
 
-fn row(StudyFile { study, .. }: &StudyFile, earlier: &Earlier) -> Vec<String> {
+fn listed(StudyFile { study, .. }: &StudyFile, earlier: &Earlier) -> Listed {
     let header = study.header();
-    let verdict = earlier.verdict(&header.id).map_or("never run", Verdict::name);
-    let work = format!("{:.2}", 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>());
-    let seconds = earlier.seconds(&header.id).map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
-    let [id, tier, kind] = [header.id.as_str(), header.tier.name(), header.kind.as_str()].map(str::to_owned);
-    vec![id, tier, kind, verdict.to_owned(), work, seconds, header.claim.clone()]
+    Listed {
+        id: header.id.clone(),
+        tier: header.tier.name(),
+        kind: header.kind.clone(),
+        last: earlier.verdict(&header.id).map(|verdict| verdict.name().to_owned()),
+        work: 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>(),
+        seconds: earlier.seconds(&header.id),
+        claim: header.claim.clone(),
+    }
+}
+
+fn row(study: &Listed) -> Vec<String> {
+    let Listed { id, tier, kind, last, work, seconds, claim } = study;
+    let last = last.as_deref().unwrap_or("never run").to_owned();
+    let seconds = seconds.map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
+    vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
 }
 
 /// Cuts the claims so that no row is wider than the screen.

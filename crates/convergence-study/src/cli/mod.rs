@@ -9,6 +9,7 @@ mod completions;
 mod earlier;
 pub mod exit;
 mod explain;
+pub mod flags;
 mod github;
 mod help;
 mod history;

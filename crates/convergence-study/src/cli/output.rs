@@ -36,9 +36,9 @@ pub(super) fn print_as_is(text: &str) -> io::Result<()> {
     }
 }
 
-/// Prints one JSON object; a number that is not finite becomes `null`, for JSON has none.
-pub fn print_json(object: &impl Serialize) -> io::Result<()> {
-    print(&(serde_json::to_string_pretty(object)? + "\n"))
+/// An object as text; a number that is not finite becomes `null`, for JSON has none.
+pub(super) fn json(object: &impl Serialize) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(object)? + "\n")
 }
 
 /// Prints an error to standard error.

@@ -3,11 +3,14 @@
 use std::io::{self, BufRead, IsTerminal, Write};
 
 use glob::Pattern;
+use serde::Serialize;
 
-use super::exit::{Ended, Outcome, Unusable};
+use super::exit::{Outcome, Unusable};
+use super::flags::Flags;
 use super::verify::{reason, scope};
 use crate::cli::running::{Limits, Watched};
-use crate::cli::{output, selection, workspace};
+use crate::cli::{selection, workspace};
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::review::{self, Pending, describe, id};
 use crate::store::baseline::Change;
@@ -36,6 +39,23 @@ pub struct Arguments {
     /// Ids or patterns of studies
     #[arg(value_name = "ID")]
     ids: Vec<String>,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `--format json` prints.
+#[derive(Serialize)]
+struct Object {
+    /// The changes that were accepted, each with its reason.
+    accepted: Vec<Accepted>,
+    /// What still differs.
+    differs: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Accepted {
+    id: String,
+    reason: String,
 }
 
 /// Runs the studies, shows what differs, and accepts what is to be accepted.
@@ -43,7 +63,7 @@ pub struct Arguments {
 /// # Errors
 /// Studies, a selection or a baseline that cannot be used; a change asked for that there is not, or that no baseline can take.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    let Arguments { tier, limits, accept, reason, ids } = arguments;
+    let Arguments { tier, limits, accept, reason, ids, flags } = arguments;
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
@@ -51,8 +71,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let scope = scope(*tier, ids, &all);
     let studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
-    let request = Request { scope, effort: limits.effort(), bless: false, reason: None, root };
-    let watched = Watched::new(&studies, true);
+    let (effort, reports) = (flags.effort(limits.case_limit), root.join("reports"));
+    let request = Request { scope, effort, bless: false, reason: None, root, reports };
+    let watched = Watched::new(&studies, !flags.quiet);
     let pending = review::pending(&studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let pending = pending?;
@@ -62,23 +83,28 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         None => vec![],
     };
     let left = review::accept(&pending, &request, &accepted)?;
-    let mut text = String::new();
-    for (index, reason) in &accepted {
-        text += &format!("accepted: {}: {}\n", visible(&id(&pending.changes[*index])), visible(reason));
-    }
-    for change in &left {
-        text += &describe(&pending, change);
-    }
-    output::print(&(text + &sentence(accepted.len(), left.len())))?;
-    Ok(if left.is_empty() { Ended::Well } else { Ended::Badly })
+    let verdict = if left.is_empty() { Verdict::Pass } else { Verdict::Fail };
+    let accepted = accepted.into_iter().map(|(index, reason)| Accepted { id: id(&pending.changes[index]), reason });
+    let object =
+        Object { accepted: accepted.collect(), differs: left.iter().map(|change| change.to_string()).collect() };
+    let sentence = sentence(object.accepted.len(), left.len());
+    let whole = || {
+        let taken = object
+            .accepted
+            .iter()
+            .map(|Accepted { id, reason }| format!("accepted: {}: {}\n", visible(id), visible(reason)));
+        taken.chain(left.iter().map(|change| describe(&pending, change))).chain([format!("{sentence}\n")]).collect()
+    };
+    flags.show("review", verdict, &object, &flags.words(verdict, &sentence, whole))?;
+    Ok(verdict.into())
 }
 
 fn sentence(accepted: usize, left: usize) -> String {
     match (accepted, left) {
-        (0, 0) => "nothing differs from the baseline\n".to_owned(),
-        (accepted, 0) => format!("{accepted} accepted, nothing else differs from the baseline\n"),
+        (0, 0) => "nothing differs from the baseline".to_owned(),
+        (accepted, 0) => format!("{accepted} accepted, nothing else differs from the baseline"),
         (accepted, left) => {
-            format!("{accepted} accepted, {left} differ from the baseline; accept with --accept ID --reason TEXT\n")
+            format!("{accepted} accepted, {left} differ from the baseline; accept with --accept ID --reason TEXT")
         }
     }
 }

@@ -1,43 +1,26 @@
-//! What commands that run studies share: progress bar, report on an interruption, limits on threads and time.
+//! What commands that run studies share: progress bar, report on an interruption, the limit on time.
 
-use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::run::{Effort, Progress};
+use crate::run::Progress;
 use crate::study::Study;
 
 use crate::cli::interrupt;
 use crate::cli::progress::Bar;
-use crate::cli::screen;
 
-/// Threads and time, as the commands that run studies take them.
+/// Time, as the commands that run studies take it.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Limits {
-    /// Number of threads [default: all of the machine]
-    #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
-    jobs: Option<NonZeroUsize>,
     /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
-    case_limit: Option<Duration>,
+    pub(super) case_limit: Option<Duration>,
 }
 
 /// A limit on time, as it is given on the command line.
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
     seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("expected a number > 0".to_owned())
-}
-
-/// A number of threads, as it is given on the command line.
-pub fn jobs(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| "expected a whole number >= 1".to_owned())
-}
-
-impl Limits {
-    /// The limits; as many threads as the machine has where no number is given.
-    pub fn effort(self) -> Effort {
-        Effort { jobs: screen::jobs(self.jobs), case_limit: self.case_limit }
-    }
 }
 
 /// Shows the progress of a run, and reports it when the run is interrupted.

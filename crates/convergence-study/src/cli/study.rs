@@ -1,16 +1,18 @@
-//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but a line of a journal, where one is named.
+//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` and `--journal` ask for.
 
 use std::path::{Path, PathBuf};
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::tables;
+use crate::report::{tables, text_of_failures};
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile};
 use crate::text::visible::visible;
+use crate::verify::{findings, publish, quoted};
 
 use super::exit::Outcome;
+use super::flags::Flags;
+use super::github;
 use super::history::Journal;
 use super::output::{self, Format};
 use crate::cli::running::{Limits, Watched};
@@ -22,13 +24,12 @@ pub struct Arguments {
     /// Study files
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// What to print
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
     #[command(flatten)]
     limits: Limits,
     #[command(flatten)]
     journal: Journal,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 /// Runs the studies and prints what they found.
@@ -39,17 +40,29 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     arguments.journal.check()?;
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
-    let watched = Watched::new(&studies, true);
-    let finished = run::run(&studies, arguments.limits.effort(), &|progress| watched.show(progress));
+    let flags = &arguments.flags;
+    let watched = Watched::new(&studies, !flags.quiet);
+    let effort = flags.effort(arguments.limits.case_limit);
+    let finished = run::run(&studies, effort, &|progress| watched.show(progress));
     watched.clear();
     let finished = finished?;
-    let verdict = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
-    let command = format!("{} study", project.command);
-    arguments.journal.append(Path::new("."), command, verdict, &finished)?;
-    output::print(&match arguments.format {
+    let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
+    let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
+    let findings = findings(project, &finished, &command);
+    let verdict = findings.verdict;
+    arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
+    let text = match flags.format {
         Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
+        Format::Text if flags.quiet => {
+            format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
+        }
         Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
-    })?;
+    };
+    if let Some(folder) = &flags.out {
+        publish(&findings, effort.jobs.get(), folder)?;
+    }
+    output::print(&text)?;
+    github::announce(&findings, flags.format);
     Ok(verdict.into())
 }
 

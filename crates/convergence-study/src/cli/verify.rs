@@ -5,12 +5,15 @@ use std::path::Path;
 use crate::project::Project;
 use crate::report::{blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
+use crate::store::record;
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
+use super::flags::Flags;
 use super::history::Journal;
+use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
 use crate::cli::workspace;
@@ -30,9 +33,6 @@ pub struct Arguments {
     /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// No progress bar, no table: what did not pass and why, and the verdict
-    #[arg(long)]
-    quiet: bool,
     /// Every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
@@ -41,6 +41,8 @@ pub struct Arguments {
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 /// Runs the studies, writes the reports, prints the table.
@@ -59,15 +61,21 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
     let Arguments { bless, reason, .. } = arguments;
-    let request = Request { scope, effort: arguments.limits.effort(), bless: *bless, reason: reason.clone(), root };
-    let watched = Watched::new(&studies, !arguments.quiet);
+    let flags = &arguments.flags;
+    let effort = flags.effort(arguments.limits.case_limit);
+    let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
+    let request = Request { scope, effort, bless: *bless, reason: reason.clone(), root, reports };
+    let watched = Watched::new(&studies, !flags.quiet);
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let verification = verification?;
     let command = request.scope.command(project);
     arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
-    output::print(&text(project, &verification, &request, arguments))?;
-    github::announce(&verification.findings(project, &request.scope, &request.scope.command(project)));
+    output::print(&match flags.format {
+        Format::Text => text(project, &verification, &request, arguments),
+        Format::Json => record::json(&verification.record(&request.scope))?,
+    })?;
+    github::announce(&verification.findings(project, &request.scope, &request.scope.command(project)), flags.format);
     Ok(verification.verdict.into())
 }
 
@@ -89,7 +97,7 @@ pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
 
 /// What did not pass, what moved, what became of the blessing, the table, where the reports are, and the verdict last.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
-    let quiet = arguments.quiet;
+    let quiet = arguments.flags.quiet;
     let mut text = text_of_failures(&found.finished);
     text += &moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
@@ -112,7 +120,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
             text += "a selection leaves the committed report as it is\n";
         }
     }
-    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, &found.changes))
+    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)))
 }
 
 fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {

@@ -30,8 +30,12 @@ pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
 
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
     let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass).map(|(name, rate)| {
-        let [order, tolerance] = [rate.order, rate.tolerance].map(plain_text);
-        format!("{name}: rate {}, claimed {order} ± {tolerance}: {}", rate_text(rate.fitted), rate.reason)
+        // With an interval the reason has the claim, too.
+        let claimed = match rate.interval {
+            Some(_) => String::new(),
+            None => format!(", claimed {} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
+        };
+        format!("{name}: rate {}{claimed}: {}", rate_text(rate.fitted), rate.reason)
     });
     let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass);
     let checks = checks.map(|check| format!("{}: {}", check.claim, check.evidence));

@@ -6,6 +6,7 @@ use super::page::{PICTURES, badge, document};
 use super::section;
 use crate::plots::{self, Axis, Guide, History, Series};
 use crate::store::journal::{Run, StudyRun};
+use crate::store::provenance::date;
 use crate::study::outcome::Figure;
 
 /// The page: the runs, newest first, then three pictures of each study.
@@ -34,7 +35,7 @@ fn table(runs: &[Run]) -> String {
         let seconds: f64 = run.studies.iter().map(|study| study.busy_seconds).sum();
         vec![
             (index + 1).to_string(),
-            run.finished_at.map_or("-".to_owned(), date),
+            run.finished_at.and_then(date).unwrap_or("-".to_owned()),
             cell(&revision(run)),
             section::marked(run.verdict),
             format!("{} of {}", run.studies.len() - not_passing.len(), run.studies.len()),
@@ -43,8 +44,7 @@ fn table(runs: &[Run]) -> String {
             cell(&run.command),
         ]
     };
-    let head =
-        ["run", "finished (UTC)", "revision", "verdict", "studies that pass", "seconds", "not passing", "command"];
+    let head = ["run", "finished", "revision", "verdict", "studies that pass", "seconds", "not passing", "command"];
     "## Runs\n\n".to_owned() + &section::untitled(&head, runs.iter().enumerate().map(row).rev().collect(), "runs")
 }
 
@@ -129,19 +129,6 @@ fn revision(run: &Run) -> String {
     if run.git_modified == Some(true) { short + "+" } else { short }
 }
 
-/// Seconds since 1970 as `2026-01-31 12:34`, by the calendar's cycle of 400 years counted from March 1, 0000.
-fn date(seconds: u64) -> String {
-    let (days, minutes) = (seconds / 86_400 + 719_468, seconds % 86_400 / 60);
-    let (era, day) = (days / 146_097, days % 146_097);
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let of_year = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * of_year + 2) / 153;
-    let (of_month, from_january) =
-        (of_year - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
-    let year = 400 * era + year + u64::from(from_january <= 2);
-    format!("{year}-{from_january:02}-{of_month:02} {:02}:{:02}", minutes / 60, minutes % 60)
-}
-
 /// Each once, in the order in which they are first met.
 fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
     let mut distinct: Vec<&str> = vec![];
@@ -151,23 +138,4 @@ fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
         }
     }
     distinct
-}
-
-#[cfg(test)]
-mod tests {
-    use super::date;
-
-    #[test]
-    fn seconds_are_dates() {
-        for (seconds, text) in [
-            (0, "1970-01-01 00:00"),
-            (951_782_399, "2000-02-28 23:59"),
-            (951_782_400, "2000-02-29 00:00"),
-            (951_868_800, "2000-03-01 00:00"),
-            (1_767_225_599, "2025-12-31 23:59"),
-            (4_107_542_400, "2100-03-01 00:00"),
-        ] {
-            assert_eq!(date(seconds), text, "{seconds}");
-        }
-    }
 }

@@ -1,8 +1,10 @@
 //! The report for readers: what was claimed, what was found, and how to see it again. It reads, it never computes.
 //!
-//! The same outcomes give the same bytes. Nothing here knows of times or machines.
+//! The same outcomes give the same bytes, but for the page: it says which commit, day and machine it comes from, where that is
+//! given, and is not to be committed.
 
 mod badge;
+mod errors;
 mod failures;
 mod forest;
 mod history;
@@ -21,6 +23,7 @@ use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::file_set::ReportSet;
 use crate::store::junit::junit;
+use crate::store::provenance::Provenance;
 use crate::store::record::{self, Precision, Record};
 use crate::study::outcome::Figure;
 use crate::text::number::committed;
@@ -44,21 +47,23 @@ pub struct Findings<'f> {
     pub command: &'f str,
     /// The studies.
     pub finished: &'f [Finished],
-    /// What moved away from the baseline.
-    pub changes: &'f [Change],
+    /// What moved away from the baseline; `None` where the run was compared with none, as by `study`.
+    pub changes: Option<&'f [Change]>,
     /// The verdict on all.
     pub verdict: Verdict,
     /// Another report to point to: its title, and the path of its folder from this one's.
     pub see_also: Option<(&'f str, &'f str)>,
+    /// Where the run comes from: for the page alone.
+    pub provenance: Option<&'f Provenance>,
 }
 
 impl Findings<'_> {
-    /// All committed files of a report.
+    /// All files of a report; all but `index.html` are the same bytes for the same outcomes.
     ///
     /// # Errors
     /// Two figures of one name, and what the writers of JSON and XML refuse.
     pub fn files(&self) -> io::Result<ReportSet> {
-        let changes = self.changes.iter().map(Change::to_string).collect();
+        let changes = self.moves().iter().map(Change::to_string).collect();
         let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
         let mut set = ReportSet::default();
         set.add("README.md", self.readme())?;
@@ -80,6 +85,11 @@ impl Findings<'_> {
         Ok(set)
     }
 
+    /// What moved away from the baseline, if there is one.
+    pub fn moves(&self) -> &[Change] {
+        self.changes.unwrap_or_default()
+    }
+
     fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.finished.iter().flat_map(|finished| &finished.outcome.figures)
     }
@@ -97,7 +107,7 @@ impl Findings<'_> {
             page += &section::figure(&figure);
         }
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.finished.iter().map(|finished| section::section(finished, self.project)));
+        page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
@@ -115,8 +125,23 @@ impl Findings<'_> {
         title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
     }
 
+    /// The command that runs a study again.
+    pub(super) fn again(&self, finished: &Finished) -> String {
+        // What is compared with the baseline is what `verify` runs, which knows each study by its id.
+        if self.changes.is_some() {
+            format!("{} verify {}", self.project.command, finished.header.id)
+        } else {
+            self.command.to_owned()
+        }
+    }
+
+    /// The verdict in one line, without the verdict itself.
+    pub fn sentence(&self) -> String {
+        sentence(self.finished, self.changes)
+    }
+
     fn verdict_line(&self) -> String {
-        format!("**{}**: {}\n\n", self.verdict, text(&sentence(self.finished, self.changes)))
+        format!("**{}**: {}\n\n", self.verdict, text(&self.sentence()))
     }
 
     /// A table for each group of studies.
@@ -135,15 +160,15 @@ impl Findings<'_> {
 
     /// What moved away from the baseline; nothing where nothing did.
     fn moved(&self) -> String {
-        if self.changes.is_empty() {
+        if self.moves().is_empty() {
             return String::new();
         }
         let row =
             |change: &Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
-        let rows = self.changes.iter().map(row).collect();
+        let rows = self.moves().iter().map(row).collect();
         let table = section::untitled(&["study", "what", "change"], rows, "numbers");
         let bless = if can_be_blessed(self.finished) {
-            format!("\nIf it is meant: `{}`.\n", blessing(self.project, self.command, self.finished, self.changes))
+            format!("\nIf it is meant: `{}`.\n", blessing(self.project, self.command, self.finished, self.moves()))
         } else {
             String::new()
         };

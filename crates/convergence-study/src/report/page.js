@@ -53,6 +53,28 @@
     if (link && link.hash === location.hash) follow();
   });
 
+  // A table that is wider than its box flows, its cells named; it is measured anew whenever its box gets another width.
+  const fit = box => {
+    box.classList.remove("flow");
+    box.classList.toggle("flow", box.scrollWidth > box.clientWidth + 1);
+  };
+  const boxes = [...document.querySelectorAll(".scroll")].filter(box => box.querySelector("table:not(.overview)"));
+  const known = new Map();
+  const watch = new ResizeObserver(entries => {
+    for (const { target, contentRect: { width } } of entries) {
+      // In the next frame: a box that changes while it is being observed would be reported as an error.
+      if (known.get(target) !== width) requestAnimationFrame(() => fit(target));
+      known.set(target, width);
+    }
+  });
+  for (const box of boxes) {
+    const heads = [...box.querySelectorAll("thead th")].map(head => head.textContent);
+    for (const row of box.querySelectorAll("tbody tr")) {
+      [...row.children].forEach((cell, k) => { cell.dataset.head = heads[k]; });
+    }
+    watch.observe(box);
+  }
+
   // Nothing can be unfolded on paper.
   let folded = [];
   addEventListener("beforeprint", () => {

@@ -4,10 +4,9 @@
 
 use super::Findings;
 use super::html::{escape, html, phrase};
-use super::words::{key_numbers, sentence};
+use super::words::key_numbers;
 use super::{failures, forest, section};
 use crate::judge::verdict::Verdict;
-use crate::project::Project;
 use crate::run::Finished;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
@@ -20,7 +19,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 
 /// The page: verdicts first, then the studies, folded but for those that do not pass.
 pub(super) fn page(findings: &Findings<'_>) -> String {
-    let studies: String = findings.finished.iter().map(|finished| study(finished, findings.project)).collect();
+    let studies: String = findings.finished.iter().map(|finished| study(finished, &findings.again(finished))).collect();
     let title = format!("{}: verification report", findings.verdict);
     let body = format!("{}<main>\n{}{}{studies}</main>\n", head(findings), front(findings), overview(findings));
     document(&title, &body, &SCRIPTS)
@@ -46,13 +45,18 @@ fn head(findings: &Findings<'_>) -> String {
         "<header>\n<h1>Verification report</h1>\n<p class=\"verdict\">{} {}</p>\n\
          <p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
         badge(findings.verdict),
-        phrase(&sentence(findings.finished, findings.changes)),
+        phrase(&findings.sentence()),
         escape(findings.command),
     );
     if let Some((title, folder)) = findings.see_also {
         head += &format!(" See also <a href=\"{}/index.html\">{}</a>.", escape(folder), phrase(title));
     }
-    head + "</p>\n</header>\n"
+    head += "</p>\n";
+    if let Some(provenance) = findings.provenance {
+        let sentences: Vec<String> = provenance.sentences().iter().map(|sentence| escape(sentence)).collect();
+        head += &format!("<p class=\"provenance\">{}</p>\n", sentences.join(" "));
+    }
+    head + "</header>\n"
 }
 
 /// What did not pass, what moved, and all rates in one picture.
@@ -98,7 +102,7 @@ fn overview(findings: &Findings<'_>) -> String {
     )
 }
 
-fn study(finished: &Finished, project: &Project) -> String {
+fn study(finished: &Finished, again: &str) -> String {
     let Finished { header, outcome, .. } = finished;
     let open = if outcome.verdict == Verdict::Pass { "" } else { " open=\"\"" };
     format!(
@@ -107,7 +111,7 @@ fn study(finished: &Finished, project: &Project) -> String {
         outcome.verdict.name(),
         badge(outcome.verdict),
         phrase(&header.claim),
-        html(&section::body(finished, project), &outcome.figures),
+        html(&section::body(finished, again), &outcome.figures),
         id = escape(&header.id),
     )
 }

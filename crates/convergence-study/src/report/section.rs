@@ -4,7 +4,6 @@ use super::html::phrase;
 use super::markdown::{cell, table, text};
 use super::tables::tables;
 use crate::judge::verdict::Verdict;
-use crate::project::Project;
 use crate::run::Finished;
 use crate::study::outcome::{Figure, Table};
 
@@ -12,20 +11,22 @@ use crate::study::outcome::{Figure, Table};
 const MOST_ROWS: usize = 12;
 
 /// Claim, verdict in words, tables, figures, and how to run it again.
-pub(super) fn section(finished: &Finished, project: &Project) -> String {
+///
+/// * `again`: the command that runs it again.
+pub(super) fn section(finished: &Finished, again: &str) -> String {
     let header = &finished.header;
-    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, project))
+    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, again))
 }
 
 /// All of a section but heading and claim.
-pub(super) fn body(finished: &Finished, project: &Project) -> String {
+pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished { header, outcome, .. } = finished;
     let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&outcome.summary))];
     let passes = outcome.verdict == Verdict::Pass;
     parts.extend(tables(finished).iter().map(|table| titled(table, passes)));
     parts.extend(outcome.figures.iter().map(figure));
     let (tier, kind) = (header.tier.name(), &header.kind);
-    parts.push(format!("Again: `{} verify {}` (tier {tier}, kind {kind})\n", project.command, header.id));
+    parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
     parts.join("\n")
 }
 

@@ -1,16 +1,16 @@
 //! The tables of one study, as plain text: the same ones for report and terminal.
 
-use super::distinct;
+use super::errors;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
-use crate::study::outcome::{Check, LevelErrors, Outcome, Table};
-use crate::text::number::{committed_rate, error_text, plain_text, rate_text};
+use crate::study::outcome::{Check, Outcome, Table};
+use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text, plain_text};
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
 pub fn tables(Finished { outcome, failed_cases, .. }: &Finished) -> Vec<Table> {
-    let common = [rates(outcome), checks(&outcome.checks), errors(&outcome.levels)];
+    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors::tables(outcome));
     let own = outcome.tables.iter().cloned();
-    let all = common.into_iter().chain(own).chain([failures(failed_cases)]);
+    let all = common.chain(own).chain([failures(failed_cases)]);
     all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
 }
 
@@ -19,35 +19,24 @@ fn table<const N: usize>(title: &str, head: [&str; N], rows: impl Iterator<Item 
 }
 
 fn rates(outcome: &Outcome) -> Table {
-    let decimals = |rate: f64| format!("{:.3}", committed_rate(rate));
     let row = |(norm, rate): &(String, RateVerdict)| {
-        let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| decimals(*rate)).collect();
-        let interval = rate.interval.map(|[low, high]| format!("{} to {}", decimals(low), decimals(high)));
+        let places = rate.interval.map_or(RATE_PLACES - 1, |interval| interval_places(interval, RATE_PLACES));
+        let number = |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
         [
             norm.clone(),
             format!("{} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
-            rate_text(rate.fitted),
-            interval.unwrap_or_else(|| "-".to_owned()),
-            rate_text(rate.extrapolated),
-            pairwise.join(", "),
+            number(rate.fitted),
+            rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES)),
+            number(rate.extrapolated),
             levels(rate),
             rate.verdict.name().to_owned(),
-            rate.reason.clone(),
+            // The numbers of a reason are in the other columns, and so is all that a pass needs.
+            if rate.verdict == Verdict::Pass { String::new() } else { rate.kind.text().to_owned() },
         ]
     };
-    let head = [
-        "error in",
-        "order claimed",
-        "rate",
-        "95 % interval",
-        "extrapolated",
-        "from level to level",
-        "levels used",
-        "verdict",
-        "reason",
-    ];
+    let head =
+        ["error in", "order claimed", "rate", "95 % interval", "extrapolated", "levels used", "verdict", "reason"];
     let mut rates = table("Rates", head, outcome.rates.iter().map(row));
-    // That a rate agrees is what all other columns say; a reason is worth its room where one does not.
     if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
         rates.head.pop();
         rates.rows.iter_mut().for_each(|row| drop(row.pop()));
@@ -64,26 +53,6 @@ fn levels(rate: &RateVerdict) -> String {
 fn checks(checks: &[Check]) -> Table {
     let row = |check: &Check| [check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
     table("Checks", ["claim", "verdict", "evidence"], checks.iter().map(row))
-}
-
-/// One row for each level, one column for each norm.
-fn errors(levels: &[LevelErrors]) -> Table {
-    let norms = distinct(levels.iter().flat_map(|level| level.errors.iter().map(|(norm, _)| norm)));
-    let parameters = distinct(levels.iter().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
-    let row = |level: &LevelErrors| {
-        let parameter = |name: &&String| level.parameter(name).map_or_else(|| "-".to_owned(), plain_text);
-        let error = |norm: &&String| {
-            let found = level.errors.iter().find(|(name, _)| name == *norm);
-            found.map_or_else(|| "-".to_owned(), |(_, error)| error_text(*error))
-        };
-        parameters.iter().map(parameter).chain(norms.iter().map(error)).collect()
-    };
-    let head = parameters.iter().chain(&norms).map(|name| name.as_str());
-    Table {
-        title: "Errors".to_owned(),
-        head: head.map(str::to_owned).collect(),
-        rows: levels.iter().map(row).collect(),
-    }
 }
 
 fn failures(failed: &[FailedCase]) -> Table {

@@ -8,7 +8,9 @@ use crate::study::outcome::Outcome;
 use crate::text::number::{committed_rate, plain_text, rate_text};
 
 /// The verdict on a run in one line, without the verdict itself.
-pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
+///
+/// * `changes`: what moved away from the baseline; `None` where there was none to compare with.
+pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
     let of = |verdict: Verdict| {
         let ids = finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
         ids.map(|finished| finished.header.id.as_str()).collect::<Vec<_>>()
@@ -30,7 +32,10 @@ pub fn sentence(finished: &[Finished], changes: &[Change]) -> String {
                 .join(", ")
         }
     };
-    format!("{studies}; {}", guarded(finished, changes))
+    match changes {
+        Some(changes) => format!("{studies}; {}", guarded(finished, changes)),
+        None => studies,
+    }
 }
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {

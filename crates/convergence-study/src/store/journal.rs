@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use super::record::Errors;
 use super::record::form::{self, null_is_nan};
-use super::{atomic, regular, writing};
+use super::{regular, writing};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::provenance::Provenance;
@@ -190,12 +190,4 @@ pub fn read(path: &Path) -> Result<Vec<Run>, JournalError> {
         runs.push(run);
     }
     if runs.is_empty() { Err(JournalError::Empty { path: path.to_owned() }) } else { Ok(runs) }
-}
-
-/// Writes a page or a badge made of a journal.
-///
-/// # Errors
-/// [`JournalError::File`].
-pub fn write(path: &Path, text: &str) -> Result<(), JournalError> {
-    atomic::write(path, text).map_err(|error| JournalError::File { path: path.to_owned(), error })
 }

@@ -11,12 +11,29 @@ use crate::store::baseline::Change;
 
 /// The document, for a project of that name.
 ///
+/// * `changes`: what moved away from the baseline, a suite of its own; `None` where there was none to compare with.
+///
 /// # Errors
 /// What `quick-junit` cannot write.
-pub fn junit(name: &str, finished: &[Finished], changes: &[Change]) -> Result<String, SerializeError> {
+pub fn junit(name: &str, finished: &[Finished], changes: Option<&[Change]>) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
     report.add_test_suites(finished.iter().map(suite));
-    report.add_test_suite(baseline(changes));
+    report.add_test_suites(changes.map(baseline));
+    report.to_string()
+}
+
+/// Something judged, as a test case: its name, its verdict, and the reason where it is not a pass.
+pub type Judged = (String, Verdict, String);
+
+/// A document with one suite.
+///
+/// # Errors
+/// What `quick-junit` cannot write.
+pub fn junit_of(name: &str, suite: &str, judged: &[Judged]) -> Result<String, SerializeError> {
+    let mut cases = TestSuite::new(suite);
+    cases.add_test_cases(judged.iter().map(|(name, verdict, reason)| case(suite, name, *verdict, reason)));
+    let mut report = Report::new(name);
+    report.add_test_suite(cases);
     report.to_string()
 }
 

@@ -6,6 +6,7 @@ use std::process::Command;
 use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use chrono::DateTime;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
@@ -74,6 +75,29 @@ impl Provenance {
             studies: finished.iter().map(time).collect(),
         }
     }
+}
+
+impl Provenance {
+    /// Commit, date, machine and tools in a sentence each, as far as they are known.
+    pub fn sentences(&self) -> Vec<String> {
+        let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };
+        let commit = self.git_revision.as_ref().map(|revision| format!("Commit {revision}{changed}."));
+        let date = self.finished_at.and_then(date).map(|date| date + ".");
+        let threads = match self.threads_available {
+            Some(available) => format!("{} of {available} threads", self.jobs),
+            None => format!("{} threads", self.jobs),
+        };
+        let cpu = self.cpu.as_deref().unwrap_or("an unknown processor");
+        let machine = Some(format!("{cpu}, {}, {threads}.", self.platform));
+        let toolchain = self.toolchain.as_ref().map(|toolchain| format!("{toolchain}."));
+        [commit, date, machine, toolchain].into_iter().flatten().collect()
+    }
+}
+
+/// Seconds since 1970 as a date with the time of day; `None` beyond the calendar.
+pub fn date(seconds: u64) -> Option<String> {
+    let date = DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0)?;
+    Some(date.format("%Y-%m-%d %H:%M UTC").to_string())
 }
 
 fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {

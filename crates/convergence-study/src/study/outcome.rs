@@ -70,7 +70,7 @@ impl Check {
 }
 
 /// A table, printed with its columns lined up.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Table {
     /// What it shows.
     pub title: String,

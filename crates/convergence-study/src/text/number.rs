@@ -6,8 +6,8 @@ const DIGITS: usize = 6;
 /// Decimal place beyond which the digits of quantities of order 1 are their rounding errors.
 const NOISE_PLACE: i32 = 15;
 
-/// Decimal places of a rate: a relative change of an error by 1e-5 does not show.
-const RATE_PLACES: usize = 4;
+/// Decimal places of a rate in a committed file: a relative change of an error by 1e-5 does not show.
+pub const RATE_PLACES: usize = 4;
 
 /// The larger of two numbers; NaN if one of them is, which `f64::max` would hide.
 pub fn max_or_nan(a: f64, b: f64) -> f64 {
@@ -48,6 +48,24 @@ pub fn rate_text(rate: Option<f64>) -> String {
     rate.map_or_else(|| "-".to_owned(), |rate| format!("{:.3}", committed_rate(rate)))
 }
 
+/// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most `most`.
+pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
+    let width = high - low;
+    if width.is_nan() || width.is_infinite() {
+        return most.min(3);
+    }
+    let needed = if width > 0.0 { (1.0 - width.log10().floor()) as usize } else { most };
+    needed.clamp(most.min(2), most)
+}
+
+/// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`. One that is narrower than
+/// the last of them is its place and what was rounded off: `2.0000 ± 0.00005`.
+pub fn interval_text(interval: [f64; 2], most: usize) -> String {
+    let places = interval_places(interval, most);
+    let [low, high] = interval.map(|end| decimals(end, places));
+    if low == high { format!("{low} ± 0.{}5", "0".repeat(places)) } else { format!("{low} to {high}") }
+}
+
 /// A number with so many decimals; one that is rounded to nothing shows no sign.
 pub fn decimals(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
@@ -82,6 +100,22 @@ mod tests {
         assert_eq!(decimals(-4e-10, 8), "0.00000000");
         assert_eq!(decimals(-4e-8, 8), "-0.00000004");
         assert_eq!(decimals(f64::NAN, 2), "NaN");
+    }
+
+    #[test]
+    fn an_interval_has_two_digits_of_its_width_and_never_two_equal_ends() {
+        for (interval, text) in [
+            ([1.5, 2.5], "1.50 to 2.50"),
+            ([1.9581, 1.9613], "1.9581 to 1.9613"),
+            ([1.958, 1.991], "1.958 to 1.991"),
+            ([0.99999, 1.00001], "1.0000 ± 0.00005"),
+            ([1.0, 1.0], "1.0000 ± 0.00005"),
+            ([-0.2, 30.0], "-0.20 to 30.00"),
+        ] {
+            assert_eq!(interval_text(interval, 4), text);
+        }
+        assert_eq!(interval_text([0.999_99, 1.000_01], 6), "0.999990 to 1.000010");
+        assert_eq!(interval_text([f64::NAN, 1.0], 4), "NaN to 1.000");
     }
 
     #[test]

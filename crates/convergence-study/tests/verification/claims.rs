@@ -74,7 +74,7 @@ fn claims_of_studies_that_are_not_run_are_compared_too() {
     let changes = baseline.compare(&ran, Some(&known));
     assert_eq!(words(&changes), expected);
     assert!(baseline.compare(&ran, None).is_empty(), "a selection looks at itself alone");
-    assert!(sentence(&ran, &changes).ends_with("; 3 claims changed, 1 baseline value changed"));
+    assert!(sentence(&ran, Some(&changes)).ends_with("; 3 claims changed, 1 baseline value changed"));
     // What was not run is blessed by the tier that runs it.
     assert_eq!(
         blessing(&PROJECT, "cargo xtask verify", &ran, &changes),
@@ -156,7 +156,7 @@ fn a_changed_claim_fails_the_run_and_is_in_every_report() {
         assert!(report("README.md").contains("`cargo xtask verify --bless --reason TEXT`"));
         assert!(report("index.html").contains("claim expect[0].tolerance"), "{}", report("index.html"));
         assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
-        let xml = junit(PROJECT.name, &found.finished, &found.changes).unwrap();
+        let xml = junit(PROJECT.name, &found.finished, Some(&found.changes)).unwrap();
         assert_eq!(report("junit.xml"), xml);
         assert!(xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"), "{xml}");
     }

@@ -151,5 +151,12 @@ pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
 /// A verification of the quick tier in which there are these studies.
 pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
     let scope = Scope::Tier(Tier::Quick, ids(known));
-    Request { scope, effort: jobs(2).into(), bless: false, reason: None, root: root.to_owned() }
+    Request {
+        scope,
+        effort: jobs(2).into(),
+        bless: false,
+        reason: None,
+        root: root.to_owned(),
+        reports: root.join("reports"),
+    }
 }

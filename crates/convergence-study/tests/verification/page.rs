@@ -12,8 +12,17 @@ use crate::fake::{Does, PROJECT, finished, study};
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let see_also = Some(("the report on the full tier", "full"));
     let command = "cargo xtask verify";
-    Findings { project: &PROJECT, scope: "quick", command, finished, changes: &[], verdict: Verdict::Fail, see_also }
-        .page()
+    Findings {
+        project: &PROJECT,
+        scope: "quick",
+        command,
+        finished,
+        changes: Some(&[]),
+        verdict: Verdict::Fail,
+        see_also,
+        provenance: None,
+    }
+    .page()
 }
 
 /// One study that passes and one that fails, with a picture of two curves each.

@@ -1,9 +1,9 @@
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::report::{Findings, tables};
+use convergence_study::judge::verdict::{Verdict, judge_pairs};
+use convergence_study::report::{Findings, sentence, tables};
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::Baseline;
 use convergence_study::store::junit::junit;
-use convergence_study::study::outcome::Quantity;
+use convergence_study::study::outcome::{LevelErrors, Quantity, Table};
 use roxmltree::Document;
 
 use crate::fake::{Does, PROJECT, finished, study};
@@ -21,9 +21,10 @@ fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
         scope: "quick",
         command,
         finished,
-        changes: &changes,
+        changes: Some(&changes),
         verdict: Verdict::Fail,
         see_also: None,
+        provenance: None,
     })
 }
 
@@ -85,7 +86,7 @@ fn csv_has_one_error_a_line() {
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = junit(PROJECT.name, &studies, &Baseline::default().compare(&studies, None)).unwrap();
+    let text = junit(PROJECT.name, &studies, Some(&Baseline::default().compare(&studies, None))).unwrap();
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
     let failures: Vec<&str> = suites.iter().map(|suite| suite.attribute("failures").unwrap()).collect();
@@ -107,7 +108,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
-    let text = junit(PROJECT.name, &studies, &[]).unwrap();
+    let text = junit(PROJECT.name, &studies, None).unwrap();
     let document = Document::parse(&text).unwrap();
     let message =
         document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
@@ -128,10 +129,11 @@ fn a_reason_is_given_where_a_rate_does_not_hold() {
     let heads: Vec<bool> =
         studies.iter().map(|finished| tables(finished)[0].head.contains(&"reason".to_owned())).collect();
     assert_eq!(heads, [false, true]);
+    assert_eq!(tables(&studies[1])[0].rows[0].last().unwrap(), "the error does not fall on the finest refinement");
     let rates = &tables(&studies[0])[0];
     assert_eq!(rates.head.len(), rates.rows[0].len());
-    assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.000"]);
-    assert_eq!(rates.rows[0][6], "1-5 of 5");
+    assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.0000"]);
+    assert_eq!(rates.rows[0][5], "1-5 of 5");
 }
 
 #[test]
@@ -153,4 +155,75 @@ fn many_numbers_that_moved_are_folded() {
     assert!(with(&studies, |findings| findings.readme()).contains("baseline\n\n| study"));
     studies[0].outcome.quantities = (0..100).map(|i| Quantity { name: format!("q{i}"), ..one.clone() }).collect();
     assert!(with(&studies, |findings| findings.readme()).contains("<summary>100 numbers</summary>"));
+}
+
+/// Errors of several names, each of its order, on levels of which each name may lack some.
+fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finished {
+    let mut finished = finished(vec![study("a", Does::Converge)]).remove(0);
+    let steps = || (0..6).map(|level| 0.5_f64.powi(level + 3));
+    let outcome = &mut finished.outcome;
+    outcome.levels = steps()
+        .enumerate()
+        .map(|(level, h)| {
+            let present = names.iter().enumerate().filter(|(k, _)| !lacks(*k, level));
+            let errors = present.map(|(_, (name, order))| ((*name).to_owned(), h.powf(*order))).collect();
+            LevelErrors { parameters: vec![("cells".to_owned(), 1.0 / h)], step: Some(h), work: None, errors }
+        })
+        .collect();
+    let rate = |(k, (name, order)): (usize, &(&str, f64))| {
+        let pairs = steps().enumerate().filter(|(level, _)| !lacks(k, *level)).map(|(_, h)| (h, h.powf(*order)));
+        ((*name).to_owned(), judge_pairs(pairs, *order, 0.05))
+    };
+    outcome.rates = names.iter().enumerate().map(rate).collect();
+    finished
+}
+
+fn errors_of(finished: &Finished) -> Vec<Table> {
+    tables(finished).into_iter().filter(|table| table.title.starts_with("Errors")).collect()
+}
+
+#[test]
+fn the_rate_from_the_level_before_stands_beside_each_error() {
+    let tables = errors_of(&judged(&[("L2", 2.0), ("H1", 1.0)], |_, _| false));
+    assert_eq!(tables.len(), 1);
+    assert_eq!(tables[0].head, ["cells", "L2", "rate", "H1", "rate"]);
+    assert_eq!(tables[0].rows[0], ["8", "1.562e-2", "-", "1.250e-1", "-"]);
+    assert_eq!(tables[0].rows[5], ["256", "1.526e-5", "2.000", "3.906e-3", "1.000"]);
+    // A number that nobody judged has no rate.
+    let mut unclaimed = judged(&[("L2", 2.0), ("H1", 1.0)], |_, _| false);
+    unclaimed.outcome.rates.pop();
+    assert_eq!(errors_of(&unclaimed)[0].head, ["cells", "L2", "rate", "H1"]);
+}
+
+#[test]
+fn many_errors_are_several_tables_of_which_none_is_wide() {
+    let names: Vec<String> = (0..20).map(|k| format!("norm number {k}")).collect();
+    let names: Vec<(&str, f64)> = names.iter().map(|name| (name.as_str(), 2.0)).collect();
+    let tables = errors_of(&judged(&names, |_, _| false));
+    let width = |table: &Table| {
+        let widest = |k: usize| table.rows.iter().chain([&table.head]).map(|row| row[k].chars().count()).max().unwrap();
+        (0..table.head.len()).map(|k| widest(k) + 3).sum::<usize>()
+    };
+    assert!(tables.len() > 2 && tables.iter().all(|table| width(table) <= 120), "{tables:?}");
+    let shown: Vec<&String> =
+        tables.iter().flat_map(|table| &table.head).filter(|name| name.starts_with("norm")).collect();
+    assert_eq!(shown, names.iter().map(|(name, _)| name).collect::<Vec<_>>());
+}
+
+#[test]
+fn errors_on_other_levels_are_a_table_without_gaps() {
+    let tables = errors_of(&judged(&[("coarse", 1.0), ("fine", 2.0)], |k, level| (k == 0) == (level >= 3)));
+    assert_eq!(tables.iter().map(|table| table.rows.len()).collect::<Vec<_>>(), [3, 3]);
+    assert_eq!(tables[1].rows[0], ["64", "2.441e-4", "-"]);
+    assert_eq!(tables[1].rows[1][2], "2.000");
+}
+
+#[test]
+fn without_a_baseline_nothing_is_said_of_it() {
+    let studies = finished(vec![study("a", Does::Converge)]);
+    let compared = |changes| {
+        let text = junit(PROJECT.name, &studies, changes).unwrap();
+        (text.contains("baseline"), sentence(&studies, changes).contains("baseline"))
+    };
+    assert_eq!((compared(Some(&[])), compared(None)), ((true, true), (false, false)));
 }

@@ -14,12 +14,12 @@ fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
     verify(&PROJECT, &studies, request, &|_| {}).unwrap()
 }
 
-/// The files directly in a folder and in its figures.
+/// The files directly in a folder and in its figures, without the page, which is of one run.
 fn committed(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let files = |folder: &Path| {
         let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
         entries
-            .filter(|path| path.is_file())
+            .filter(|path| path.is_file() && path.file_name().is_some_and(|name| name != "index.html"))
             .map(|path| (path.display().to_string(), fs::read(&path).unwrap()))
             .collect::<Vec<_>>()
     };
@@ -67,8 +67,8 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let mut request = request(root.path(), &["a", "b", "c"]);
     run(studies(), &request);
     let first = committed(&reports);
-    // Six files of the set, the picture of all rates, one figure a study.
-    assert_eq!(first.len(), 6 + 1 + 3);
+    // Five files of the set, the picture of all rates, one figure a study.
+    assert_eq!(first.len(), 5 + 1 + 3);
     for count in [1, 4] {
         request.effort = jobs(count).into();
         run(studies(), &request);
@@ -78,6 +78,11 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let provenance: serde_json::Value = serde_json::from_str(&provenance).unwrap();
     assert_eq!((&provenance["jobs"], &provenance["command"]), (&4.into(), &"cargo xtask verify".into()));
     assert_eq!(provenance["studies"].as_array().unwrap().len(), 3);
+    let page = fs::read_to_string(reports.join("index.html")).unwrap();
+    for known in [format!("4 of {} threads.", provenance["threads_available"]), "UTC.".to_owned(), "rustc ".to_owned()]
+    {
+        assert!(page.contains(&known), "{known}");
+    }
 }
 
 #[test]

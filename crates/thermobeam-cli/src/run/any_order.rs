@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
-use convergence_study::cli::output::{self, Format};
-use convergence_study::cli::{interrupt, progress};
+use convergence_study::cli::{interrupt, output, progress};
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use thermobeam_study::predict::any_order::{Budget, estimate};
@@ -12,7 +11,7 @@ use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIME
 use thermobeam_study::scene::any_order::AnyOrderScene;
 
 use super::any_order_accuracy::{self as accuracy, NotChosen, PlannedAnyOrder};
-use super::{Arguments, ending, summary, write_files};
+use super::{Arguments, complaint, summary, write_files};
 
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
@@ -44,11 +43,11 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
         },
     };
     let scene = planned.as_ref().map_or(scene, |planned| planned.scene());
-    let times = if arguments.out.is_some() { HISTORY_TIMES } else { 0 };
-    if let Some(folder) = &arguments.out {
+    let times = if arguments.flags.out.is_some() { HISTORY_TIMES } else { 0 };
+    if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let bar = progress::counting(&scene.name, TICKS as usize, "parts of the time", arguments.quiet);
+    let bar = progress::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
     let (shown, t_end) = (bar.clone(), scene.t_end);
     interrupt::say(move || {
         format!("t = {:.3} of {t_end} was reached; nothing is kept", shown.position() as f64 / TICKS * t_end)
@@ -58,31 +57,23 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     bar.finish_and_clear();
     let found = found.map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let files = (times > 0).then(|| ("history.csv", found.csv())).into_iter().chain(found.pictures(scene));
-    let written = arguments.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, files))?;
+    let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, files))?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && found.failure.is_none();
     let budget = wanted.then(|| estimate(scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    match arguments.format {
-        Format::Json => {
-            let object = AnyOrderObject::new(scene, &found);
-            let accuracy = planned.as_ref().map(|planned| planned.object());
-            output::print_json(&Printed { object, error_budget: known, accuracy })?;
+    let complaint = complaint(found.energy.sound(found.steps), found.failure.as_ref(), budget.as_ref().err());
+    let accuracy = planned.as_ref().map(|planned| planned.object());
+    let object = Printed { object: AnyOrderObject::new(scene, &found), error_budget: known, accuracy };
+    let sentence = format!("{}: {} steps, to t = {} of {t_end}", scene.name, found.steps, found.ends[1].t);
+    arguments.show(complaint, &object, &sentence, || {
+        let mut text = text(scene, &found, planned.as_ref());
+        summary::list(&mut text, &written);
+        if let Some(budget) = known {
+            let _ = writeln!(text, "\n{budget}");
         }
-        Format::Text => {
-            let mut text = text(scene, &found, planned.as_ref());
-            summary::list(&mut text, &written);
-            if let Some(budget) = known {
-                let _ = writeln!(text, "\n{budget}");
-            }
-            output::print(&text)?;
-        }
-    }
-    if let Err(reason) = budget {
-        output::complain(&format!("{}: error budget: {reason}", arguments.scene.display()));
-        return Ok(Ended::Badly);
-    }
-    Ok(ending(&arguments.scene, found.failure.as_ref(), found.energy.sound(found.steps)))
+        text
+    })
 }
 
 fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {

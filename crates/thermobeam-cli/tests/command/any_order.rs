@@ -11,7 +11,7 @@ pub(crate) fn thrown(mesh: &str, time: &str) -> String {
 }
 
 /// Keys of the object of any scene of any order; those of inner objects begin with an underscore.
-const CONTRACT: &str = "scene elements steps dt t_end iterations _total _max wall_seconds \
+const CONTRACT: &str = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
     final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
     energy _initial _final _largest_increase _largest_balance_residual \
     scheme degree time_degree restart_dt growth work _passes _factorizations events __t __from __to";

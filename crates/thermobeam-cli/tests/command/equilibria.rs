@@ -13,8 +13,8 @@ fn the_states_below_the_buckling_force_are_listed() {
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let state = ["contact", "n_value", "u_tip", "phi_tip", "stable"];
     let found = keys(&json.stdout);
-    assert_eq!(found[0], "equilibria");
-    assert_eq!(found[1..6].iter().map(|key| key.trim_start()).collect::<Vec<_>>(), state);
+    assert_eq!(found[..3], ["schema", "verdict", "equilibria"]);
+    assert_eq!(found[3..8].iter().map(|key| key.trim_start()).collect::<Vec<_>>(), state);
 
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     assert_eq!(value["complete"], true);

@@ -5,7 +5,7 @@ use crate::{Folder, ended, thermobeam};
 #[test]
 fn a_new_study_passes_as_it_is() {
     let folder = Folder::new();
-    let ended = ended(thermobeam().args(["new", "study", "my-own.1", "--dir"]).arg(folder.path("")));
+    let ended = ended(thermobeam().args(["new", "study", "my-own.1", "--out"]).arg(folder.path("")));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.contains("thermobeam study"), "{}", ended.stdout);
     let study = crate::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
@@ -25,7 +25,7 @@ fn a_new_scene_runs_as_it_is() {
         .current_dir(folder.path(""))
         .output()
         .expect("it starts");
-    assert!(new.status.success() && new.stdout.is_empty());
+    assert!(new.status.success() && new.stdout == b"pass: wrote mine.toml\n");
     let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
     assert!(ended.stdout.starts_with("mine: 100 elements"), "{}", ended.stdout);
@@ -35,7 +35,7 @@ fn a_new_scene_runs_as_it_is() {
 fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
     let folder = Folder::new();
     let path = folder.file("taken.toml", "mine");
-    let again = ended(thermobeam().args(["new", "scene", "taken", "--dir"]).arg(folder.path("")));
+    let again = ended(thermobeam().args(["new", "scene", "taken", "--out"]).arg(folder.path("")));
     assert!(
         again.status == Some(2) && again.stderr.contains("taken.toml: expected a new file, found one of that name"),
         "{}",
@@ -49,7 +49,8 @@ fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
             "{name}"
         );
     }
-    assert_eq!(ended(thermobeam().args(["new", "study", "x", "--dir", "nowhere"])).status, Some(2));
+    let in_a_file = ended(thermobeam().args(["new", "study", "x", "--out"]).arg(folder.path("taken.toml")));
+    assert_eq!(in_a_file.status, Some(2), "{}", in_a_file.stderr);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod any_order;
 mod equilibria;
 mod failure;
 mod first_steps;
+mod flags;
 mod interrupted;
 mod killed;
 mod places;

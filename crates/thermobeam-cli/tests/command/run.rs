@@ -33,7 +33,7 @@ fn the_keys_and_their_order_are_the_contract() {
     let folder = Folder::new();
     let (ended, _) = run_json(&folder.file("scene.toml", &thrown("dt = 0.1")));
     let found = keys(&ended.stdout);
-    let contract = "scene elements steps dt t_end iterations _total _max wall_seconds \
+    let contract = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
         final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
         energy _initial _final _largest_increase _largest_balance_residual";
     let added = "scheme solver heated contact_steps work _passes _factorizations";
@@ -69,13 +69,18 @@ fn the_history_and_the_pictures_of_every_scheme_are_written() {
             .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
             .collect();
         names.sort();
-        let pictures =
-            ["energy.svg", "history.csv", "motion.svg", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
-        assert_eq!(names, pictures);
+        let pictures = ["energy.svg", "motion.svg", "space-time.svg", "tip-displacement.svg", "tip-rotation.svg"];
+        let mut expected = [&pictures[..], &["history.csv", "run.json"]].concat();
+        expected.sort_unstable();
+        assert_eq!(names, expected);
         for name in names {
             assert!(ended.stdout.contains(&name), "{}", ended.stdout);
             let text = std::fs::read_to_string(out.join(&name)).expect("text");
-            let is_whole = if name.ends_with("csv") { text.lines().count() == lines } else { text.starts_with("<svg") };
+            let is_whole = match name.as_str() {
+                "history.csv" => text.lines().count() == lines,
+                "run.json" => text.starts_with("{\n  \"schema\": 1,\n  \"verdict\": \"pass\",\n"),
+                _ => text.starts_with("<svg"),
+            };
             assert!(is_whole, "{name}");
         }
     }

@@ -1,17 +1,16 @@
 //! The error of a discrete level: in the norm of Theorem 3.4, to the interpolant (superclose), and at the tip.
 //!
-//! Against an exact solution, or against a run so fine that its own error does not matter. The reference's mesh must
+//! Against an exact solution, or against a run of any order ([`Reference`]), whose own error does not matter. The reference's mesh must
 //! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
 
+use crate::error::reference::Reference;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::kinds::tables::{Manufactured, Norm, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
-use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
-use thermobeam::scheme::MIDPOINT;
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::Level;
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,35 +37,9 @@ impl ErrorMeasure {
     }
 }
 
-/// A very fine run, kept at the times of observation.
-#[derive(Debug, Clone)]
-pub struct Reference {
-    mesh: Mesh,
-    lengths: Vec<f64>,
-    /// At t = k t_end / observations, k = 1..
-    levels: Vec<Level>,
-}
-
-impl Reference {
-    /// Runs the family by `midpoint`; `steps` must be a multiple of `observations`.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] where the run does not come to its end.
-    pub fn compute(family: &Family, elements: usize, steps: usize, observations: usize) -> Result<Self, CaseFailure> {
-        let on = family.on(elements)?;
-        let mut run = on.start(MIDPOINT, Settings { tolerance: 1e-13, ..Settings::default() }, steps)?;
-        let mut levels = Vec::with_capacity(observations);
-        for _ in 0..observations {
-            run.advance(steps / observations)?;
-            levels.push(run.level().clone());
-        }
-        Ok(Self { lengths: on.mesh().lengths().collect(), mesh: on.mesh().clone(), levels })
-    }
-}
-
 enum Answer<'a> {
     Exact { exact: &'a Manufactured, meter: Box<ErrorMeter>, factors: Factors, tip: Vec<f64> },
-    Computed { reference: &'a Reference, stride: usize, nodes: Vec<f64>, lengths: Vec<f64> },
+    Computed { reference: &'a Reference, stride: usize, nodes: Vec<f64>, lengths: [Vec<f64>; 2] },
 }
 
 /// Measures the levels of one mesh.
@@ -84,11 +57,11 @@ impl<'a> Evaluator<'a> {
         let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
         let answer = match (reference, family.exact()) {
             (Some(reference), _) => {
-                let (fine, coarse) = (reference.lengths.len(), mesh.elements());
+                let (fine, coarse) = (reference.mesh.elements(), mesh.elements());
                 if !fine.is_multiple_of(coarse) {
                     return Err(fail("the reference's number of elements is no multiple of this mesh's"));
                 }
-                let lengths = mesh.lengths().collect();
+                let lengths = [mesh, &reference.mesh].map(|mesh| mesh.lengths().collect());
                 Answer::Computed { reference, stride: fine / coarse, nodes: mesh.nodes().to_vec(), lengths }
             }
             (None, Some(exact)) => {
@@ -113,8 +86,8 @@ impl<'a> Evaluator<'a> {
             }
             Answer::Computed { reference, stride, nodes, lengths } => {
                 let fine = &reference.levels[index];
-                let nodal = distance(lengths, level, &restrict(fine, *stride));
-                let full = distance(&reference.lengths, &prolong(level, nodes, reference.mesh.nodes()), fine);
+                let nodal = distance(&lengths[0], level, &restrict(fine, *stride));
+                let full = distance(&lengths[1], &prolong(level, nodes, reference.mesh.nodes()), fine);
                 let tip = level.u[level.u.len() - 1] - fine.u[fine.u.len() - 1];
                 [full, nodal, tip.abs()]
             }

@@ -1,5 +1,6 @@
-//! Errors of runs against what is known: manufactured solutions in their three designs, exact vibrations, finer runs.
+//! Errors of runs against what is known: manufactured solutions in their three designs, exact vibrations, runs of any order.
 
 pub mod design;
 pub mod evaluator;
 pub mod free_vibration;
+pub mod reference;

@@ -3,8 +3,8 @@
 //! A discretisation is judged by two comparisons in the curve u(1, t), inside steps as well as at their ends: with a finer
 //! space (p + 2, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
 //! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long.
-//! High orders make the finer run so much better that the difference is the error of the coarser one. What is larger than its
-//! half of the target is refined, by as much as the difference calls for, and the comparison repeated.
+//! The finer run is so much more accurate that the difference estimates the error of the coarser one. If a difference exceeds
+//! half of the target, space or time is refined according to their ratio, and both runs are compared again.
 //!
 //! * Steps: during an impact, of duration (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
 //!   which ends of steps do not show. The degree q helps between impacts, short steps within.
@@ -48,8 +48,7 @@ const MOST_HALVINGS: i32 = 2;
 
 /// Degrees added in one go, and the degree from which on elements are halved instead.
 const MOST_DEGREES: usize = 8;
-const HIGHEST_DEGREE: usize = 26;
-const DEGREE_OF_HALVED: usize = 14;
+const HIGHEST_DEGREE: usize = 27;
 
 /// Growth of steps below which it is kept: they would never reach dt.
 const LEAST_GROWTH: f64 = 1.02;
@@ -129,12 +128,13 @@ pub enum Unreachable {
     },
     /// Refinement came to its end.
     #[error(
-        "an error of {target:.3e} in u(1, t) was not reached: {reason}; about {reached:.1e} can be reached (space {space:.1e}, time {time:.1e})"
+        "an error of {target:.3e} in u(1, t) was not reached: {reason}{}",
+        reachable(*reached, *space, *time)
     )]
     NotReached {
         /// As asked for.
         target: f64,
-        /// The smallest error that a comparison has confirmed.
+        /// The smallest target that the comparisons would have met.
         reached: f64,
         /// Its part of space.
         space: f64,
@@ -146,6 +146,15 @@ pub enum Unreachable {
     /// A run did not come to its end.
     #[error("a run to compare with failed: {0}")]
     Run(String),
+}
+
+/// What can be reached, in words; nothing before the first comparison.
+fn reachable(reached: f64, space: f64, time: f64) -> String {
+    if reached.is_finite() {
+        format!("; about {reached:.1e} can be reached (space {space:.1e}, time {time:.1e})")
+    } else {
+        String::new()
+    }
 }
 
 /// Chooses degrees, elements and steps.
@@ -165,7 +174,6 @@ pub fn choose(scene: &AnyOrderScene, target: f64) -> Result<Choice, Unreachable>
     for _ in 0..ROUNDS {
         let finer = finer_space(&scene).ok_or_else(|| search.not_reached("the elements are as fine as they get"))?;
         let shorter = finer_steps(&scene);
-        // Each comparison only where the last one does not hold any more: refining time leaves the error of space.
         let in_space = search.sample(&finer)?;
         let in_time = search.sample(&shorter)?;
         let (space, time) = (distance(&base.u, &in_space.u), distance(&base.u, &in_time.u));
@@ -215,7 +223,7 @@ impl Search {
     }
 
     fn sample(&mut self, scene: &AnyOrderScene) -> Result<Sampled, Unreachable> {
-        // A refinement costs four times the run before it at most, by halving steps twice.
+        // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
         if !(4.0 * self.last.unknown_solves <= MOST_UNKNOWN_SOLVES) {
             return Err(self.not_reached("a finer run would take more than some ten minutes"));
         }
@@ -243,15 +251,13 @@ impl Search {
 
     fn not_reached(&self, reason: &'static str) -> Unreachable {
         let [space, time] = self.best;
-        Unreachable::NotReached { target: self.target, reached: (space + time) / SHARE, space, time, reason }
+        Unreachable::NotReached { target: self.target, reached: space.max(time) / SHARE, space, time, reason }
     }
 }
 
-/// Duration of an impact, (ε √ζ)^(2/3); without obstacles the longest step stands in for it.
+/// Duration of an impact; without obstacles the longest step stands in for it.
 fn impact(scene: &AnyOrderScene) -> f64 {
-    let of =
-        |obstacles: &thermobeam::parameters::Obstacles| (obstacles.epsilon * scene.beam.zeta.sqrt()).powf(2.0 / 3.0);
-    scene.obstacles.as_ref().map_or(LONGEST, of)
+    scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
 /// Longest step for an error of 1e-5: a tenth of the shortest period that carries much energy.
@@ -274,7 +280,8 @@ fn first(scene: &AnyOrderScene, target: f64) -> AnyOrderScene {
     // The layer at x = 1 some four impacts after a touch.
     let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);
     let nodes = if scene.obstacles.is_some() { graded(layer) } else { vec![0.0, 1.0] };
-    let degree = (4.0 + 1.2 * digits).round() as usize;
+    // An odd degree has as many unknowns as the even one below it: odd ones only.
+    let degree = (4.0 + 1.2 * digits).round() as usize | 1;
     // Nodes that increase from 0 to 1.
     let mesh = Mesh::from_nodes(nodes).unwrap_or_else(|_| scene.mesh.clone());
     AnyOrderScene { mesh, degree, stepping, ..scene.clone() }
@@ -306,7 +313,7 @@ fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
         }
     }
     nodes.push(1.0);
-    let mesh = (nodes.len() <= MOST_ELEMENTS).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
+    let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
     Some(AnyOrderScene { mesh, ..scene.clone() })
 }
 
@@ -314,14 +321,11 @@ fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
 fn more_space(scene: &AnyOrderScene, factor: f64) -> Option<AnyOrderScene> {
     let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();
     let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };
-    // Odd degrees add nothing to some fields: even ones only.
     let degree = scene.degree + degrees + degrees % 2;
     if degree <= HIGHEST_DEGREE {
         return Some(AnyOrderScene { degree, ..scene.clone() });
     }
-    // Halving elements of degree p gains 2^p on smooth parts, so that a lower degree will do.
     halved(scene)
-        .map(|halved| AnyOrderScene { degree: halved.degree.clamp(DEGREE_OF_HALVED, HIGHEST_DEGREE), ..halved })
 }
 
 fn half_steps(stepping: Stepping) -> Stepping {

@@ -15,9 +15,6 @@ use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally};
 use crate::figures::SceneMotion;
 use crate::scene::any_order::{AnyOrderScene, SCHEME};
 
-/// Points of a step at which the free end's extremes are looked for.
-const POINTS_PER_STEP: usize = 16;
-
 /// Times of a history: more than a figure has columns.
 pub const HISTORY_TIMES: usize = 4000;
 
@@ -62,12 +59,12 @@ pub struct AnyOrderRun {
     pub extremes: Extremes,
     /// Energy and balance.
     pub energy: EnergySummary,
+    /// What the free end touched at the start.
+    pub started_in: Phase,
     /// Where contact began and ended.
     pub events: Vec<ContactEvent>,
     /// Solves and factorisations.
     pub work: thermobeam::dg::Work,
-    /// States at the times asked for.
-    pub at_times: Vec<Sample>,
     /// States at equally spaced times; empty unless asked for.
     pub history: Vec<Sample>,
     /// Displacement over space and time; empty unless asked for.
@@ -84,21 +81,34 @@ pub struct AnyOrderRun {
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
 pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
-    run_at(scene, &[], times, progress)
+    watched(scene, &[], &mut |_, _| (), times, true, progress)
 }
 
-/// Runs a scene; a step ends at each of the times `at`, which increase, and the state there is kept.
+/// Runs a scene without frames for pictures; a step ends at each of the times `at`, which increase, and is shown to `observe` with
+/// the state there.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_at(
     scene: &AnyOrderScene,
     at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
+    watched(scene, at, observe, times, false, progress)
+}
+
+fn watched(
+    scene: &AnyOrderScene,
+    at: &[f64],
+    observe: &mut dyn FnMut(&Simulation, Sample),
+    times: usize,
+    framed: bool,
+    progress: &mut dyn FnMut(f64),
+) -> Result<AnyOrderRun, SetupError> {
     let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
-    let mut observed = Observed::new(&simulation, scene, at, times);
+    let mut observed = Observed::new(&simulation, scene, times, framed && times > 0);
     let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
@@ -112,7 +122,12 @@ pub fn run_at(
         let outcome = simulation.step(limit);
         wall += started.elapsed();
         match outcome {
-            Ok(Some(report)) => observed.step(&simulation, report.iterations),
+            Ok(Some(report)) => {
+                observed.step(&simulation, report.iterations);
+                if at.contains(&simulation.t()) {
+                    observe(&simulation, state(&simulation, scene, simulation.level()));
+                }
+            }
             Ok(None) => break,
             Err(error) => {
                 failure = Some(error.into());
@@ -129,16 +144,16 @@ struct Observed<'s> {
     scene: &'s AnyOrderScene,
     level: Level,
     first: Sample,
+    started_in: Phase,
     tally: Tally,
-    at: &'s [f64],
-    at_times: Vec<Sample>,
     times: usize,
+    framed: bool,
     history: Vec<Sample>,
     frames: Frames,
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, at: &'s [f64], times: usize) -> Self {
+    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize, framed: bool) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -146,15 +161,17 @@ impl<'s> Observed<'s> {
             scene,
             level,
             first,
+            started_in: simulation.phase(),
             tally: Tally::new(first.u_tip),
-            at,
-            at_times: vec![],
             times,
+            framed,
             history: vec![],
             frames: Frames { points, ..Frames::default() },
         };
         if times > 0 {
             observed.history.push(first);
+        }
+        if framed {
             observed.frame(simulation, 0.0);
         }
         observed
@@ -164,9 +181,8 @@ impl<'s> Observed<'s> {
         let Balance { change, residual, .. } = simulation.balance();
         self.tally.add(iterations, change, residual);
         let (from, to) = (simulation.old_level().t, simulation.t());
-        for k in 1..=POINTS_PER_STEP {
-            let t = if k == POINTS_PER_STEP { to } else { from + (to - from) * k as f64 / POINTS_PER_STEP as f64 };
-            self.tally.include(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
+        for u_tip in simulation.tip_range() {
+            self.tally.include(u_tip);
         }
         self.sample(simulation, from, to);
     }
@@ -174,19 +190,13 @@ impl<'s> Observed<'s> {
     /// The states of the history that lie in the last step.
     fn sample(&mut self, simulation: &Simulation, from: f64, to: f64) {
         let t_end = self.scene.t_end;
-        for &t in self.at.iter().filter(|&&t| t > from && t <= to) {
-            if simulation.level_into(t, &mut self.level) {
-                let state = state(simulation, self.scene, &self.level);
-                self.at_times.push(state);
-            }
-        }
         for t in grid(t_end, self.times, from, to) {
             if simulation.level_into(t, &mut self.level) {
                 let state = state(simulation, self.scene, &self.level);
                 self.history.push(state);
             }
         }
-        if self.times > 0 {
+        if self.framed {
             for t in grid(t_end, FRAMES, from, to) {
                 self.frame(simulation, t);
             }
@@ -208,9 +218,9 @@ impl<'s> Observed<'s> {
             ends: [self.first, last],
             extremes: self.tally.extremes,
             energy: self.tally.energy(self.first.energy, last.energy),
+            started_in: self.started_in,
             events: simulation.events().to_vec(),
             work: simulation.work(),
-            at_times: self.at_times,
             history: self.history,
             frames: self.frames,
             failure,
@@ -255,7 +265,7 @@ impl AnyOrderRun {
 
     /// Names of files and their SVG documents; none where no history was asked for.
     pub fn pictures(&self, scene: &AnyOrderScene) -> Vec<(&'static str, String)> {
-        if self.history.is_empty() {
+        if self.frames.times.is_empty() {
             return vec![];
         }
         let over_time = |value: fn(&Sample) -> f64| self.history.iter().map(|state| (state.t, value(state))).collect();
@@ -266,7 +276,7 @@ impl AnyOrderRun {
             u_tip: over_time(|state| state.u_tip),
             phi_tip: over_time(|state| state.phi_tip),
             energy: over_time(|state| state.energy),
-            contact: self.contact_phases(scene.t_end),
+            contact: self.contact_phases(),
             times: &self.frames.times,
             points: &self.frames.points,
             frames: &self.frames.u,
@@ -274,15 +284,16 @@ impl AnyOrderRun {
         motion.pictures()
     }
 
-    /// Intervals of time in which the free end touched an obstacle, from the events.
-    pub fn contact_phases(&self, t_end: f64) -> Vec<(f64, f64)> {
-        let mut phases: Vec<(f64, f64)> = vec![];
+    /// Intervals of time in which the free end touched an obstacle, from the phase at the start and the events.
+    pub fn contact_phases(&self) -> Vec<(f64, f64)> {
+        let [start, end] = self.ends.map(|state| state.t);
+        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
         for event in &self.events {
             if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
                 phase.1 = event.t;
             }
             if event.to != Phase::Free {
-                phases.push((event.t, t_end));
+                phases.push((event.t, end));
             }
         }
         phases
@@ -371,6 +382,7 @@ impl<'r> AnyOrderObject<'r> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expression::{Expression, Variable};
     use crate::scene::any_order::SceneFile;
 
     fn scene(time: &str) -> AnyOrderScene {
@@ -385,12 +397,27 @@ mod tests {
     }
 
     #[test]
+    fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
+        let pressed = |t_end: f64| {
+            let mut scene = scene(&format!("t_end = {t_end}"));
+            scene.initial.u = Some(Expression::parse("0.15*x^2", Variable::X).expect("a function"));
+            run(&scene, 0, &mut |_| ()).expect("a run")
+        };
+        let run = pressed(0.005);
+        assert_eq!((run.started_in, run.events.len()), (Phase::Upper, 0));
+        assert_eq!(run.contact_phases(), [(0.0, 0.005)]);
+        let run = pressed(0.02);
+        assert_eq!((run.events[0].from, run.events[0].to), (Phase::Upper, Phase::Free));
+        assert_eq!(run.contact_phases()[0], (0.0, run.events[0].t));
+    }
+
+    #[test]
     fn the_first_experiment_comes_out_to_seven_digits_with_its_events() {
         let run = run(&scene("t_end = 1.0"), 100, &mut |_| ()).expect("a run");
         assert_eq!(run.failure, None);
         assert!((run.ends[1].u_tip - -0.011_764_243_810).abs() < 1e-7, "{:?}", run.ends);
         assert_eq!(run.events.len(), 3);
-        let phases = run.contact_phases(1.0);
+        let phases = run.contact_phases();
         assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
         assert_eq!(phases[1].1, 1.0);
         // Each time once, whatever the steps.

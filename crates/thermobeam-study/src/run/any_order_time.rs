@@ -7,7 +7,7 @@ use convergence_study::text::number::max_or_nan;
 use thermobeam::dg::Stepping;
 use thermobeam::mesh::Mesh;
 
-use super::any_order::{AnyOrderRun, run};
+use super::any_order::{AnyOrderRun, run_at};
 use crate::scene::Scene;
 use crate::scene::any_order::AnyOrderScene;
 
@@ -33,6 +33,9 @@ const WAYS: [(usize, usize, f64); 9] = [
     (20, 5, 0.004),
 ];
 
+/// Degrees and largest step of the run that the others are compared with.
+pub(crate) const REFERENCE: (usize, usize, f64) = (26, 5, 0.0021);
+
 /// The first step over the largest, and the growth for a largest step of 0.02; finer steps grow more slowly.
 const RESTART: f64 = 0.05;
 const GROWTH: f64 = 0.5;
@@ -43,7 +46,7 @@ const COARSE: f64 = 0.02;
 /// # Errors
 /// [`CaseFailure`] of a run that does not come to its end.
 pub fn times(scene: &Scene, t_end: f64) -> Result<Table, CaseFailure> {
-    let exact = finished(&by(scene, (26, 5, 0.0021), t_end)?, TIMES)?;
+    let exact = finished(&by(scene, REFERENCE, t_end)?, TIMES)?;
     let mut rows = vec![];
     for way in WAYS {
         let scene = by(scene, way, t_end)?;
@@ -104,7 +107,7 @@ pub(crate) fn by(
 }
 
 pub(crate) fn finished(scene: &AnyOrderScene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
-    let run = run(scene, times, &mut |_| ())?;
+    let run = run_at(scene, &[], &mut |_, _| (), times, &mut |_| ())?;
     match run.failure {
         Some(failure) => Err(failure.into()),
         None => Ok(run),

@@ -21,14 +21,14 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
 
-use super::{Initial, Scene, stem, tables};
+use super::{Initial, Scene, limits, stem, tables};
 use crate::expression::Expression;
 
 /// The value of `time.scheme` for these scenes.
 pub const SCHEME: &str = "dg";
 
 /// Degree p of a scene that does not say: 1e-8 for the paper's first experiment on one element.
-const DEGREE: usize = 12;
+const DEGREE: usize = 13;
 
 /// Elements of a scene that does not say.
 const ELEMENTS: usize = 1;
@@ -39,7 +39,7 @@ const DT: f64 = 0.02;
 /// Growth of the steps of a scene that does not say.
 const GROWTH: f64 = 1.5;
 
-/// First step of a scene that does not say, in units of the duration of an impact, (ε √ζ)^(2/3).
+/// First step of a scene that does not say, in units of the duration of an impact.
 const RESTART: f64 = 0.2;
 
 const TIME_KEYS: [&str; 8] = ["scheme", "degree", "dt", "restart_dt", "growth", "t_end", "tolerance", "max_iterations"];
@@ -124,6 +124,10 @@ fn from_document(root: &Section<'_>, name: String) -> Result<AnyOrderScene, Inpu
     };
     let t_end = positive(&time.require("t_end", "a finite number > 0")?)?;
     let stepping = stepping(&time, &beam, obstacles.as_ref(), t_end)?;
+    let blamed = root.section("mesh")?.and_then(|mesh| ["nodes", "elements"].into_iter().find_map(|key| mesh.get(key)));
+    if let Some(field) = blamed {
+        limits::any_order_memory(&field, &mesh, degree, stepping.degree)?;
+    }
     let initial = super::initial(root, &beam, &mesh)?;
     Ok(AnyOrderScene { name, beam, obstacles, initial, mesh, degree, stepping, t_end })
 }
@@ -141,7 +145,10 @@ fn stepping(
     let defaults = dg::Stepping::default();
     let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| positive(&field));
     let dt = or("dt", DT.min(t_end))?;
-    let impact = obstacles.map_or(dt, |obstacles| (obstacles.epsilon * beam.zeta.sqrt()).powf(2.0 / 3.0));
+    if let Some(field) = time.get("dt") {
+        limits::steps_until(&field, t_end, dt, limits::STEPS)?;
+    }
+    let impact = obstacles.map_or(dt, |obstacles| obstacles.impact_time(beam.zeta));
     let restart_dt = match time.get("restart_dt") {
         Some(field) => field.number_where(&format!("a number > 0 and at most dt = {dt:?}"), |h| h > 0.0 && h <= dt)?,
         None => (RESTART * impact).min(dt),
@@ -228,10 +235,19 @@ mod tests {
             ("", "growth = 0.5", "time.growth"),
             ("", "solver = \"newton\"", "unknown key `solver`"),
             ("", "dt = -1", "time.dt"),
+            ("", "dt = 1e-20", "time.dt: found 1e-20, which is 1.000e20 steps"),
+            ("elements = 100000\ndegree = 40", "degree = 5", "mesh.elements: found 100000, which would take about 7."),
         ] {
             let message = with(mesh, time);
             assert!(message.contains(words), "{message}");
         }
+    }
+
+    #[test]
+    fn a_beam_without_viscosity_has_an_impact_time_too() {
+        let scene =
+            read("[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0").unwrap();
+        assert_eq!(scene.stepping.restart_dt, 0.2 * 1e-3);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! a slip of the pen is a complaint with its line, and not a process that the operating system ends after an hour.
 
 use convergence_study::input::{Field, InputError};
+use thermobeam::mesh::Mesh;
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a slip of the pen.
 pub(crate) const STEPS: usize = 10_000_000_000;
@@ -63,6 +64,25 @@ pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
     }
     let found = format!("{elements}, which would take {}", memory_of_elements(elements as f64));
     Err(field.refuse(found, format!("a whole number >= 1 and <= {ELEMENTS} ({} GiB)", RUN_BYTES >> 30)))
+}
+
+/// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; `field` is what is to blame.
+///
+/// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²: three for each node, and
+/// 14 + 3p for each length of elements, of at least two factorisations.
+pub(crate) fn any_order_memory(field: &Field<'_>, mesh: &Mesh, p: usize, q: usize) -> Result<(), InputError> {
+    let (elements, stages) = (mesh.elements() as f64, (q + 1) as f64);
+    let shortest = mesh.nodes().windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
+    let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest { 1.0 } else { elements };
+    let blocks = elements * (1 + 2 * (p / 2)) as f64;
+    let numbers =
+        blocks * (29.0 * stages + 20.0) + 18.0 * stages * stages * (3.0 * elements + (14 + 3 * p) as f64 * lengths);
+    if 8.0 * numbers <= RUN_BYTES as f64 {
+        return Ok(());
+    }
+    let found = format!("{}, which would take {}", field.as_written(), memory(8.0 * numbers));
+    Err(field
+        .refuse(found, format!("a mesh that takes at most {} GiB with degree p = {p} and q = {q}", RUN_BYTES >> 30)))
 }
 
 /// What a run with so many elements takes, in words.

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use convergence_study::store::atomic;
+
 use super::SweepError;
 use super::journal::{JOURNAL, Manifest, RESULTS};
 use super::lines::{self, Place};
@@ -9,23 +11,26 @@ use super::lines::{self, Place};
 /// Numbers of missing cases that are listed.
 const LISTED: usize = 10;
 
-/// Counts of [`merge`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What [`merge`] has joined.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Merged {
     /// Cases of the sweep.
     pub cases: usize,
     /// Those of them that failed.
     pub failed: usize,
+    /// The file with a line for each.
+    pub results: PathBuf,
 }
 
-/// Joins the shares in `folders` into the file that one run would have written.
+/// Joins the shares in `folders` into the file that one run would have written, [`RESULTS`] in the folder `out`.
 ///
 /// # Errors
 /// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
 /// is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     let manifests = folders.iter().map(|folder| Manifest::require(folder)).collect::<Result<Vec<_>, _>>()?;
-    let Some(first) = manifests.first() else { return Ok(Merged { cases: 0, failed: 0 }) };
+    let results = out.join(RESULTS);
+    let Some(first) = manifests.first() else { return Ok(Merged { cases: 0, failed: 0, results }) };
     for (folder, manifest) in folders.iter().zip(&manifests) {
         manifest.agrees_but_for_share(first, folder)?;
     }
@@ -41,8 +46,9 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     lines::sort(&mut found, &files)?;
     let shares: Vec<&str> = manifests.iter().map(|manifest| manifest.share.as_str()).collect();
     none_missing(&found, first.cases, &shares.join(", "))?;
-    lines::copy(&found, &files, out)?;
-    Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count() })
+    atomic::prepare_folder(out)?;
+    lines::copy(&found, &files, &results)?;
+    Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count(), results })
 }
 
 /// Refuses sorted places without one for every case.

@@ -2,7 +2,7 @@ use crate::typed::{changed, passes_but_not_without_each_case};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{FromFile, Kind};
+use convergence_study::study::{FromFile, Kind, run_here};
 use thermobeam_study::kinds::frequencies::Frequencies;
 
 fn study() -> Frequencies {
@@ -14,6 +14,19 @@ fn the_file_passes_but_not_without_each_case() {
     passes_but_not_without_each_case(&study());
     let graded = text("frequencies.toml").replace("order = 2.0", "map = \"s + 0.1*sin(2*pi*s)\"\norder = 2.0");
     passes_but_not_without_each_case(&Frequencies::parse(&graded, "graded.toml".as_ref()).expect("a study"));
+}
+
+#[test]
+fn elements_of_higher_degree_have_twice_their_degree_as_order_and_no_other() {
+    for degree in 2..=4 {
+        let text = text(&format!("frequencies-{degree}.toml"));
+        let parse = |text: &str| Frequencies::parse(text, "f.toml".as_ref()).expect("a study");
+        passes_but_not_without_each_case(&parse(&text));
+        // The same meshes with elements of a lower degree.
+        let lower = text.replace(&format!("degree = {degree}\n"), &format!("degree = {}\n", degree - 1));
+        let outcome = run_here(&parse(&lower));
+        assert!(lower != text && outcome.rates.iter().all(|(_, rate)| rate.verdict != Verdict::Pass), "{degree}");
+    }
 }
 
 #[test]
@@ -41,6 +54,9 @@ fn a_file_that_makes_no_sense_is_refused() {
         ("[16, 32", "[32, 16", "frequencies.elements"),
         ("count = 8", "count = 17", "<= 16"),
         ("order = 2.0", "order = -2.0", "frequencies.order"),
+        ("count = 8", "count = 8\nfirst = 9", "frequencies.first"),
+        ("count = 8", "count = 8\ndegree = 0", "frequencies.degree"),
+        ("count = 8", "count = 8\ndegree = 41", "frequencies.degree"),
         ("count = 8", "count = 8\nmap = \"s^2 - 1\"", "frequencies.map"),
     ] {
         let error = Frequencies::parse(&text("frequencies.toml").replace(from, to), "f.toml".as_ref())

@@ -3,7 +3,7 @@ use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind, run_cases_here, run_here};
 use thermobeam::solve::Level;
-use thermobeam_study::kinds::self_convergence::{SelfConvergence, Traced};
+use thermobeam_study::kinds::self_convergence::{Run, SelfConvergence, Traced};
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 
@@ -29,7 +29,13 @@ fn quick_files_pass_but_not_without_each_case() {
             });
             assert_eq!(study.judge(&short).verdict, Verdict::Fail, "{name}: a sample of case {case} is missing");
         }
-        assert_eq!(study.judge(&sound[..sound.len() - 1]).verdict, Verdict::Fail, "{name} without its reference");
+        for kept in [1, 2] {
+            assert_eq!(
+                study.judge(&sound[..sound.len() - kept]).verdict,
+                Verdict::Fail,
+                "{name} without its references"
+            );
+        }
     }
 }
 
@@ -47,7 +53,7 @@ type Number = fn(&mut Traced) -> &mut f64;
 fn each_quantity_can_fail() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
-    let h = |case: usize| if case == 5 { 0.0 } else { 0.1 * 0.5f64.powi(case as i32) };
+    let h = |case: usize| if case >= 5 { 0.0 } else { 0.1 * 0.5f64.powi(case as i32) };
     let numbers: [(&str, Number); 3] = [
         ("tip", |found| found.samples[2].level.u.last_mut().expect("a node")),
         ("rotation", |found| found.samples[9].level.phi.last_mut().expect("a node")),
@@ -101,6 +107,39 @@ fn a_tip_that_stays_free_is_no_study_of_contact() {
 }
 
 #[test]
+fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
+    // The scheme's runs are those of a scene whose viscosity is off; the references are sound.
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("scenes")).expect("a folder");
+    let scene = text("scenes/paper-1-beta-0.toml").replace("zeta = 0.1", "zeta = 0.1005");
+    std::fs::write(folder.path().join("scenes/paper-1-beta-0.toml"), scene).expect("a file");
+    for name in FILES {
+        let study = parse(name, |text| text);
+        let off = SelfConvergence::parse(&text(name), &folder.path().join(name)).expect("a study");
+        let mut planted = run_cases_here(&study);
+        for ran in planted.iter_mut().filter(|ran| matches!(ran.case.data, Run::Level(_))) {
+            ran.found = off.run(&ran.case.data);
+        }
+        let outcome = study.judge(&planted);
+        assert_ne!(outcome.verdict, Verdict::Pass, "{name}");
+        for (quantity, rate) in &outcome.rates {
+            // In the theorem's norm the interpolation error, of first order in h, hides so small a defect.
+            let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
+            let expected = hidden || quantity.ends_with("successive");
+            assert_eq!(rate.verdict == Verdict::Pass, expected, "{name}: {quantity}: {}", rate.reason);
+        }
+    }
+}
+
+#[test]
+fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
+    let coarse = parse("reference-space.toml", |text| text.replace("degree = 24", "degree = 12"));
+    let outcome = run_here(&coarse);
+    let check = outcome.checks.iter().find(|check| check.claim.contains("the same reference")).expect("the check");
+    assert_eq!((check.verdict, outcome.verdict), (Verdict::Fail, Verdict::Fail), "{}", report(&outcome));
+}
+
+#[test]
 fn an_order_that_the_scheme_has_not_fails() {
     let outcome = run_here(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0")));
     assert_eq!(outcome.verdict, Verdict::Fail);
@@ -118,12 +157,20 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 #[test]
 fn a_file_that_makes_no_sense_is_refused() {
     for (from, to, message) in [
-        ("[10, 20,", "[10, 25,", "a multiple of 10, the level before"),
-        ("reference = 1280", "reference = 200", "a multiple of 160"),
+        ("[8, 16,", "[8, 20,", "a multiple of 8, the level before"),
+        ("[8, 16, 32, 64, 128]", "[8, 16, 32, 64]", "as many as elements"),
+        ("[200, 800,", "[400, 800,", "or by its square"),
+        ("degree = 18", "degree = 24", "two tables [[reference]] that differ in elements"),
+        ("growth = 1.5", "growth = 0.5", "growth"),
         ("samples = 10", "samples = 7", "a multiple of samples = 7"),
         ("paper-1-beta-0", "paper-1-beta-00", "scene.file: found the text"),
         ("quantity = \"tip\"", "quantity = \"tips\"", "did you mean \"tip\"?"),
-        ("axis = \"space\"", "axis = \"both\"", "refine.axis"),
+        ("axis = \"both\"", "axis = \"space\"", "refine.axis"),
+        (
+            "axis = \"both\"\nelements = [8, 16, 32, 64, 128]",
+            "axis = \"time\"\nelements = 32",
+            "of 32 elements of degree 1",
+        ),
         ("quantity = \"rotation\"", "quantity = \"tip\"", "found \"tip\" a second time"),
     ] {
         let name = file("reference-space.toml");

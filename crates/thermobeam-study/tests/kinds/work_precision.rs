@@ -84,6 +84,22 @@ fn a_claim_that_is_too_bold_fails() {
 }
 
 #[test]
+fn references_that_do_not_agree_fail() {
+    let text = crate::text("work-precision-paper.toml")
+        .replace("elements = [16, 32, 64, 128]", "elements = [4, 8]")
+        .replace("steps = [128, 256, 512, 1024, 2048]", "steps = [128, 256]");
+    let reasons = |text: &str| -> Vec<String> {
+        let ran = run_cases_here(&read(text).unwrap());
+        ran.into_iter().filter_map(|ran| ran.found.err()).map(|failure| failure.reason).collect()
+    };
+    assert_eq!(reasons(&text), Vec::<String>::new());
+    // Two elements of degree 3 are no reference.
+    let coarse = reasons(&text.replace("degree = 26", "degree = 3"));
+    assert_eq!(coarse.len(), 8);
+    assert!(coarse.iter().all(|reason| reason.contains("the two references are")), "{coarse:?}");
+}
+
+#[test]
 fn seconds_are_there_for_benchmarks_only() {
     let study = quick();
     let timed = study.timed().unwrap();
@@ -104,8 +120,12 @@ fn mistakes_are_named() {
         ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
         ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
         (grid, "exactly one of"),
-        (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nreference = [8, 8]"), "reference without scene"),
-        (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\nreference = [9, 8]"), "a multiple"),
+        (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nagreement = 1e-6"), "agreement without scene"),
+        (
+            &format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\n[[reference]]\nelements = 1"),
+            "reference without scene",
+        ),
+        (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1"), "[[reference]]"),
         (&format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""), "did you mean"),
     ] {
         let error = read(&format!("{head}{body}")).err().unwrap_or_else(|| panic!("{body} was accepted"));

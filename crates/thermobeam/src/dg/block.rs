@@ -69,7 +69,7 @@ fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
 
 /// Replaces a matrix by its inverse, by Gauss-Jordan elimination without pivoting.
 ///
-/// The matrices here have a positive definite symmetric part, so that every pivot is positive.
+/// The matrices here have a symmetric part without negative eigenvalues, so that no pivot is negative.
 ///
 /// # Errors
 /// The first pivot that is not.

@@ -76,7 +76,7 @@ impl Polynomial {
     }
 
     /// The zeros in (0, 1) at which the sign changes, in increasing order, and how many.
-    fn sign_changes(&self) -> ([f64; MAX_STAGES + 1], usize) {
+    pub(super) fn sign_changes(&self) -> ([f64; MAX_STAGES + 1], usize) {
         let (mut zeros, mut count) = ([0.0; MAX_STAGES + 1], 0);
         if self.degree == 0 {
             return (zeros, count);

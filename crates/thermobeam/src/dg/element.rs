@@ -40,12 +40,12 @@ fn slope(m: usize) -> (usize, f64) {
 }
 
 /// `∫ N_i N_j dξ`.
-pub(super) fn mass(i: usize, j: usize) -> f64 {
+pub(crate) fn mass(i: usize, j: usize) -> f64 {
     expansion(i).iter().flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l))).sum()
 }
 
 /// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
-pub(super) fn stiffness(i: usize, j: usize) -> f64 {
+pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
     if i >= 2 || j >= 2 {
         return if i == j { 1.0 } else { 0.0 };
     }
@@ -53,7 +53,7 @@ pub(super) fn stiffness(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_j N_i' dξ`, the same on every element.
-pub(super) fn coupling(i: usize, j: usize) -> f64 {
+pub(crate) fn coupling(i: usize, j: usize) -> f64 {
     let (k, a) = slope(i);
     expansion(j).iter().map(|(l, b)| a * b * product(k, *l)).sum()
 }

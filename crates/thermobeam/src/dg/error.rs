@@ -95,7 +95,7 @@ pub enum StepFailure {
     /// The matrix of the step is not positive definite.
     #[error(
         "the matrix of the step has lost its definiteness: pivot {pivot:.3e} at node {node} for the axial force \
-         {n_value:.6} (take a smaller dt: the beam is loaded beyond its buckling force)"
+         {n_value:.6} (take a smaller dt; or the beam is loaded beyond its buckling force)"
     )]
     Indefinite {
         /// Node of the pivot, or the node on the right of its element.

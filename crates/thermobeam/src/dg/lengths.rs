@@ -41,14 +41,14 @@ impl Lengths {
         self.rungs.len() - self.first
     }
 
-    /// To a quarter of the length, if there is one.
+    /// To a quarter of the length, or of `restart_dt` where that is less, if there is one.
     pub(super) fn descend(&mut self) -> bool {
         let possible = self.next >= 2;
         self.next = self.next.min(self.first).saturating_sub(2);
         possible
     }
 
-    /// To less than half of the length, if it is at least a thousandth of `restart_dt`.
+    /// To at most half of the length, if it is at least a thousandth of `restart_dt`.
     pub(super) fn shorten(&mut self) -> bool {
         let now = self.get();
         let shorter = self.rungs[..self.next].iter().rposition(|rung| *rung <= 0.5 * now);

@@ -8,20 +8,6 @@ use super::time::{GaussPoint, MAX_STAGES, gauss_points};
 pub trait Load: Send {
     /// Fills `load` with the load at time t: `(F_u, χ), (F_φ, ψ), (F_θ, η)` block by block; it comes in as zeros.
     fn at(&mut self, t: f64, load: &mut [[f64; 3]]);
-
-    /// Gauss points a step that integrate the load in time; `None` leaves the choice, q + 9, to the stepper.
-    fn points(&self) -> Option<usize> {
-        None
-    }
-
-    /// `∫ F(t) L_i((t - from)/dt) dt` over a step for each i, where that is known better than by Gauss points.
-    ///
-    /// * `moments`: one vector for each L_i, i = 0..=q, L_i the Legendre polynomials of [0, 1]; they come in as zeros.
-    /// * Returns whether they were filled.
-    fn moments(&mut self, from: f64, dt: f64, moments: &mut [Vec<[f64; 3]>]) -> bool {
-        let _ = (from, dt, moments);
-        false
-    }
 }
 
 /// The loads of a step, integrated: `moments[i]` is that with L_i.
@@ -32,19 +18,14 @@ pub(super) struct Forcing<const S: usize> {
 }
 
 impl<const S: usize> Forcing<S> {
-    /// For so many blocks; `points` Gauss points, or q + 9.
-    pub(super) fn new(blocks: usize, points: Option<usize>) -> Self {
+    /// For so many blocks; by q + 9 Gauss points.
+    pub(super) fn new(blocks: usize) -> Self {
         let zeros = vec![[0.0; 3]; blocks];
-        let points = gauss_points(points.unwrap_or(S + 8).max(1));
-        Self { moments: vec![zeros.clone(); S], load: zeros, points }
+        Self { moments: vec![zeros.clone(); S], load: zeros, points: gauss_points(S + 8) }
     }
 
     /// Integrates a load over the step of length h from t.
     pub(super) fn integrate(&mut self, load: &mut dyn Load, t: f64, h: f64) {
-        self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
-        if load.moments(t, h, &mut self.moments) {
-            return;
-        }
         self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
         for point in &self.points {
             self.load.fill([0.0; 3]);

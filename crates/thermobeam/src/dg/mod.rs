@@ -47,7 +47,7 @@
 
 mod block;
 mod contact_event;
-mod element;
+pub(crate) mod element;
 mod energy;
 mod error;
 mod factor;
@@ -95,9 +95,18 @@ impl Level {
 
     /// Value and slope of a field at x.
     pub fn value_and_slope(&self, space: &Space, field: Field, x: f64) -> (f64, f64) {
+        space.evaluate(field, x, |block, place| self.coefficient(field, block, place))
+    }
+
+    /// Values and slopes of all fields at x, in the order of [`Field::ALL`].
+    pub fn values_and_slopes(&self, space: &Space, x: f64) -> [(f64, f64); Field::ALL.len()] {
+        space.evaluate_all(x, |field, block, place| self.coefficient(field, block, place))
+    }
+
+    fn coefficient(&self, field: Field, block: usize, place: usize) -> f64 {
         match field {
-            Field::U | Field::Phi => space.evaluate(field, x, |block, place| self.places[block][place]),
-            Field::V | Field::W | Field::Theta => space.evaluate(field, x, |block, place| self.rates[block][place]),
+            Field::U | Field::Phi => self.places[block][place],
+            Field::V | Field::W | Field::Theta => self.rates[block][place],
         }
     }
 

@@ -4,6 +4,7 @@ use super::energy::{Balance, Scene};
 use super::simulation::Simulation;
 use super::{Field, Level};
 use crate::energy::Energy;
+use crate::norms::max_or_nan;
 
 impl Simulation {
     /// s of a time in the last step; `None` outside.
@@ -22,6 +23,18 @@ impl Simulation {
         }
         let at = |block, place| self.stages.coefficient(field, block, place).at(s);
         Some(self.space.evaluate(field, x, at).0)
+    }
+
+    /// Smallest and largest u(1, t) over the last step, extrema inside it included; before the first step, that of the start.
+    pub fn tip_range(&self) -> [f64; 2] {
+        let u = self.level.places[self.space.tip()][0];
+        if self.last_dt == 0.0 {
+            return [u, u];
+        }
+        let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
+        let (extrema, count) = tip.derivative().sign_changes();
+        let values = extrema[..count].iter().map(|&s| tip.at(s)).chain([tip.at(0.0)]);
+        values.fold([u, u], |[low, high], value| [-max_or_nan(-low, -value), max_or_nan(high, value)])
     }
 
     /// The physical temperature, lifting included, at x and at a time in the last step; `None` for other times.

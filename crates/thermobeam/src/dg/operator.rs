@@ -13,7 +13,8 @@ use crate::parameters::Beam;
 /// -a h T ⊗ C  from θ~ to φ,   a h T ⊗ Cᵀ  from w to θ~
 /// ```
 ///
-/// Its symmetric part is positive definite as long as the elastic energy is, by the argument of the energy balance.
+/// Its symmetric part is positive definite as long as the elastic energy is, and ζ > 0 or q <= 2, by the argument of the energy
+/// balance (THEORY.md, "Existence and elimination").
 #[derive(Debug, Clone)]
 pub(super) struct Operator<const S: usize> {
     inertia: [[f64; S]; S],

@@ -68,19 +68,18 @@ pub(super) struct Equations<'a, const S: usize> {
 }
 
 impl<const S: usize> Equations<'_, S> {
-    /// `u(t) = u_0 + ∫ v`, `φ(t) = φ_0 + ∫ w` for the velocities in `x`, and the axial force that belongs to u.
-    pub(super) fn displace(&self, x: &[Block<S>], terms: &mut [Terms<S>]) -> AxialForce<S> {
+    /// `u(t) = u_0 + ∫ v`, `φ(t) = φ_0 + ∫ w` for the velocities in `x`.
+    pub(super) fn displace(&self, x: &[Block<S>], terms: &mut [Terms<S>]) {
         for ((terms, x), places) in terms.iter_mut().zip(x).zip(&self.level.places) {
             for field in 0..2 {
                 let (low, top) = TimeForms::integrate(places[field], self.h, &x[field]);
                 terms.places[field] = Path { low, top };
             }
         }
-        self.axial_force(terms)
     }
 
     /// `∫ N(u) L_i L_j` with `N(u) = β + ρ‖u_x‖²`, by 2q + 2 Gauss points.
-    fn axial_force(&self, terms: &[Terms<S>]) -> AxialForce<S> {
+    pub(super) fn axial_force(&self, terms: &[Terms<S>]) -> AxialForce<S> {
         let mut force = AxialForce { low: [[0.0; S]; S], top: [0.0; S] };
         if self.beam.rho == 0.0 {
             for i in 0..S {

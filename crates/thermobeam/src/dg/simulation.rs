@@ -72,24 +72,33 @@ impl Simulation {
     /// [`SetupError`] for coefficients, degrees or settings out of range, and initial data that are not finite or break a
     /// boundary condition.
     pub fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
-        Self::build(problem, stepping, None)
+        Self::build(problem, stepping, |_| None)
     }
 
-    /// The same with loads on the right of the equations.
+    /// The same with loads on the right of the equations; `load` makes them for the elements.
     ///
     /// # Errors
     /// Those of [`Self::new`].
-    pub fn with_load(problem: Problem, stepping: Stepping, load: Box<dyn Load>) -> Result<Self, SetupError> {
-        Self::build(problem, stepping, Some(load))
+    pub fn with_load(
+        problem: Problem,
+        stepping: Stepping,
+        load: impl FnOnce(&Space) -> Box<dyn Load>,
+    ) -> Result<Self, SetupError> {
+        Self::build(problem, stepping, |space| Some(load(space)))
     }
 
-    fn build(problem: Problem, stepping: Stepping, load: Option<Box<dyn Load>>) -> Result<Self, SetupError> {
+    fn build(
+        problem: Problem,
+        stepping: Stepping,
+        load: impl FnOnce(&Space) -> Option<Box<dyn Load>>,
+    ) -> Result<Self, SetupError> {
         let Problem { beam, obstacles, mesh, degree, initial } = problem;
         check(&beam, obstacles.as_ref(), degree, &stepping)?;
         let space = Space::new(mesh, degree);
         let level = initial_level(&space, &beam, &initial)?;
         let lengths = Lengths::new(stepping.restart_dt, stepping.growth, stepping.dt);
-        let stages = stepper(stepping.degree, &space, lengths.count(), load.as_deref());
+        let load = load(&space);
+        let stages = stepper(stepping.degree, &space, lengths.count(), load.is_some());
         let phase = Phase::of(level.places[space.tip()][0], obstacles.as_ref());
         let old = level.clone();
         Ok(Self {
@@ -123,7 +132,7 @@ impl Simulation {
 
     /// Does one step that does not go beyond `limit`; allocates nothing, but for more than 1024 contact events.
     ///
-    /// A step that cannot be done is tried again with less than half of its length, down to a thousandth of `restart_dt`.
+    /// A step that cannot be done is tried again with at most half of its length, down to a thousandth of `restart_dt`.
     ///
     /// Returns `None` where the simulation stands at the limit, or beyond it.
     ///
@@ -174,8 +183,9 @@ impl Simulation {
             // The free end leaves its phase from the first moment.
             event = None;
             self.stages.guess_constant(&self.level);
-            if self.stays(next, h)? {
+            if let Some(iterations) = self.stays(next, h)? {
                 self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
+                return self.finish(h, limit, iterations, None).map(Some);
             } else if self.lengths.descend() {
                 // It leaves the other phase as well: polynomials of this length are too coarse to tell.
                 h = self.propose(remaining);
@@ -191,13 +201,13 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// Would the free end stay in another phase throughout a step of length h?
-    fn stays(&mut self, phase: Phase, h: f64) -> Result<bool, StepError> {
+    /// Finds the polynomials of a step of length h in another phase; `None` where the free end leaves that as well.
+    fn stays(&mut self, phase: Phase, h: f64) -> Result<Option<usize>, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);
         let fall = self.first_fall();
         self.phase = present;
-        outcome.map(|_| fall.is_none())
+        outcome.map(|iterations| fall.is_none().then_some(iterations))
     }
 
     /// Takes the step just found: the new level is its end.

@@ -27,6 +27,11 @@ pub enum Field {
     Theta,
 }
 
+impl Field {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::U, Self::Phi, Self::V, Self::W, Self::Theta];
+}
+
 /// The matrices M, K and C between two blocks of the reference element, rows first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coupling {
@@ -212,7 +217,27 @@ impl Space {
     /// Value and slope at x of the field whose coefficients `coefficient(block, place)` gives.
     pub(super) fn evaluate(&self, field: Field, x: f64, coefficient: impl Fn(usize, usize) -> f64) -> (f64, f64) {
         let (element, xi) = self.locate(x);
+        self.combine(field, element, &Basis::at(xi, self.degree), coefficient)
+    }
+
+    /// The same of all fields at once, by one evaluation of the basis.
+    pub(super) fn evaluate_all(
+        &self,
+        x: f64,
+        coefficient: impl Fn(Field, usize, usize) -> f64,
+    ) -> [(f64, f64); Field::ALL.len()] {
+        let (element, xi) = self.locate(x);
         let basis = Basis::at(xi, self.degree);
+        Field::ALL.map(|field| self.combine(field, element, &basis, |block, place| coefficient(field, block, place)))
+    }
+
+    fn combine(
+        &self,
+        field: Field,
+        element: usize,
+        basis: &Basis,
+        coefficient: impl Fn(usize, usize) -> f64,
+    ) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
         for m in 0..=self.degree {
             let (block, place) = self.place(field, element, m);

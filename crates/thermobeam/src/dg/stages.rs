@@ -105,8 +105,8 @@ pub(super) struct Stepper<const S: usize> {
 }
 
 impl<const S: usize> Stepper<S> {
-    /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more.
-    pub(super) fn new(space: &Space, lengths: usize, load: Option<&(dyn Load + 'static)>) -> Self {
+    /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more; `loaded` where there will be loads.
+    pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
         let motion = || Motion { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
         let factor = Factor::new(space);
@@ -119,7 +119,7 @@ impl<const S: usize> Stepper<S> {
             residual: vec![[[0.0; S]; 3]; blocks],
             weights: space.diagonal_mass(),
             slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
-            forcing: load.map(|load| Forcing::new(blocks, load.points())),
+            forcing: loaded.then(|| Forcing::new(blocks)),
             work: Work::default(),
             clock: 0,
         }
@@ -236,7 +236,8 @@ impl<const S: usize> Stages for Stepper<S> {
         let mut replaced = false;
         for iteration in 1..=task.max_iterations {
             let equations = task.equations(&self.forms, self.forcing.as_ref());
-            let axial = equations.displace(&self.trial.x, &mut self.trial.terms);
+            equations.displace(&self.trial.x, &mut self.trial.terms);
+            let axial = equations.axial_force(&self.trial.terms);
             equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
             let n_value = axial.low[0][0];
             if !n_value.is_finite() {
@@ -262,13 +263,11 @@ impl<const S: usize> Stages for Stepper<S> {
             // The increments that are still to come add up to at most this, once their ratio is known.
             let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
             let known = iteration > 1 && rest <= task.tolerance;
-            if increment <= task.tolerance || known || increment <= FLOOR * size {
+            // Round-off: further iterations change the last digits only.
+            let stagnant = increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
+            if increment <= task.tolerance || known || stagnant {
                 let equations = task.equations(&self.forms, self.forcing.as_ref());
                 equations.displace(&self.trial.x, &mut self.trial.terms);
-                return Ok(iteration);
-            }
-            if contraction > 0.5 && increment <= 64.0 * FLOOR * size {
-                // Round-off: nothing more is to be had.
                 return Ok(iteration);
             }
             if contraction > SLOW && iteration > 1 && !replaced {
@@ -356,13 +355,13 @@ fn polynomial<const S: usize>(path: &Path<S>) -> Polynomial {
 }
 
 /// The stepper of degree q in time.
-pub(super) fn stepper(q: usize, space: &Space, lengths: usize, load: Option<&(dyn Load + 'static)>) -> Box<dyn Stages> {
+pub(super) fn stepper(q: usize, space: &Space, lengths: usize, loaded: bool) -> Box<dyn Stages> {
     match q {
-        0 => Box::new(Stepper::<1>::new(space, lengths, load)),
-        1 => Box::new(Stepper::<2>::new(space, lengths, load)),
-        2 => Box::new(Stepper::<3>::new(space, lengths, load)),
-        3 => Box::new(Stepper::<4>::new(space, lengths, load)),
-        4 => Box::new(Stepper::<5>::new(space, lengths, load)),
-        _ => Box::new(Stepper::<6>::new(space, lengths, load)),
+        0 => Box::new(Stepper::<1>::new(space, lengths, loaded)),
+        1 => Box::new(Stepper::<2>::new(space, lengths, loaded)),
+        2 => Box::new(Stepper::<3>::new(space, lengths, loaded)),
+        3 => Box::new(Stepper::<4>::new(space, lengths, loaded)),
+        4 => Box::new(Stepper::<5>::new(space, lengths, loaded)),
+        _ => Box::new(Stepper::<6>::new(space, lengths, loaded)),
     }
 }

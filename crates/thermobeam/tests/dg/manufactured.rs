@@ -1,6 +1,5 @@
 //! A manufactured solution: loads from the strong form (1.1) and the two boundary conditions at x = 1.
 
-use crate::scenes::{close, simulate};
 use std::f64::consts::PI;
 use thermobeam::dg::{Field, Initial, Load, Problem, Simulation, Space, Stepping};
 use thermobeam::mesh::Mesh;
@@ -89,20 +88,18 @@ impl Load for Sources {
 }
 
 fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
-    let problem = || {
-        let initial = Initial {
-            u: Box::new(|x| u_x(x)[0] * u_t(0.0)[0]),
-            u_t: Box::new(|x| u_x(x)[0] * u_t(0.0)[1]),
-            phi: Box::new(|x| phi_x(x)[0] * phi_t(0.0)[0]),
-            phi_t: Box::new(|x| phi_x(x)[0] * phi_t(0.0)[1]),
-            theta: Box::new(|x| theta_x(x)[0]),
-        };
-        let mesh = Mesh::mapped(elements, |s| 0.8 * s + 0.2 * s * s).unwrap();
-        Problem { beam: BEAM, obstacles: Some(OBSTACLES), mesh, degree, initial }
+    let initial = Initial {
+        u: Box::new(|x| u_x(x)[0] * u_t(0.0)[0]),
+        u_t: Box::new(|x| u_x(x)[0] * u_t(0.0)[1]),
+        phi: Box::new(|x| phi_x(x)[0] * phi_t(0.0)[0]),
+        phi_t: Box::new(|x| phi_x(x)[0] * phi_t(0.0)[1]),
+        theta: Box::new(|x| theta_x(x)[0]),
     };
-    let space = simulate(problem(), stepping).space().clone();
-    let sources = Sources { space, points: Space::gauss(degree + 8) };
-    let mut simulation = Simulation::with_load(problem(), stepping, Box::new(sources)).unwrap();
+    let mesh = Mesh::mapped(elements, |s| 0.8 * s + 0.2 * s * s).unwrap();
+    let problem = Problem { beam: BEAM, obstacles: Some(OBSTACLES), mesh, degree, initial };
+    let sources =
+        |space: &Space| Box::new(Sources { space: space.clone(), points: Space::gauss(degree + 8) }) as Box<dyn Load>;
+    let mut simulation = Simulation::with_load(problem, stepping, sources).unwrap();
     simulation.advance(END).unwrap();
     simulation
 }
@@ -160,51 +157,5 @@ fn the_work_of_the_loads_belongs_to_the_balance() {
         let balance = simulation.balance();
         assert!(balance.load.abs() > 1e-4 * scale);
         assert!(balance.residual.abs() < 1e-13 * scale, "{balance:?}");
-    }
-}
-
-/// The sources, integrated in time by somebody else.
-struct Integrated(Sources);
-
-impl Load for Integrated {
-    fn at(&mut self, _: f64, _: &mut [[f64; 3]]) {
-        panic!("the moments are known");
-    }
-
-    fn moments(&mut self, from: f64, dt: f64, moments: &mut [Vec<[f64; 3]>]) -> bool {
-        for (xi, weight) in Space::gauss(20) {
-            let mut load = vec![[0.0; 3]; moments[0].len()];
-            self.0.at(from + 0.5 * dt * (1.0 + xi), &mut load);
-            // L_0, L_1 and L_2 of [0, 1].
-            for (moments, value) in moments.iter_mut().zip([1.0, xi, 1.5 * xi * xi - 0.5]) {
-                for (moment, load) in moments.iter_mut().zip(&load) {
-                    (0..3).for_each(|field| moment[field] += 0.5 * dt * weight * value * load[field]);
-                }
-            }
-        }
-        true
-    }
-}
-
-#[test]
-fn loads_that_come_integrated_give_the_same_answer() {
-    let stepping = Stepping { degree: 2, ..fine_steps() };
-    let by_points = run(2, 5, stepping);
-    let initial = |jet: fn(f64) -> Jet, factor: f64| Box::new(move |x: f64| jet(x)[0] * factor);
-    let initial = Initial {
-        u: initial(u_x, u_t(0.0)[0]),
-        u_t: initial(u_x, u_t(0.0)[1]),
-        phi: initial(phi_x, phi_t(0.0)[0]),
-        phi_t: initial(phi_x, phi_t(0.0)[1]),
-        theta: initial(theta_x, 1.0),
-    };
-    let mesh = by_points.space().mesh().clone();
-    let problem = Problem { beam: BEAM, obstacles: Some(OBSTACLES), mesh, degree: 5, initial };
-    let sources = Sources { space: by_points.space().clone(), points: Space::gauss(13) };
-    let mut integrated = Simulation::with_load(problem, stepping, Box::new(Integrated(sources))).unwrap();
-    integrated.advance(END).unwrap();
-    for field in [Field::U, Field::Phi, Field::V, Field::W, Field::Theta] {
-        let value = |simulation: &Simulation| simulation.value(field, 0.7, END).unwrap();
-        close(value(&integrated), value(&by_points), 1e-12);
     }
 }

@@ -1,13 +1,14 @@
-//! What `rates --out DIR` writes: a figure, Markdown and JUnit XML.
+//! What `rates --out DIR` writes: a figure, Markdown and JUnit XML, and on GitHub the job summary.
 
 use std::io;
 use std::path::Path;
 
 use super::text::{legend, mark, pairwise, rate, sentence};
 use super::{Findings, Judged};
-use crate::judge::verdict::{Aside, Verdict};
+use crate::cli::github;
+use crate::judge::verdict::Aside;
 use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
-use crate::store::atomic;
+use crate::store::{atomic, junit};
 use crate::study::levels::power_law;
 use crate::text::number::{error_text, plain_text};
 use crate::text::visible::visible;
@@ -15,15 +16,21 @@ use crate::text::visible::visible;
 /// Most columns in the figure: more would have the colours of the first.
 const DRAWN: usize = 8;
 
-/// Writes the files, each as a whole.
+/// Writes the files, each as a whole, and appends to the job summary.
 ///
 /// # Errors
 /// That of the operating system, with the name of the file.
 pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     atomic::write(&folder.join("rates.svg"), figure(findings))?;
-    atomic::write(&folder.join("rates.md"), markdown(findings))?;
-    atomic::write(&folder.join("junit.xml"), junit(findings))
+    let picture = format!("![Errors over {}](rates.svg)\n\n", cell(&findings.table.step));
+    atomic::write(&folder.join("rates.md"), markdown(findings, &picture))?;
+    let junit =
+        junit::junit_of(findings.project.name, &findings.source, &judged(findings)).map_err(io::Error::other)?;
+    atomic::write(&folder.join("junit.xml"), junit)?;
+    // A picture would have to be somewhere on the web.
+    github::summarise(&markdown(findings, ""));
+    Ok(())
 }
 
 /// The columns that are drawn: those with a claim first.
@@ -63,15 +70,11 @@ fn figure(findings: &Findings<'_>) -> String {
     })
 }
 
-fn markdown(findings: &Findings<'_>) -> String {
+/// * `picture`: where the figure goes, with the empty line below it.
+fn markdown(findings: &Findings<'_>, picture: &str) -> String {
     let mut page = format!("# Rates of {}\n\n", cell(&findings.source));
-    page += &format!(
-        "**{}**: {}\n\n![Errors over {}](rates.svg)\n\n",
-        findings.verdict,
-        sentence(findings),
-        cell(&findings.table.step)
-    );
-    if findings.columns.len() > DRAWN {
+    page += &format!("**{}**: {}\n\n{picture}", findings.verdict, sentence(findings));
+    if !picture.is_empty() && findings.columns.len() > DRAWN {
         page +=
             &format!("The figure shows {DRAWN} of {} columns, those with a claim first.\n\n", findings.columns.len());
     }
@@ -127,39 +130,12 @@ fn cell(raw: &str) -> String {
     text
 }
 
-/// One suite with a test case for each column that decides; inconclusive is a failure of its own type.
-fn junit(findings: &Findings<'_>) -> String {
-    let deciding: Vec<&Judged<'_>> = findings.columns.iter().filter(|column| column.decides).collect();
-    let source = attribute(&findings.source);
-    let mut cases = String::new();
-    for judged in &deciding {
+/// A test case for each column that decides.
+fn judged(findings: &Findings<'_>) -> Vec<junit::Judged> {
+    let case = |judged: &Judged<'_>| {
         let claim = if judged.is_claimed() { format!(": order {}", judged.rate.order) } else { String::new() };
-        let name = attribute(&format!("{}{claim}", judged.name));
-        cases += &case(&source, &name, judged.rate.verdict, &format!("{}; {}", judged.reason(), rate(judged)));
-    }
-    if deciding.is_empty() {
-        cases += &case(&source, "a claim", findings.verdict, &sentence(findings));
-    }
-    let (tests, failures) = (deciding.len().max(1), cases.matches("<failure ").count());
-    let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"0\"");
-    let name = attribute(findings.project.name);
-    format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{name}\" {counts}>\n    \
-         <testsuite name=\"{source}\" {counts}>\n{cases}    </testsuite>\n</testsuites>\n"
-    )
-}
-
-fn case(class: &str, name: &str, verdict: Verdict, reason: &str) -> String {
-    let head = format!("        <testcase name=\"{name}\" classname=\"{class}\"");
-    if verdict == Verdict::Pass {
-        return head + "/>\n";
-    }
-    let failure = format!("<failure type=\"{verdict}\" message=\"{}\"/>", attribute(reason));
-    format!("{head}>\n            {failure}\n        </testcase>\n")
-}
-
-/// Text as the value of an attribute of XML.
-fn attribute(text: &str) -> String {
-    let text = visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
-    text.chars().map(|c| if matches!(c, '\u{fffe}' | '\u{ffff}') { char::REPLACEMENT_CHARACTER } else { c }).collect()
+        (judged.name.to_owned() + &claim, judged.rate.verdict, format!("{}; {}", judged.reason(), rate(judged)))
+    };
+    let cases: Vec<_> = findings.columns.iter().filter(|column| column.decides).map(case).collect();
+    if cases.is_empty() { vec![("a claim".to_owned(), findings.verdict, sentence(findings))] } else { cases }
 }

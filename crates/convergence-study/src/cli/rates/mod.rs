@@ -13,7 +13,7 @@ use crate::project::Project;
 use clap::Args;
 
 use super::exit::{Outcome, Unusable};
-use crate::cli::output::{self, Format};
+use super::flags::Flags;
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
@@ -46,15 +46,8 @@ pub struct Arguments {
     /// Columns without a claim decide, too: with one of them nothing passes
     #[arg(long)]
     all: bool,
-    /// Also write rates.svg, rates.md and junit.xml to this folder
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// No table of errors: what did not pass and why, and the verdict
-    #[arg(long)]
-    quiet: bool,
-    /// How the result is printed
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    #[command(flatten)]
+    flags: Flags,
 }
 
 fn claim(text: &str) -> Result<(Option<String>, f64), String> {
@@ -116,13 +109,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
     let source = arguments.file.display().to_string();
     let findings = Findings { project, source, table: &table, columns, floor: arguments.floor, verdict };
-    if let Some(folder) = &arguments.out {
+    let flags = &arguments.flags;
+    if let Some(folder) = &flags.out {
         files::write(&findings, folder)?;
     }
-    match arguments.format {
-        Format::Text => output::print(&text::text(&findings, arguments.quiet))?,
-        Format::Json => output::print_json(&object::Object::new(&findings))?,
-    }
+    flags.show("rates", verdict, &object::Object::new(&findings), &text::text(&findings, flags.quiet))?;
     Ok(verdict.into())
 }
 

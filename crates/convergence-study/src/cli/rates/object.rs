@@ -5,14 +5,9 @@ use serde::Serialize;
 use super::{Findings, Judged};
 use crate::judge::fit::Level;
 
-/// Number of the form of the object: higher where a key has changed its meaning or is gone.
-const SCHEMA: u32 = 1;
-
-/// What `rates --format json` prints.
+/// What `rates --format json` prints, beside the verdict.
 #[derive(Debug, Serialize)]
 pub(super) struct Object<'a> {
-    schema: u32,
-    verdict: &'static str,
     step: &'a str,
     floor: f64,
     rates: Vec<Rate<'a>>,
@@ -63,8 +58,6 @@ impl<'a> Object<'a> {
         let rates = findings.columns.iter().zip(&findings.table.columns);
         let not_errors = findings.table.not_errors.iter().map(|(column, because)| NotErrors { column, because });
         Self {
-            schema: SCHEMA,
-            verdict: findings.verdict.name(),
             step: &findings.table.step,
             floor: findings.floor,
             rates: rates.map(|(judged, (_, levels))| Rate::new(judged, levels)).collect(),

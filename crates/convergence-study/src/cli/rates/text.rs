@@ -5,10 +5,10 @@ use std::fmt::Write;
 use super::{Findings, Judged};
 use crate::cli::screen;
 use crate::judge::verdict::{Aside, Verdict};
-use crate::text::number::decimals;
+use crate::text::number::{decimals, interval_places, interval_text};
 
-/// Fewest and most decimals of a rate.
-const PLACES: (i32, i32) = (2, 6);
+/// Most decimals of a rate.
+const MOST_PLACES: usize = 6;
 
 /// The mark of a level without a say.
 pub(super) fn mark(judged: &Judged<'_>, level: usize) -> &'static str {
@@ -34,12 +34,9 @@ pub(super) fn legend(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Decimals that the interval of a rate needs: two digits of its width.
+/// Decimals of the rates of a column.
 pub(super) fn places(judged: &Judged<'_>) -> usize {
-    let Some([low, high]) = judged.rate.interval else { return 3 };
-    let width = high - low;
-    let needed = if width > 0.0 { 1 - width.log10().floor() as i32 } else { PLACES.1 };
-    if width.is_finite() { needed.clamp(PLACES.0, PLACES.1) as usize } else { 3 }
+    judged.rate.interval.map_or(3, |interval| interval_places(interval, MOST_PLACES))
 }
 
 /// The rate between a level and the one before; a dash where there is none.
@@ -52,10 +49,10 @@ pub(super) fn pairwise(judged: &Judged<'_>, level: usize) -> String {
 pub(super) fn rate(judged: &Judged<'_>) -> String {
     let (rate, places) = (judged.rate, places(judged));
     match (rate.fitted, rate.interval) {
-        (Some(fitted), Some([low, high])) => {
-            let [fitted, low, high] = [fitted, low, high].map(|value| decimals(value, places));
+        (Some(fitted), Some(interval)) => {
+            let (fitted, interval) = (decimals(fitted, places), interval_text(interval, MOST_PLACES));
             let (first, last, levels) = (rate.used.start + 1, rate.used.end, rate.pairwise.len() + 1);
-            format!("rate {fitted}, {low} to {high} from levels {first} to {last} of {levels}")
+            format!("rate {fitted}, {interval} from levels {first} to {last} of {levels}")
         }
         _ => match rate.pairwise.iter().rfind(|rate| rate.is_finite()) {
             Some(finest) => format!("rate {} between the finest levels that have one", decimals(*finest, places)),

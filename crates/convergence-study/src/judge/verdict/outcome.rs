@@ -3,6 +3,7 @@
 use std::{fmt, ops::Range};
 
 use super::reading::Reading;
+use crate::text::number::{RATE_PLACES, interval_text};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -183,9 +184,10 @@ impl RateVerdict {
         let used = reading.used.clone();
         let (fitted, interval) = reading.fit.map_or((None, None), |fit| (Some(fit.rate), Some(fit.interval)));
         let reason = match interval {
-            Some([low, high]) => {
+            Some(interval) => {
                 let (first, last) = (used.start + 1, used.end);
-                let found = format!("{}: {low:.3} to {high:.3} from levels {first} to {last} of {levels}", kind.text());
+                let rate = interval_text(interval, RATE_PLACES);
+                let found = format!("{}: {rate} from levels {first} to {last} of {levels}", kind.text());
                 if kind == Reason::ClaimUnusable { found } else { format!("{found}, claimed {order} ± {tolerance}") }
             }
             None => kind.text().to_owned(),

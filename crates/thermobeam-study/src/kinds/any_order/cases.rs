@@ -3,10 +3,10 @@
 use convergence_study::run::time_limit::Patience;
 use convergence_study::study::{Case, CaseFailure};
 use convergence_study::text::number::max_or_nan;
-use thermobeam::dg::{Initial, Level, Problem, Simulation, Space, Stepping};
+use thermobeam::dg::{Initial, Load, Problem, Simulation, Space, Stepping};
 
 use super::{AnyOrder, Errors, Over, Resolution};
-use crate::exact::any_order::{self, LevelErrors, ManufacturedLoad};
+use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
 
 /// Where inside a step the errors are measured: no Gauss or Radau point, where they are smaller.
 const INSIDE: [f64; 2] = [0.13, 0.61];
@@ -32,7 +32,7 @@ pub(super) fn run(study: &AnyOrder, resolution: Resolution) -> Result<Errors, Ca
     let mut level = simulation.level().clone();
     let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
     let mut patience = Patience::new(simulation.space().blocks() * (resolution.time_degree + 1));
-    let measured = |space: &Space, level: &Level| any_order::errors(&study.exact, theta_a, space, level);
+    let mut meter = ErrorMeter::new(&study.exact, theta_a, simulation.space());
     loop {
         patience.check(simulation.work().steps, || simulation.t())?;
         if simulation.step(study.t_end)?.is_none() {
@@ -43,14 +43,14 @@ pub(super) fn run(study: &AnyOrder, resolution: Resolution) -> Result<Errors, Ca
             let (from, to) = (simulation.old_level().t, simulation.t());
             for s in INSIDE {
                 if simulation.level_into(from + s * (to - from), &mut level) {
-                    let LevelErrors { values: [u, _, u_t, ..], .. } = measured(simulation.space(), &level);
+                    let LevelErrors { values: [u, _, u_t, ..], .. } = meter.errors(&level);
                     inside_u = max_or_nan(inside_u, u);
                     inside_u_t = max_or_nan(inside_u_t, u_t);
                 }
             }
         }
     }
-    let LevelErrors { values, slopes } = measured(simulation.space(), simulation.level());
+    let LevelErrors { values, slopes } = meter.errors(simulation.level());
     let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
     Ok(Errors { fields: together(values), slopes: together(slopes), inside_u, inside_u_t })
 }
@@ -62,14 +62,12 @@ fn simulation(study: &AnyOrder, resolution: Resolution) -> Result<Simulation, Ca
     let (beam, obstacles) = study.solver_coefficients();
     // A wrong temperature of the clamped end is one from the start: the initial data meet it, or no step would be done.
     let shift = beam.theta_a - study.beam.theta_a;
-    let problem = || -> Result<Problem, CaseFailure> {
-        let exact = any_order::initial(&study.exact);
-        let theta = exact.theta;
-        let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
-        Ok(Problem { beam, obstacles, mesh: study.mesh(elements)?, degree, initial })
+    let exact = any_order::initial(&study.exact);
+    let theta = exact.theta;
+    let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
+    let problem = Problem { beam, obstacles, mesh: study.mesh(elements)?, degree, initial };
+    let load = |space: &Space| -> Box<dyn Load> {
+        Box::new(ManufacturedLoad::new(&study.exact, &study.beam, study.obstacles, space))
     };
-    // The loads need the elements that the simulation makes.
-    let space = Simulation::new(problem()?, stepping)?.space().clone();
-    let load = ManufacturedLoad::new(&study.exact, &study.beam, study.obstacles, &space);
-    Ok(Simulation::with_load(problem()?, stepping, Box::new(load))?)
+    Ok(Simulation::with_load(problem, stepping, load)?)
 }

@@ -24,7 +24,7 @@ pub const ROW: KindRow = KindRow {
     read: reader::<AnyOrder>,
     why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
           error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
-          polynomials of its degree: q + 2 for displacements, q + 1 for velocities (THEORY.md).",
+          polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",
     judged: "For each degree the rate over h or dt by the rule of every rate, other errors being at round-off; over p the error \
              must fall by the factor claimed for each degree until it reaches round-off.",
     failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \

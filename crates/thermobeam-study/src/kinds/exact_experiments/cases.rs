@@ -3,15 +3,14 @@
 use std::ops::ControlFlow;
 
 use convergence_study::study::{Case, CaseFailure};
-use thermobeam::mesh::Mesh;
 use thermobeam::simulation::Stepping;
 
-use super::{Discretisation, ExactExperiments, Method, Run, Shown};
+use super::{ExactExperiments, Method, Run, Shown};
+use crate::kinds::tables::Discretisation;
 use crate::run::any_order;
 use crate::run::driver::Driver;
 use crate::run::simulate::{self, Sampler};
 use crate::scene::Scene;
-use crate::scene::any_order::AnyOrderScene;
 
 /// Times at which the free end is compared over the whole time.
 pub(super) const TIP_TIMES: usize = 1000;
@@ -20,10 +19,7 @@ pub(super) fn cases(study: &ExactExperiments) -> Vec<Case<Run>> {
     let mut cases = vec![];
     for (scene, of) in study.scenes.iter().enumerate() {
         for (k, how) in study.discretisations.iter().enumerate() {
-            let Discretisation { elements, degree, stepping } = how;
-            let unknowns = (elements * degree * (stepping.degree + 1)) as f64;
-            let label = format!("{}, {elements} x p = {degree}, q = {}", of.name, stepping.degree);
-            let cost = 30.0 * unknowns * of.t_end / stepping.dt;
+            let (label, cost) = (format!("{}, {}", of.name, how.label()), how.cost(of.t_end));
             cases.push(Case { label, cost, data: Run { scene, method: Method::AnyOrder(k) } });
         }
         if study.compare {
@@ -45,24 +41,16 @@ pub(super) fn run(study: &ExactExperiments, run: Run) -> Result<Shown, CaseFailu
 
 fn any_order_run(study: &ExactExperiments, scene: &Scene, how: Discretisation) -> Result<Shown, CaseFailure> {
     let t_end = study.times.last().copied().unwrap_or(scene.t_end);
-    let scene = AnyOrderScene {
-        name: scene.name.clone(),
-        beam: scene.beam,
-        obstacles: scene.obstacles,
-        initial: scene.initial.clone(),
-        mesh: Mesh::uniform(how.elements)?,
-        degree: how.degree,
-        stepping: how.stepping,
-        t_end,
-    };
-    let run = any_order::run_at(&scene, &study.times, TIP_TIMES, &mut |_| ())?;
+    let scene = how.of(scene, t_end)?;
+    let mut states = vec![];
+    let run = any_order::run_at(&scene, &study.times, &mut |_, state| states.push(state), TIP_TIMES, &mut |_| ())?;
     if let Some(failure) = run.failure {
         return Err(failure.into());
     }
     // The first state of the history is the start.
     let tip = run.history.iter().map(|state| (state.t, state.u_tip)).collect();
     let balance = [run.energy.largest_balance_residual / run.energy.initial, run.energy.largest_increase];
-    Ok(Shown { states: run.at_times, events: run.events, tip, steps: run.steps, balance })
+    Ok(Shown { states, events: run.events, tip, steps: run.steps, balance })
 }
 
 /// The scene by its own scheme, its levels nearest to the times.

@@ -20,10 +20,10 @@ use std::path::Path;
 
 use convergence_study::input::{InputError, Section};
 use convergence_study::study::Header;
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
-use super::{Discretisation, ExactExperiments};
-use crate::scene::{Scene, tables};
+use super::ExactExperiments;
+use crate::kinds::tables::discretisations;
+use crate::scene::Scene;
 
 const POSITIVE: &str = "a finite number > 0";
 
@@ -35,19 +35,8 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let times = times(&section, &scenes)?;
     let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
     let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
-    let allowed = "two tables [[discretisations]] that differ in elements, degree, time_degree and dt";
-    let field = root.require("discretisations", allowed)?;
-    let items = field.items(allowed)?;
-    let list = items.iter().map(|item| discretisation(&item.section()?)).collect::<Result<Vec<_>, _>>()?;
-    let [one, other]: [Discretisation; 2] = list.try_into().map_err(|_| field.refuse_as_written(allowed))?;
-    let differ = one.elements != other.elements
-        && one.degree != other.degree
-        && one.stepping.degree != other.stepping.degree
-        && one.stepping.dt != other.stepping.dt;
-    if !differ {
-        return Err(field.refuse("two that share one of these", allowed));
-    }
-    Ok(ExactExperiments { header, scenes, times, discretisations: [one, other], agreement, compare })
+    let discretisations = discretisations(root, "discretisations", None)?;
+    Ok(ExactExperiments { header, scenes, times, discretisations, agreement, compare })
 }
 
 fn scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
@@ -68,23 +57,4 @@ fn times(section: &Section<'_>, scenes: &[Scene]) -> Result<Vec<f64>, InputError
     let increasing = times.windows(2).all(|pair| pair[0] < pair[1]);
     let fits = increasing && times.first().is_some_and(|t| *t > 0.0) && times.last().is_some_and(|t| *t <= end);
     if fits { Ok(times) } else { Err(field.refuse_as_written(allowed)) }
-}
-
-fn discretisation(section: &Section<'_>) -> Result<Discretisation, InputError> {
-    section.allow(&["elements", "degree", "time_degree", "dt", "restart_dt", "growth"])?;
-    let positive = |key: &str| section.require(key, POSITIVE)?.number_where(POSITIVE, |value| value > 0.0);
-    let dt = positive("dt")?;
-    let restart = format!("a number > 0 and at most dt = {dt:?}");
-    let growth = "a finite number >= 1";
-    Ok(Discretisation {
-        elements: tables::elements(&section.require("elements", "a whole number >= 1")?)?,
-        degree: section.require("degree", "a whole number >= 1")?.count(1..=MAX_DEGREE)?,
-        stepping: Stepping {
-            degree: section.require("time_degree", "a whole number >= 0")?.count(0..=MAX_TIME_DEGREE)?,
-            dt,
-            restart_dt: section.require("restart_dt", &restart)?.number_where(&restart, |h| h > 0.0 && h <= dt)?,
-            growth: section.require("growth", growth)?.number_where(growth, |value| value >= 1.0)?,
-            ..Stepping::default()
-        },
-    })
 }

@@ -12,8 +12,9 @@ use std::path::Path;
 
 use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
-use thermobeam::dg::{ContactEvent, Stepping};
+use thermobeam::dg::ContactEvent;
 
+use crate::kinds::tables::Discretisation;
 use crate::run::tally::Sample;
 use crate::scene::Scene;
 
@@ -27,17 +28,6 @@ pub const ROW: KindRow = KindRow {
              contact event. The energy must fall, its balance close to round-off.",
     failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
 };
-
-/// Elements and steps of one discretisation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Discretisation {
-    /// Elements of a uniform mesh.
-    pub(super) elements: usize,
-    /// Degree p.
-    pub(super) degree: usize,
-    /// Degree q in time and the lengths of steps.
-    pub(super) stepping: Stepping,
-}
 
 /// By what a scene is run.
 #[derive(Debug, Clone, Copy, PartialEq)]

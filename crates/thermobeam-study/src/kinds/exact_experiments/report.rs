@@ -5,7 +5,8 @@ use convergence_study::study::{Figure, Table};
 use convergence_study::text::number::max_or_nan;
 
 use super::judge::{OfScene, difference, numbers};
-use super::{Discretisation, ExactExperiments, Shown};
+use super::{ExactExperiments, Shown};
+use crate::kinds::tables::Discretisation;
 use crate::run::any_order::phase_name;
 
 pub(super) fn headline(study: &ExactExperiments, scenes: &[OfScene<'_>], worst: f64) -> String {

@@ -15,12 +15,13 @@ impl Frequencies {
 
 pub(super) fn cases(study: &Frequencies) -> Vec<Case<usize>> {
     // Bisection to the last bit is some 60 counts for each frequency.
-    let cost = |n: usize| 60.0 * (n * study.count) as f64;
+    let cost = |n: usize| 60.0 * (n * study.degree.pow(3) * study.count) as f64;
     study.elements.iter().map(|&n| Case { label: format!("n = {n}"), cost: cost(n), data: n }).collect()
 }
 
 pub(super) fn run(study: &Frequencies, elements: usize) -> Result<Vec<f64>, CaseFailure> {
     // Each count of the bisection goes over all elements, as a step does.
-    let mut patience = Patience::new(elements);
-    Ok(discrete_frequencies_until(&study.mesh(elements)?, study.count, |known| patience.check(known, || 0.0))??)
+    let mut patience = Patience::new(elements * study.degree.pow(3));
+    let mesh = study.mesh(elements)?;
+    Ok(discrete_frequencies_until(&mesh, study.degree, study.count, |known| patience.check(known, || 0.0))??)
 }

@@ -1,7 +1,18 @@
 //! The study file: which frequencies, on which meshes.
+//!
+//! ```toml
+//! [frequencies]
+//! degree = 3            # of the elements; 1 unless told
+//! first = 3             # the lowest mode judged: of those below it high degrees leave only round-off; 1 unless told
+//! count = 6             # the highest
+//! elements = [6, 8, 12]
+//! order = 6.0
+//! tolerance = 0.1
+//! ```
 
 use convergence_study::input::{InputError, Section};
 use convergence_study::study::Header;
+use thermobeam::dg::MAX_DEGREE;
 use thermobeam::mesh::Mesh;
 
 use super::Frequencies;
@@ -12,14 +23,26 @@ use crate::scene::{limits, tables};
 pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Frequencies, InputError> {
     root.allow(&["study", "frequencies"])?;
     let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;
-    section.allow(&["count", "elements", "map", "order", "tolerance"])?;
+    section.allow(&["first", "count", "elements", "degree", "map", "order", "tolerance"])?;
     let positive = "a finite number > 0";
     let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
     let elements = increasing(&section)?;
-    // A mesh has two frequencies an element, of which the upper ones approximate nothing.
-    let count = section.require("count", "a whole number >= 1")?.count(1..=elements[0].min(limits::MODES))?;
+    let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
+    // A mesh has twice as many frequencies, of which the upper ones approximate nothing.
+    let most = (elements[0] * degree).min(limits::MODES);
+    let count = section.require("count", "a whole number >= 1")?.count(1..=most)?;
+    let first = section.get("first").map_or(Ok(1), |field| field.count(1..=count))?;
     let map = map(&section, &elements)?;
-    Ok(Frequencies { header, count, map, elements, order: number("order")?, tolerance: number("tolerance")? })
+    Ok(Frequencies {
+        header,
+        first,
+        count,
+        degree,
+        map,
+        elements,
+        order: number("order")?,
+        tolerance: number("tolerance")?,
+    })
 }
 
 fn increasing(section: &Section<'_>) -> Result<Vec<usize>, InputError> {

@@ -1,4 +1,4 @@
-//! The verdict: second order for each frequency, all errors positive, the exact frequencies roots of their equation.
+//! The verdict: the order for each frequency, all errors positive, the exact frequencies roots of their equation.
 
 use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
@@ -24,7 +24,10 @@ pub(super) fn judge(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Outcom
     let figure = levels.figure(
         format!("{}-errors.svg", study.header.id),
         Some("Discrete frequencies, ω_h - ω".to_owned()),
-        format!("Errors of the first {} frequencies on P1 elements over the mesh width.", study.count),
+        format!(
+            "Errors of frequencies {} to {} over the mesh width, on elements of degree {}.",
+            study.first, study.count, study.degree
+        ),
         &rates,
     );
     Outcome {
@@ -55,7 +58,7 @@ fn errors(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
     Levels {
         axis: Axis::Space,
         refinements: ran.iter().map(refinement).collect(),
-        columns: (0..study.count).map(column).collect(),
+        columns: (study.first - 1..study.count).map(column).collect(),
     }
 }
 
@@ -63,15 +66,17 @@ fn table(study: &Frequencies, levels: &Levels, rates: &[(String, RateVerdict)]) 
     let finest = levels.refinements.last();
     let h = finest.map_or(f64::NAN, |level| level.step);
     let row = |(mode, omega): (usize, f64)| {
-        let error = levels.columns[mode].errors.last().copied().unwrap_or(f64::NAN);
-        let rate = &rates[mode].1;
+        let (column, rate) = (&levels.columns[mode], &rates[mode].1);
+        let error = column.errors.last().copied().unwrap_or(f64::NAN);
         let interval = rate.interval.map_or_else(|| "-".into(), |[low, high]| format!("{low:.4} to {high:.4}"));
+        // Known for linear elements only.
+        let leading = (study.degree == 1).then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
         vec![
-            (mode + 1).to_string(),
+            (mode + study.first).to_string(),
             format!("{omega:.11}"),
             format!("{:.11}", omega + error),
             format!("{error:.3e}"),
-            format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)),
+            leading.unwrap_or_else(|| "-".into()),
             rate.fitted.map_or_else(|| "-".into(), |rate| format!("{rate:.4}")),
             interval,
             rate.verdict.to_string(),
@@ -80,9 +85,9 @@ fn table(study: &Frequencies, levels: &Levels, rates: &[(String, RateVerdict)]) 
     let head = ["mode", "ω exact", "ω_h", "ω_h - ω", "over ω³h²/24", "rate", "95 % interval", "verdict"];
     let mesh = finest.map_or("-", |level| level.label.as_str());
     Table {
-        title: format!("The first {} frequencies, exact and discrete ({mesh})", study.count),
+        title: format!("Frequencies {} to {}, exact and discrete ({mesh})", study.first, study.count),
         head: head.map(str::to_owned).into(),
-        rows: frequencies(study.count).into_iter().enumerate().map(row).collect(),
+        rows: frequencies(study.count).into_iter().skip(study.first - 1).enumerate().map(row).collect(),
     }
 }
 

@@ -1,7 +1,7 @@
-//! Frequencies of the beam on P1 elements against the exact ones: order 2, from above.
+//! Frequencies of the beam on elements of degree p against the exact ones: order 2p, from above.
 //!
 //! Rayleigh and Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
-//! modes' error in the energy, h². For high modes `ω_h - ω` is `ω³h²/24` to leading order.
+//! modes' error in the energy, h^2p. On linear elements `ω_h - ω` is `ω³h²/24` to leading order for high modes.
 
 mod cases;
 mod file;
@@ -18,8 +18,8 @@ use crate::expression::Expression;
 pub const ROW: KindRow = KindRow {
     name: "frequencies",
     read: reader::<Frequencies>,
-    why: "Linear elements overestimate the eigenfrequencies of the clamped-free beam by O(h^2); the exact ones are roots of a \
-          scalar equation.",
+    why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
+          a scalar equation.",
     judged: "The rate of each of the first frequencies, and that all discrete ones lie above.",
     failure: "Mass, stiffness or coupling of the discretisation is wrong.",
 };
@@ -28,7 +28,11 @@ pub const ROW: KindRow = KindRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frequencies {
     header: Header,
+    /// The lowest mode that is judged, from 1.
+    first: usize,
+    /// The highest.
     count: usize,
+    degree: usize,
     elements: Vec<usize>,
     map: Option<Expression>,
     order: f64,

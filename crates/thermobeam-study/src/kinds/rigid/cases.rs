@@ -6,9 +6,9 @@ use convergence_study::study::{Case, CaseFailure};
 use convergence_study::text::number::max_or_nan;
 use thermobeam::contraction::contact_contraction;
 use thermobeam::error::{StepError, StepFailure};
+use thermobeam::parameters::Obstacles;
 use thermobeam::solve::{Settings, Solver};
 
-use super::theory::impact_time;
 use super::{Bouncing, FixedPointRun, Found, Impact, Rest, RigidStudy, RunOf, Task};
 use crate::kinds::steady::{driver, settle};
 use crate::run::driver::{RunError, Step};
@@ -51,7 +51,7 @@ fn with_compliance(scene: &Scene, epsilon: f64) -> Scene {
 
 fn impact_scene(study: &RigidStudy, epsilon: f64) -> Scene {
     let scene = with_compliance(&study.impact, epsilon);
-    let time = impact_time(epsilon, scene.beam.zeta);
+    let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(scene.beam.zeta);
     // The peak is at 1.65 t*.
     Scene { dt: time / study.steps as f64, steps: 3 * study.steps, t_end: 3.0 * time, ..scene }
 }

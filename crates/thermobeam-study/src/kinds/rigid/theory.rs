@@ -1,11 +1,9 @@
 //! The impact of a viscous beam in closed form.
 
-/// The time that an impact takes, `t* = (ε √ζ)^(2/3)`; also the penetration for an impact of unit velocity.
-pub(super) fn impact_time(epsilon: f64, zeta: f64) -> f64 {
-    (epsilon * zeta.sqrt()).powf(2.0 / 3.0)
-}
+#[cfg(doc)]
+use thermobeam::parameters::Obstacles;
 
-/// Peak penetration of an impact, in units of velocity times [`impact_time`]: 0.8581.
+/// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.
 ///
 /// The largest value of `P(τ) = Σ (-1)^k τ^(1 + 3k/2) / Γ(2 + 3k/2)`, the inverse transform of `1/(s² + √s)`.
 pub(super) fn peak_penetration() -> f64 {

@@ -1,26 +1,55 @@
-//! One resolution of the scene a case, the reference last.
+//! One resolution of the scene a case, then the two references.
 
-use convergence_study::study::{Case, CaseFailure};
+use convergence_study::study::{Axis, Case, CaseFailure};
+use thermobeam::mesh::{Mesh, MeshError};
 
-use super::{Resolution, Sample, SelfConvergence, Traced};
+use super::{Resolution, Run, Sample, SelfConvergence, Traced};
+use crate::error::reference::{Reference, fine_mesh};
 use crate::kinds::tables::Refine;
 use crate::run::rerun::{Rerun, resampled};
 
 /// Points of a curve in a figure: more than pixels.
 const CURVE_POINTS: usize = 2000;
 
-pub(super) fn cases(study: &SelfConvergence) -> Vec<Case<Resolution>> {
-    let case = |&data: &Resolution| Case {
-        label: Refine::label(data.elements, data.steps),
-        cost: data.elements as f64 * data.steps as f64,
-        data,
+pub(super) fn cases(study: &SelfConvergence) -> Vec<Case<Run>> {
+    let level = |&level: &Resolution| Case {
+        label: Refine::label(level.elements, level.steps),
+        cost: level.elements as f64 * level.steps as f64,
+        data: Run::Level(level),
     };
-    study.runs.iter().map(case).collect()
+    let reference = |k: usize| Case {
+        label: format!("reference, {}", study.references[k].label()),
+        cost: study.references[k].cost(study.t_end),
+        data: Run::Reference(k),
+    };
+    study.levels.iter().map(level).chain((0..study.references.len()).map(reference)).collect()
 }
 
-pub(super) fn run(study: &SelfConvergence, resolution: Resolution) -> Result<Traced, CaseFailure> {
-    let Resolution { elements, steps, scheme } = resolution;
+pub(super) fn run(study: &SelfConvergence, run: Run) -> Result<Traced, CaseFailure> {
+    match run {
+        Run::Level(level) => by_the_scheme(study, level),
+        Run::Reference(k) => reference(study, k),
+    }
+}
+
+fn reference(study: &SelfConvergence, k: usize) -> Result<Traced, CaseFailure> {
+    let how = &study.references[k];
+    let found = Reference::compute(&study.scene, how, common_mesh(study)?, study.t_end, study.samples, CURVE_POINTS)?;
+    let sample = |(level, energy)| Sample { level, energy };
+    let samples = found.levels.into_iter().zip(found.energies).map(sample).collect();
+    Ok(Traced { mesh: found.mesh, tip_range: found.tip_range, tip: found.tip, samples })
+}
+
+/// The mesh on which levels are compared with a reference.
+fn common_mesh(study: &SelfConvergence) -> Result<Mesh, MeshError> {
+    let finest = study.levels.last().map_or(0, |level| level.elements);
+    if study.axis == Axis::Time { resampled(&study.scene.mesh, finest) } else { fine_mesh(&study.scene, finest) }
+}
+
+fn by_the_scheme(study: &SelfConvergence, level: Resolution) -> Result<Traced, CaseFailure> {
+    let Resolution { elements, steps } = level;
     let mesh = resampled(&study.scene.mesh, elements)?;
+    let scheme = study.scheme;
     let rerun = Rerun { mesh: mesh.clone(), steps, t_end: study.t_end, scheme, ..Rerun::of(&study.scene) };
     // As many points as fit a figure, and all the times that are compared.
     let per_sample = (CURVE_POINTS / study.samples).max(1);

@@ -4,21 +4,21 @@ use convergence_study::plots::{self, Axis as PlotAxis, Guide, History, Series};
 use convergence_study::study::{Axis, Figure, Ran};
 
 use super::SelfConvergence;
-use super::judge::Run;
+use super::judge::Found;
 
 /// On the coarsest and the finest level and in the reference run, with the obstacles.
-pub(super) fn tip(study: &SelfConvergence, ran: &[Run]) -> Figure {
-    let reference = study.runs.len() - 1;
+pub(super) fn tip(study: &SelfConvergence, ran: &[Found]) -> Figure {
+    let (reference, finest) = (study.levels.len(), study.levels.len() - 1);
     let name = |k: usize| match study.axis {
-        Axis::Space => format!("n = {}", study.runs[k].elements),
-        Axis::Time | Axis::Both => format!("{} steps", study.runs[k].steps),
+        Axis::Time => format!("{} steps", study.levels[k].steps),
+        Axis::Space | Axis::Both => format!("n = {}", study.levels[k].elements),
     };
     let curve = |(k, label): (usize, String)| Series {
         label,
         points: ran.get(k).and_then(Ran::ok).map_or(vec![], |found| found.tip.clone()),
     };
     let shown =
-        [(reference, format!("reference, {}", name(reference))), (0, name(0)), (reference - 1, name(reference - 1))];
+        [(reference, format!("reference, {}", study.references[0].label())), (0, name(0)), (finest, name(finest))];
     let guides = study
         .scene
         .obstacles

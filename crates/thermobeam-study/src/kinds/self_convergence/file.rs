@@ -1,39 +1,63 @@
-//! The file of a study without exact solution: a scene, what is refined, what is claimed.
+//! The file of a study without exact solution: a scene, what is refined, what it is compared with, what is claimed.
+//!
+//! ```toml
+//! [scene]
+//! file = "scenes/paper-1-beta-0.toml"
+//!
+//! [refine]
+//! axis = "both"                      # dt = c h, or dt = c h^2; or "time", on one mesh
+//! elements = [10, 20, 40]
+//! steps = [200, 800, 3200]
+//! samples = 10                       # times of comparison
+//!
+//! [[reference]]                      # two of them, that share nothing; with axis = "time" elements of degree 1 on the mesh
+//! elements = 1
+//! degree = 28
+//! time_degree = 4
+//! dt = 0.003
+//! restart_dt = 1e-4
+//! growth = 1.3
+//!
+//! [[expect]]
+//! quantity = "tip"
+//! order = 2.0
+//! tolerance = 0.1
+//! ```
 
 use std::path::Path;
 
 use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::levels::Claim;
 use convergence_study::study::{Axis, Header};
-use thermobeam::scheme::{SCHEMES, Scheme};
+use thermobeam::scheme::SCHEMES;
 
 use super::{Observable, Resolution, SelfConvergence};
+use crate::kinds::tables::discretisations;
 use crate::scene::{Scene, tables};
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<SelfConvergence, InputError> {
-    root.allow(&["study", "scene", "refine", "expect"])?;
+    root.allow(&["study", "scene", "refine", "reference", "expect"])?;
     let named = root.require("scene", "a table with the scene's file")?.section()?;
     named.allow(&["file"])?;
     let scene = Scene::read(named.require("file", "the path of a scene, from this file's folder")?.file(folder)?)?;
-    let section = root.require("refine", "a table with axis, elements, steps and reference")?.section()?;
-    section.allow(&KEYS)?;
-    let axis =
-        section.require("axis", "\"space\", \"time\"")?.choice(&[("space", Axis::Space), ("time", Axis::Time)])?;
+    let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
+    section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
+    let axis = section.require("axis", "\"time\", \"both\"")?.choice(&[("time", Axis::Time), ("both", Axis::Both)])?;
     let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
-    let (elements, steps) = resolutions(&section, axis, samples)?;
+    let (levels, power) = levels(&section, axis, samples)?;
     let positive = "a finite number > 0";
     let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
-    let own = scheme(&section, "scheme", scene.scheme)?;
-    let of_reference = scheme(&section, "reference_scheme", own)?;
-    let last = elements.len() - 1;
-    let run = |(k, (elements, steps)): (usize, (usize, usize))| {
-        let scheme = if k == last { of_reference } else { own };
-        Resolution { elements, steps, scheme }
-    };
+    let scheme = section
+        .get("scheme")
+        .map_or(Ok(scene.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
+    let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
     Ok(SelfConvergence {
         header,
         axis,
-        runs: elements.into_iter().zip(steps).enumerate().map(run).collect(),
+        scheme,
+        levels,
+        power,
+        references: discretisations(root, "reference", of_mesh)?,
         t_end,
         samples,
         contact: contact(&section, &scene)?,
@@ -51,37 +75,48 @@ fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
     Ok(contact)
 }
 
-const KEYS: [&str; 9] =
-    ["axis", "elements", "steps", "reference", "t_end", "samples", "scheme", "reference_scheme", "contact"];
-
-fn scheme(section: &Section<'_>, key: &str, default: Scheme) -> Result<Scheme, InputError> {
-    section.get(key).map_or(Ok(default), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))
+/// The levels, coarse to fine, and the power of h that dt is proportional to where both are refined.
+fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<Resolution>, f64), InputError> {
+    let steps = nested_list(section, "steps")?;
+    let (elements, power) = if axis == Axis::Time {
+        let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
+        (vec![one; steps.len()], 1.0)
+    } else {
+        let elements = nested_list(section, "elements")?;
+        (elements.clone(), power(section, &elements, &steps)?)
+    };
+    if !steps[0].is_multiple_of(samples) {
+        let found = format!("{} steps", steps[0]);
+        return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
+    }
+    let level = |(elements, steps)| Resolution { elements, steps };
+    Ok((elements.into_iter().zip(steps).map(level).collect(), power))
 }
 
-/// Elements and steps of each run, the reference last.
-fn resolutions(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<usize>, Vec<usize>), InputError> {
-    let (refined, fixed) = if axis == Axis::Space { ("elements", "steps") } else { ("steps", "elements") };
+fn nested_list(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two whole numbers, each a multiple of the one before";
-    let list = section.require(refined, allowed)?;
+    let list = section.require(key, allowed)?;
     let mut levels = vec![];
     for item in list.items(allowed)? {
         nested(&item, &mut levels)?;
     }
-    if levels.len() < 2 {
-        return Err(list.refuse_as_written(allowed));
+    if levels.len() < 2 { Err(list.refuse_as_written(allowed)) } else { Ok(levels) }
+}
+
+/// 1 for dt = c h from level to level, 2 for dt = c h².
+fn power(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<f64, InputError> {
+    let ratios = |list: &[usize]| list.windows(2).map(|pair| pair[1] / pair[0]).collect::<Vec<usize>>();
+    let (finer, shorter) = (ratios(elements), ratios(steps));
+    let of = |power: u32| finer.iter().map(|ratio| ratio.pow(power)).eq(shorter.iter().copied());
+    match (of(1), of(2)) {
+        (true, _) => Ok(1.0),
+        (_, true) => Ok(2.0),
+        _ => {
+            let allowed =
+                "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+            Err(section.require("steps", allowed)?.refuse_as_written(allowed))
+        }
     }
-    nested(&section.require("reference", "a multiple of the finest level")?, &mut levels)?;
-    let other = tables::elements(&section.require(fixed, "a single whole number >= 1")?)?;
-    let all_others = vec![other; levels.len()];
-    let (elements, steps) = if axis == Axis::Space { (levels, all_others) } else { (all_others, levels) };
-    if !steps[0].is_multiple_of(samples) {
-        return Err(section.refuse(
-            "steps",
-            format!("{} steps", steps[0]),
-            format!("a multiple of samples = {samples}"),
-        ));
-    }
-    Ok((elements, steps))
 }
 
 /// A level that the one before divides.

@@ -4,9 +4,11 @@ use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
 use convergence_study::study::{Axis, Check, LevelErrors, Outcome, Quantity, Ran, Table};
 
-use super::{Observable, Resolution, Sample, SelfConvergence, Traced, cases, figures};
+use super::{Observable, Resolution, Run, Sample, SelfConvergence, Traced, figures};
+use crate::kinds::tables::Refine;
 use crate::run::rerun::resampled;
 use convergence_study::judge::richardson;
+use convergence_study::text::number::max_or_nan;
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;
@@ -14,7 +16,10 @@ const SHOWN_TOLERANCE: f64 = 0.1;
 /// Relative change that the baseline tolerates in a value of the solution itself.
 const VALUE_TOLERANCE: f64 = 1e-8;
 
-pub(super) type Run = Ran<Resolution, Traced>;
+/// The part of the finest level's error that the two references may differ by.
+const KNOWN: f64 = 1e-2;
+
+pub(super) type Found = Ran<Run, Traced>;
 
 /// Which run a level is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +41,7 @@ impl Reading {
     }
 }
 
-pub(super) fn judge(study: &SelfConvergence, ran: &[Run]) -> Outcome {
+pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
     let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
     for reading in Reading::ALL {
         let claimed = differences(study, ran, reading, |claim| claim.is_some());
@@ -50,6 +55,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Run]) -> Outcome {
     }
     quantities.extend(values_guarded(study, ran));
     let mut checks = vec![levels::completion(ran, not_finite)];
+    checks.push(reference_known(study, ran));
     checks.extend(contact(study, ran));
     let mut tables = vec![values(study, ran)];
     if !shown.is_empty() {
@@ -58,8 +64,8 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Run]) -> Outcome {
     let both: Vec<(String, RateVerdict)> = rates.iter().chain(&shown).cloned().collect();
     let to_reference = differences(study, ran, Reading::Reference, |_| true).figure(
         format!("{}-errors.svg", study.header.id),
-        Some(format!("Differences to a reference run of {}", study.scene.name)),
-        "Differences to the reference run, with the orders of a smooth solution.".to_owned(),
+        Some(format!("Differences to a run of any order: {}", study.scene.name)),
+        "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
         &both,
     );
     Outcome {
@@ -84,11 +90,11 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
 /// Differences of each level to what the reading compares it with, of the observables whose claim is `wanted`.
 fn differences(
     study: &SelfConvergence,
-    ran: &[Run],
+    ran: &[Found],
     reading: Reading,
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
-    let reference = study.runs.len() - 1;
+    let reference = study.levels.len();
     let count = if reading == Reading::Successive { reference - 1 } else { reference };
     let finer = |k: usize| if reading == Reading::Successive { k + 1 } else { reference };
     let found = |k: usize| ran.get(k).and_then(Ran::ok);
@@ -98,8 +104,7 @@ fn differences(
             (Some(coarse), Some(fine)) => observable.difference(coarse, fine),
             _ => f64::NAN,
         };
-        let smooth =
-            Claim { order: observable.order(study.axis, study.runs[0].scheme.order), tolerance: SHOWN_TOLERANCE };
+        let smooth = Claim { order: observable.order(study.axis, study.order_in_time()), tolerance: SHOWN_TOLERANCE };
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {}", observable.name(), reading.name()),
             errors: (0..count).map(difference).collect(),
@@ -109,23 +114,19 @@ fn differences(
     };
     Levels {
         axis: study.axis,
-        refinements: cases::cases(study)
-            .iter()
-            .take(count)
-            .map(|case| refinement(study, &case.label, case.data))
-            .collect(),
+        refinements: study.levels.iter().take(count).map(|&level| refinement(study, level)).collect(),
         columns: Observable::of(study.axis).filter_map(column).collect(),
     }
 }
 
-fn refinement(study: &SelfConvergence, label: &str, resolution: Resolution) -> Refinement {
-    let Resolution { elements, steps, .. } = resolution;
+fn refinement(study: &SelfConvergence, level: Resolution) -> Refinement {
+    let Resolution { elements, steps } = level;
     Refinement {
-        label: label.to_owned(),
+        label: Refine::label(elements, steps),
         parameters: [("elements", elements), ("steps", steps)]
             .map(|(name, count)| (name.to_owned(), count as f64))
             .into(),
-        step: study.step(resolution),
+        step: study.step(level),
     }
 }
 
@@ -141,16 +142,16 @@ fn not_finite(found: &Traced) -> Vec<String> {
 }
 
 /// A number of a run at sample `k` from 1; NaN where there is none.
-fn at_sample(ran: &[Run], run: usize, k: usize, number: impl Fn(&Sample) -> f64) -> f64 {
+fn at_sample(ran: &[Found], run: usize, k: usize, number: impl Fn(&Sample) -> f64) -> f64 {
     ran.get(run).and_then(Ran::ok).and_then(|found| found.samples.get(k - 1)).map_or(f64::NAN, number)
 }
 
 /// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
-fn values(study: &SelfConvergence, ran: &[Run]) -> Table {
-    let reference = study.runs.len() - 1;
+fn values(study: &SelfConvergence, ran: &[Found]) -> Table {
+    let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
-    let ratio = study.step(study.runs[before]) / study.step(study.runs[finest]);
-    let order = Observable::Tip.order(study.axis, study.runs[0].scheme.order);
+    let ratio = study.step(study.levels[before]) / study.step(study.levels[finest]);
+    let order = Observable::Tip.order(study.axis, study.order_in_time());
     let row = |k: usize| {
         let value = |run: usize| at_sample(ran, run, k, Sample::tip);
         let correction = richardson::correction(value(before), value(finest), ratio, order);
@@ -171,17 +172,36 @@ fn values(study: &SelfConvergence, ran: &[Run]) -> Table {
     }
 }
 
-fn contact(study: &SelfConvergence, ran: &[Run]) -> Option<Check> {
+fn contact(study: &SelfConvergence, ran: &[Found]) -> Option<Check> {
     let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
-    let [low, high] = ran.get(study.runs.len() - 1).and_then(Ran::ok).map_or([f64::NAN; 2], |found| found.tip_range);
+    let [low, high] = ran.get(study.levels.len()).and_then(Ran::ok).map_or([f64::NAN; 2], |found| found.tip_range);
     let evidence =
         format!("u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}", obstacles.g1, obstacles.g2);
     Some(Check::that(low < obstacles.g1 || high > obstacles.g2, "the tip meets an obstacle", evidence))
 }
 
-/// Values of the finest level but the reference.
-fn values_guarded(study: &SelfConvergence, ran: &[Run]) -> Vec<Quantity> {
-    let finest = study.runs.len() - 2;
+/// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
+fn reference_known(study: &SelfConvergence, ran: &[Found]) -> Check {
+    let found = |k: usize| ran.get(study.levels.len() + k).and_then(Ran::ok);
+    let finest = ran.get(study.levels.len() - 1).and_then(Ran::ok);
+    let part = |&(observable, _): &(Observable, Claim)| {
+        let (Some(finest), Some(one), Some(other)) = (finest, found(0), found(1)) else { return f64::NAN };
+        observable.difference(one, other) / observable.difference(finest, one)
+    };
+    let parts: Vec<f64> = study.claims.iter().map(part).collect();
+    let worst = parts.iter().copied().fold(0.0, max_or_nan);
+    let named =
+        study.claims.iter().zip(&parts).map(|((observable, _), part)| format!("{} {part:.0e}", observable.name()));
+    Check::that(
+        worst <= KNOWN,
+        format!("another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"),
+        named.collect::<Vec<_>>().join(", "),
+    )
+}
+
+/// Values of the finest level.
+fn values_guarded(study: &SelfConvergence, ran: &[Found]) -> Vec<Quantity> {
+    let finest = study.levels.len() - 1;
     let last = study.samples;
     let tip_max = ran.get(finest).and_then(Ran::ok).map_or(f64::NAN, |found| found.tip_range[1]);
     let values = [
@@ -199,11 +219,18 @@ impl SelfConvergence {
         self.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim)
     }
 
-    /// h or dt.
-    fn step(&self, resolution: Resolution) -> f64 {
+    /// h, or dt where time alone is refined.
+    fn step(&self, level: Resolution) -> f64 {
         match self.axis {
-            Axis::Space => resampled(&self.scene.mesh, resolution.elements).map_or(f64::NAN, |mesh| mesh.size()),
-            Axis::Time | Axis::Both => self.t_end / resolution.steps as f64,
+            Axis::Space | Axis::Both => {
+                resampled(&self.scene.mesh, level.elements).map_or(f64::NAN, |mesh| mesh.size())
+            }
+            Axis::Time => self.t_end / level.steps as f64,
         }
+    }
+
+    /// The scheme's order in that step: with dt = c h² twice as high.
+    fn order_in_time(&self) -> f64 {
+        self.scheme.order * self.power
     }
 }

@@ -4,8 +4,12 @@
 //!
 //! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring levels is
 //!   `q_h - q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order, and two of them (three levels) give a rate;
-//! * *reference*: the difference to a much finer run. That run's own error bends the finest rates by the factor
-//!   `1 - (h_ref/h)^p`; a reference by another scheme, of higher order, bends less and is an independent witness.
+//! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. Where h and dt are refined together it is
+//!   the error against the equations themselves, contact included; where time alone is refined, against the semi-discrete
+//!   system of the mesh. A second reference of other degrees and steps tells how well the first is known.
+//!
+//! A fault of the scheme that does not vanish with h and dt, such as a wrong coefficient, falls with no order in the second
+//! reading, while the first does not see it.
 //!
 //! What the contact does is not assumed. The contact force is Lipschitz, so where the tip enters or leaves an obstacle it
 //! has a kink in time. That costs one step a local error of dt² instead of dt³, once for each event: first and second order
@@ -28,6 +32,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Level;
 
+use crate::kinds::tables::Discretisation;
 use crate::scene::Scene;
 pub use observable::Observable;
 
@@ -35,10 +40,11 @@ pub use observable::Observable;
 pub const ROW: KindRow = KindRow {
     name: "self-convergence",
     read: reader::<SelfConvergence>,
-    why: "For the paper's own data there is no exact solution: rates come from the differences of three levels (Richardson) and \
-          from the distance to a much finer run, contact included.",
-    judged: "Each quantity's rate by the rule of every rate. A wrong coefficient cannot be seen in this way; a lost order can.",
-    failure: "With contact and rough data the order is lost, or the levels are too coarse for it.",
+    why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
+          the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
+    judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
+    failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
+              reference fail, scheme and reference solve different equations.",
 };
 
 /// A study of rates without exact solution.
@@ -47,8 +53,13 @@ pub struct SelfConvergence {
     header: Header,
     scene: Scene,
     axis: Axis,
-    /// Coarse to fine, the reference last; at least three.
-    runs: Vec<Resolution>,
+    scheme: Scheme,
+    /// Coarse to fine; at least two.
+    levels: Vec<Resolution>,
+    /// dt = c h^power; 1 where time alone is refined.
+    power: f64,
+    /// The first is what levels are compared with.
+    references: [Discretisation; 2],
     t_end: f64,
     /// Times of comparison.
     samples: usize,
@@ -58,15 +69,22 @@ pub struct SelfConvergence {
     claims: Vec<(Observable, Claim)>,
 }
 
-/// What a run of the scene is done with.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A level of refinement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resolution {
     /// Elements.
     pub elements: usize,
     /// Time steps.
     pub steps: usize,
-    /// The time scheme.
-    pub scheme: Scheme,
+}
+
+/// A run of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Run {
+    /// By the scheme of the study.
+    Level(Resolution),
+    /// The reference of this number.
+    Reference(usize),
 }
 
 /// A run at a time of comparison.
@@ -81,7 +99,7 @@ pub struct Sample {
 /// What is kept of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// Its mesh.
+    /// Its mesh, or the one that a reference is kept on.
     pub mesh: Mesh,
     /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
@@ -108,22 +126,22 @@ impl FromFile for SelfConvergence {
 }
 
 impl Kind for SelfConvergence {
-    type Data = Resolution;
+    type Data = Run;
     type Found = Traced;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<Resolution>> {
+    fn cases(&self) -> Vec<Case<Run>> {
         cases::cases(self)
     }
 
-    fn run(&self, resolution: &Resolution) -> Result<Traced, CaseFailure> {
-        cases::run(self, *resolution)
+    fn run(&self, run: &Run) -> Result<Traced, CaseFailure> {
+        cases::run(self, *run)
     }
 
-    fn judge(&self, ran: &[Ran<Resolution, Traced>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<Run, Traced>]) -> Outcome {
         judge::judge(self, ran)
     }
 }

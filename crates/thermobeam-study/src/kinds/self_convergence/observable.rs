@@ -39,7 +39,7 @@ impl Observable {
     /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
     /// 3.4 are the same.
     pub(super) fn of(axis: Axis) -> impl Iterator<Item = Observable> {
-        Self::ALL.into_iter().filter(move |observable| axis == Axis::Space || *observable != Observable::Superclose)
+        Self::ALL.into_iter().filter(move |observable| axis != Axis::Time || *observable != Observable::Superclose)
     }
 
     /// The name in study files and tables.
@@ -63,13 +63,12 @@ impl Observable {
         }
     }
 
-    /// The order for a smooth solution.
-    pub(super) fn order(self, axis: Axis, scheme_order: f64) -> f64 {
-        match (axis, self) {
-            (Axis::Space, Observable::Theorem34) => 1.0,
-            (Axis::Space, _) => 2.0,
-            _ => scheme_order,
-        }
+    /// The order for a smooth solution, in dt where time is refined, else in h.
+    ///
+    /// * `in_time`: the scheme's order in the step that is refined.
+    pub(super) fn order(self, axis: Axis, in_time: f64) -> f64 {
+        let in_space = if self == Observable::Theorem34 { 1.0 } else { 2.0 };
+        if axis == Axis::Time { in_time } else { in_time.min(in_space) }
     }
 
     /// The difference of two runs, the second on a mesh that is the first's or nested in it; NaN where the runs cannot be

@@ -7,10 +7,11 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::Header;
 
 use super::method::{METHODS, Method};
-use super::{Advantage, ROW, WorkPrecision};
+use super::{Advantage, AnyOrder, ROW, WorkPrecision};
 use crate::error::evaluator::ErrorMeasure;
 use crate::error::free_vibration;
 use crate::kinds::convergence::Convergence;
+use crate::kinds::tables::discretisations;
 use crate::run::family::Family;
 use crate::scene::{Scene, limits};
 
@@ -22,9 +23,9 @@ const MISFIT: f64 = 0.15;
 const POSITIVE: &str = "a finite number > 0";
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<WorkPrecision, InputError> {
-    root.allow(&["study", ROW.name, "advantage"])?;
+    root.allow(&["study", ROW.name, "reference", "advantage"])?;
     let section = root.require(ROW.name, "a table with elements, steps and a problem")?.section()?;
-    let keys = ["solution", "scene", "vibration", "zeta", "t_end", "reference", "elements", "steps"];
+    let keys = ["solution", "scene", "vibration", "zeta", "t_end", "agreement", "elements", "steps"];
     section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
     let steps = levels(&section, "steps")?;
     if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
@@ -34,7 +35,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let number = |key: &str, default: f64| {
         section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
     };
-    let (family, reference) = problem(&section, folder, &elements, &steps)?;
+    let (family, reference) = problem(root, &section, folder)?;
     Ok(WorkPrecision {
         header,
         family,
@@ -62,18 +63,16 @@ fn levels(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
 }
 
 /// The problem, and the reference where it has no exact solution.
-fn problem(
-    section: &Section<'_>,
-    folder: &Path,
-    elements: &[usize],
-    steps: &[usize],
-) -> Result<(Family, Option<[usize; 2]>), InputError> {
+fn problem(root: &Section<'_>, section: &Section<'_>, folder: &Path) -> Result<(Family, Option<AnyOrder>), InputError> {
     let only_with = |key: &str, owner: &str| match (section.get(key), section.get(owner)) {
         (Some(field), None) => Err(field.refuse(format!("{key} without {owner}"), format!("{key} beside {owner}"))),
         _ => Ok(()),
     };
     only_with("zeta", "vibration")?;
-    only_with("reference", "scene")?;
+    only_with("agreement", "scene")?;
+    if let (Some(field), None) = (root.get("reference"), section.get("scene")) {
+        return Err(field.refuse("reference without scene", "reference beside a scene, which has no exact solution"));
+    }
     match (section.get("solution"), section.get("scene"), section.get("vibration")) {
         (Some(file), None, None) => {
             if let Some(field) = section.get("t_end") {
@@ -85,7 +84,9 @@ fn problem(
         (None, Some(file), None) => {
             let mut scene = Scene::read(file.file(folder)?)?;
             scene.t_end = t_end(section)?;
-            Ok((Family::of_scene(&scene), Some(reference(section, elements, steps)?)))
+            let by = discretisations(root, "reference", None)?;
+            let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+            Ok((Family::of_scene(&scene), Some(AnyOrder { scene, by, agreement })))
         }
         (None, None, Some(_)) => Ok((vibration(section)?, None)),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
@@ -94,18 +95,6 @@ fn problem(
 
 fn t_end(section: &Section<'_>) -> Result<f64, InputError> {
     section.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)
-}
-
-/// Elements and steps of the reference: multiples of all elements, and of the observations.
-fn reference(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<[usize; 2], InputError> {
-    let allowed =
-        "[elements, steps], elements being a multiple of every number of elements and steps of the first steps";
-    let field = section.require("reference", allowed)?;
-    let items = field.items(allowed)?;
-    let [n, time_steps] = items.as_slice() else { return Err(field.refuse_as_written(allowed)) };
-    let found = [n.count(1..=1 << 20)?, time_steps.count(1..=limits::STEPS)?];
-    let fits = elements.iter().all(|n| found[0].is_multiple_of(*n)) && found[1].is_multiple_of(steps[0]);
-    if fits { Ok(found) } else { Err(field.refuse_as_written(allowed)) }
 }
 
 /// The lowest modes, each released from a tip displacement of 0.1.

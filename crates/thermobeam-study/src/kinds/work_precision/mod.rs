@@ -8,7 +8,8 @@
 //! ```toml
 //! [work-precision]
 //! solution = "midpoint-coupled.toml"   # a convergence study beside this one; or scene = "...", with t_end and
-//!                                      # reference = [elements, steps]; or vibration = [0, 1], with zeta and t_end
+//!                                      # two tables [[reference]] of runs of any order that must agree within
+//!                                      # agreement = 1e-6; or vibration = [0, 1], with zeta and t_end
 //! elements = [8, 16, 32, 64]
 //! steps = [32, 64, 128, 256]           # multiples of the first, which is the number of observations
 //! tolerance = 1e-11                    # of the solver; optional
@@ -37,8 +38,11 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::solve::Solver;
 
-use crate::error::evaluator::{ErrorMeasure, Evaluator, Reference};
+use crate::error::evaluator::{ErrorMeasure, Evaluator};
+use crate::error::reference::{Reference, fine_mesh};
+use crate::kinds::tables::Discretisation;
 use crate::run::family::Family;
+use crate::scene::Scene;
 use method::{METHODS, Measurement, Method};
 pub use timed::Timed;
 
@@ -71,14 +75,22 @@ pub struct Advantage {
 pub struct WorkPrecision {
     header: Header,
     family: Family,
-    /// Elements and steps of the reference, where there is no exact solution.
-    reference: Option<[usize; 2]>,
+    /// What stands for the exact solution where there is none.
+    reference: Option<AnyOrder>,
     computed: OnceLock<Result<Reference, CaseFailure>>,
     elements: Vec<usize>,
     steps: Vec<usize>,
     tolerance: f64,
     misfit: f64,
     advantages: Vec<Advantage>,
+}
+
+/// A scene by two discretisations of any order.
+struct AnyOrder {
+    scene: Scene,
+    by: [Discretisation; 2],
+    /// How far they may be apart, in the norm of Theorem 3.4.
+    agreement: f64,
 }
 
 /// A method on a mesh: one run for each number of steps.
@@ -97,11 +109,23 @@ impl WorkPrecision {
     }
 
     fn reference(&self) -> Result<Option<&Reference>, CaseFailure> {
-        let Some([elements, steps]) = self.reference else { return Ok(None) };
+        let Some(reference) = &self.reference else { return Ok(None) };
         // Computed once, by whichever thread comes first; the result is the same.
-        let computed =
-            self.computed.get_or_init(|| Reference::compute(&self.family, elements, steps, self.observations()));
+        let computed = self.computed.get_or_init(|| self.agreed(reference));
         computed.as_ref().map(Some).map_err(Clone::clone)
+    }
+
+    fn agreed(&self, AnyOrder { scene, by, agreement }: &AnyOrder) -> Result<Reference, CaseFailure> {
+        let finest = self.elements.last().copied().unwrap_or(1);
+        let run = |how: &Discretisation| {
+            Reference::compute(scene, how, fine_mesh(scene, finest)?, self.family.t_end, self.observations(), 0)
+        };
+        let (one, other) = (run(&by[0])?, run(&by[1])?);
+        let apart = one.distance(&other);
+        if apart <= *agreement {
+            return Ok(one);
+        }
+        Err(CaseFailure { reason: format!("the two references are {apart:.1e} apart, allowed {agreement:e}") })
     }
 
     fn meshes(&self) -> impl Iterator<Item = MethodOnMesh> {

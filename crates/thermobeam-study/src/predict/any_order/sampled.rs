@@ -25,6 +25,8 @@ pub(super) struct Sampled {
     pub(super) phi: Vec<f64>,
     /// The energy.
     pub(super) energy: Vec<f64>,
+    /// Smallest and largest u(1, t), between the times as well.
+    pub(super) range: [f64; 2],
     /// What the run has cost.
     pub(super) cost: Cost,
 }
@@ -52,7 +54,8 @@ pub(super) fn sample(scene: &AnyOrderScene, count: usize, curves: Curves) -> Res
     let unknowns = 3 * simulation.space().blocks() * (scene.stepping.degree + 1);
     let mut patience = Patience::new(unknowns / 3);
     let mut level = simulation.level().clone();
-    let mut sampled = Sampled { u: vec![], phi: vec![], energy: vec![], cost: Cost::default() };
+    let range = simulation.tip_range();
+    let mut sampled = Sampled { u: vec![], phi: vec![], energy: vec![], range, cost: Cost::default() };
     let mut wall = Duration::ZERO;
     let mut next = 0;
     loop {
@@ -82,6 +85,8 @@ pub(super) fn sample(scene: &AnyOrderScene, count: usize, curves: Curves) -> Res
         if step.is_none() {
             break;
         }
+        let ([low, high], [least, most]) = (simulation.tip_range(), sampled.range);
+        sampled.range = [-max_or_nan(-least, -low), max_or_nan(most, high)];
     }
     sampled.cost = Cost {
         unknown_solves: unknowns as f64 * simulation.work().solves as f64,

@@ -1,0 +1,102 @@
+//! The flags that all commands share, tried with each.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use convergence_study::cli::command_line;
+use serde_json::Value;
+use thermobeam_cli::{GROUPS, Thermobeam, project};
+
+use crate::workspace::{quick, workspace};
+use crate::{Ended, Folder, ended, thermobeam, thrown};
+
+/// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` gets.
+const COMMANDS: [(&[&str], i32, &str); 10] = [
+    // Every number is new.
+    (&["verify"], 1, "results.json"),
+    (&["study", "studies/short.toml"], 0, "results.json"),
+    (&["list"], 0, "list.json"),
+    (&["explain", "too-low"], 0, "explain.json"),
+    (&["rates", "rates.csv", "--order", "2"], 0, "rates.json"),
+    (&["run", "scene.toml"], 0, "run.json"),
+    (&["equilibria", "scene.toml"], 0, "equilibria.json"),
+    (&["sweep", "sweep.toml"], 0, "results.jsonl"),
+    (&["merge", "swept"], 0, "results.jsonl"),
+    (&["new", "study", "begun"], 0, "begun.toml"),
+];
+
+/// What [`COMMANDS`] leaves out: a script for a shell; times, of minutes; the help.
+const OTHERS: [&str; 3] = ["completions", "bench", "help"];
+
+fn place(folder: &Folder) -> PathBuf {
+    let root = workspace(folder, "w", &[("short", quick("short"))]);
+    let rates = "h,L2\n0.4,1.6e-1\n0.2,4e-2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n";
+    let sweep = "[sweep]\nscene = \"scene.toml\"\n[grid]\nbeam.beta = [0, 1]\n";
+    for (name, text) in [("rates.csv", rates), ("scene.toml", &thrown("dt = 0.01")), ("sweep.toml", sweep)] {
+        fs::write(root.join(name), text).expect("a file");
+    }
+    let swept = ended(thermobeam().args(["sweep", "sweep.toml", "--out", "swept"]).current_dir(&root));
+    assert_eq!(swept.status, Some(0), "{}", swept.stderr);
+    root
+}
+
+#[test]
+fn every_command_is_tried() {
+    let mut program = command_line::<Thermobeam>(&project("thermobeam"), &GROUPS);
+    program.build();
+    let tried = COMMANDS.iter().map(|(arguments, ..)| arguments[0]).chain(OTHERS).collect::<BTreeSet<_>>();
+    assert_eq!(tried, program.get_subcommands().map(clap::Command::get_name).collect());
+}
+
+#[test]
+fn every_json_has_a_schema_and_the_verdict_and_every_out_its_file() {
+    for (arguments, status, file) in COMMANDS {
+        let folder = Folder::new();
+        let root = place(&folder);
+        let mut command = thermobeam();
+        let Ended { status: found, stdout, stderr } =
+            ended(command.args(arguments).args(["--format", "json", "--out", "out", "--jobs", "1"]).current_dir(&root));
+        assert_eq!((found, stderr.as_str()), (Some(status), ""), "{arguments:?}");
+        let object: Value =
+            serde_json::from_str(&stdout).unwrap_or_else(|error| panic!("{arguments:?}: {error}: {stdout}"));
+        assert!(object["schema"].as_u64().is_some_and(|schema| schema >= 1), "{arguments:?}: {stdout}");
+        // The list has a study that never ran; everything else says in the verdict what it says by its exit status.
+        let verdict = match (arguments[0], status) {
+            ("list", _) => "inconclusive",
+            (_, 0) => "pass",
+            _ => "fail",
+        };
+        assert_eq!(object["verdict"], verdict, "{arguments:?}");
+        assert!(root.join("out").join(file).is_file(), "{arguments:?}");
+        if let Some(text) = fs::read_to_string(root.join("out").join(file)).ok().filter(|_| file.ends_with(".json")) {
+            let written: Value = serde_json::from_str(&text).expect("JSON");
+            assert_eq!(
+                [&written["schema"], &written["verdict"]],
+                [&object["schema"], &object["verdict"]],
+                "{arguments:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn quiet_leaves_the_verdict_and_what_went_wrong() {
+    for (arguments, status, _) in COMMANDS {
+        let folder = Folder::new();
+        let root = place(&folder);
+        let out: &[&str] = if ["sweep", "merge"].contains(&arguments[0]) { &["--out", "out"] } else { &[] };
+        let loud = ended(thermobeam().args(arguments).args(out).current_dir(&root)).stdout;
+        let again = Folder::new();
+        let root = place(&again);
+        let quiet = ended(thermobeam().args(arguments).args(out).arg("-q").current_dir(&root));
+        assert_eq!(quiet.status, Some(status), "{arguments:?}: {}", quiet.stderr);
+        let last = quiet.stdout.lines().last().unwrap_or_default();
+        assert!(
+            ["pass: ", "fail: ", "inconclusive: "].iter().any(|word| last.starts_with(word)),
+            "{arguments:?}: {last}"
+        );
+        assert!(quiet.stdout.len() < loud.len(), "{arguments:?}: {}", quiet.stdout);
+        assert_eq!(status == 0, quiet.stdout.lines().count() == 1, "{arguments:?}: {}", quiet.stdout);
+    }
+}

@@ -1,0 +1,103 @@
+//! A scene by dG(q), as a reference for one-step schemes: exact to many digits, and by another discretisation, so that a fault
+//! that all runs of one scheme share shows.
+//!
+//! * On one element of high degree: the solution of the equations themselves.
+//! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements of degree 1 are those of
+//!   (3.7)-(3.8) and their initial data the same.
+
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
+use thermobeam::dg::{Field, Simulation};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::solve::Level;
+
+use super::evaluator::distance;
+use crate::kinds::tables::Discretisation;
+use crate::run::any_order;
+use crate::run::rerun::resampled;
+use crate::run::tally::Sample;
+use crate::scene::Scene;
+
+/// Elements on which polynomials are kept as linear functions, for one of the finest mesh compared. What they leave out is
+/// orthogonal to that mesh's error in slopes, and of its square a 16th squared: a 512th of the error.
+const FINER: usize = 16;
+
+/// The mesh on which the polynomials of a scene are kept for comparison with runs on `finest` elements and fewer.
+///
+/// # Errors
+/// [`MeshError`] where its elements are too small.
+pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
+    resampled(&scene.mesh, FINER * finest)
+}
+
+/// A run of any order, kept at equidistant times by its values at the nodes of a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// The mesh; where it is finer than the run's own, its linear functions stand for the run's polynomials.
+    pub mesh: Mesh,
+    /// At `t_end k / samples`, k = 1 ...; without contact force.
+    pub levels: Vec<Level>,
+    /// Energies at the same times, of the polynomials.
+    pub energies: Vec<f64>,
+    /// (t, u(1, t)) at equidistant times.
+    pub tip: Vec<(f64, f64)>,
+    /// Smallest and largest u(1).
+    pub tip_range: [f64; 2],
+}
+
+impl Reference {
+    /// Runs a scene over [0, t_end].
+    ///
+    /// * `mesh`: where its values are kept; a mesh that contains the nodes of all that is compared.
+    /// * `samples`: times of comparison, each the end of a step.
+    /// * `curve`: points of the curve of u(1, t), at least.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the run does not come to its end.
+    pub fn compute(
+        scene: &Scene,
+        how: &Discretisation,
+        mesh: Mesh,
+        t_end: f64,
+        samples: usize,
+        curve: usize,
+    ) -> Result<Self, CaseFailure> {
+        let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
+        let times: Vec<f64> = (1..=samples).map(time).collect();
+        let (mut levels, mut energies) = (vec![], vec![]);
+        let mut observe = |simulation: &Simulation, state: Sample| {
+            levels.push(nodal(simulation, &mesh));
+            energies.push(state.energy);
+        };
+        let run = any_order::run_at(&how.of(scene, t_end)?, &times, &mut observe, curve, &mut |_| ())?;
+        if let Some(failure) = run.failure {
+            return Err(failure.into());
+        }
+        let tip = run.history.iter().map(|state| (state.t, state.u_tip)).collect();
+        Ok(Self { mesh, levels, energies, tip, tip_range: [run.extremes.u_tip_min, run.extremes.u_tip_max] })
+    }
+
+    /// The largest distance of two references at their times, in the norm of Theorem 3.4; NaN where they cannot be compared.
+    pub fn distance(&self, other: &Self) -> f64 {
+        if self.mesh != other.mesh || self.levels.len() != other.levels.len() || self.levels.is_empty() {
+            return f64::NAN;
+        }
+        let lengths: Vec<f64> = self.mesh.lengths().collect();
+        let pairs = self.levels.iter().zip(&other.levels);
+        pairs.map(|(one, other)| distance(&lengths, one, other)).fold(0.0, max_or_nan)
+    }
+}
+
+/// The present level by its values at the nodes.
+fn nodal(simulation: &Simulation, mesh: &Mesh) -> Level {
+    let (space, level) = (simulation.space(), simulation.level());
+    let at = |field| mesh.nodes().iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
+    Level {
+        u: at(Field::U),
+        v: at(Field::V),
+        phi: at(Field::Phi),
+        w: at(Field::W),
+        theta: at(Field::Theta),
+        contact_force: 0.0,
+    }
+}

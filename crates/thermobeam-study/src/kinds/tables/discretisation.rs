@@ -1,0 +1,101 @@
+//! Two discretisations of any order, tables with elements, degrees and steps: what one says is checked by the other.
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::CaseFailure;
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
+
+use crate::run::rerun::resampled;
+use crate::scene::any_order::AnyOrderScene;
+use crate::scene::{Scene, tables};
+
+const POSITIVE: &str = "a finite number > 0";
+
+/// What a solve costs beside a step of a one-step scheme, for each unknown.
+const COST: f64 = 30.0;
+
+/// Elements and steps of one discretisation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Discretisation {
+    /// Elements, laid out as those of the scene.
+    pub elements: usize,
+    /// Degree p.
+    pub degree: usize,
+    /// Degree q in time and the lengths of steps.
+    pub stepping: Stepping,
+}
+
+impl Discretisation {
+    /// A scene of a one-step scheme, discretised in this way.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the mesh has elements that are too small.
+    pub fn of(&self, scene: &Scene, t_end: f64) -> Result<AnyOrderScene, CaseFailure> {
+        Ok(AnyOrderScene {
+            name: scene.name.clone(),
+            beam: scene.beam,
+            obstacles: scene.obstacles,
+            initial: scene.initial.clone(),
+            mesh: resampled(&scene.mesh, self.elements)?,
+            degree: self.degree,
+            stepping: self.stepping,
+            t_end,
+        })
+    }
+
+    /// What identifies it in words.
+    pub fn label(&self) -> String {
+        format!("{} x p = {}, q = {}", self.elements, self.degree, self.stepping.degree)
+    }
+
+    /// Cost of a run to t_end, in element-steps of a one-step scheme.
+    pub fn cost(&self, t_end: f64) -> f64 {
+        COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end / self.stepping.dt
+    }
+
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["elements", "degree", "time_degree", "dt", "restart_dt", "growth"])?;
+        let dt = section.require("dt", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+        let restart = format!("a number > 0 and at most dt = {dt:?}");
+        let growth = "a finite number >= 1";
+        Ok(Self {
+            elements: tables::elements(&section.require("elements", "a whole number >= 1")?)?,
+            degree: section.require("degree", "a whole number >= 1")?.count(1..=MAX_DEGREE)?,
+            stepping: Stepping {
+                degree: section.require("time_degree", "a whole number >= 0")?.count(0..=MAX_TIME_DEGREE)?,
+                dt,
+                restart_dt: section.require("restart_dt", &restart)?.number_where(&restart, |h| h > 0.0 && h <= dt)?,
+                growth: section.require("growth", growth)?.number_where(growth, |value| value >= 1.0)?,
+                ..Stepping::default()
+            },
+        })
+    }
+}
+
+/// A list of two tables.
+///
+/// * `elements`: where the semi-discrete system of a mesh is meant, its number of linear elements, which both must have;
+///   else they must differ in elements and degree.
+pub(crate) fn discretisations(
+    root: &Section<'_>,
+    key: &str,
+    elements: Option<usize>,
+) -> Result<[Discretisation; 2], InputError> {
+    let allowed = match elements {
+        None => format!("two tables [[{key}]] that differ in elements, degree, time_degree and dt"),
+        Some(n) => {
+            format!(
+                "two tables [[{key}]] of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
+            )
+        }
+    };
+    let field = root.require(key, &allowed)?;
+    let items = field.items(&allowed)?;
+    let list = items.iter().map(|item| Discretisation::read(&item.section()?)).collect::<Result<Vec<_>, _>>()?;
+    let [one, other]: [Discretisation; 2] = list.try_into().map_err(|_| field.refuse_as_written(&allowed))?;
+    let steps_differ = one.stepping.degree != other.stepping.degree && one.stepping.dt != other.stepping.dt;
+    let space_fits = match elements {
+        None => one.elements != other.elements && one.degree != other.degree,
+        Some(n) => [one, other].iter().all(|how| (how.elements, how.degree) == (n, 1)),
+    };
+    if steps_differ && space_fits { Ok([one, other]) } else { Err(field.refuse("two that are not", allowed)) }
+}

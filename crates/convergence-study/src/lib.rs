@@ -34,8 +34,9 @@
 //! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
-//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`,
-//! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time left.)
+//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
+//! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
+//! for the time left.)
 
 pub mod cli;
 pub mod compare;
@@ -43,6 +44,7 @@ pub mod explain;
 pub mod input;
 pub mod judge;
 pub mod plots;
+pub mod program;
 pub mod project;
 pub mod report;
 pub mod review;

@@ -3,10 +3,11 @@
 use std::process::ExitCode;
 
 use convergence_study::cli;
+use convergence_study::program;
 use convergence_study::project::Project;
 
-/// Studies of any code: no kind of its own beside those of the harness.
-const PROJECT: Project = Project::new("convergence-study", "convergence-study");
+/// Studies of any program.
+const PROJECT: Project = Project { kinds: &[program::ROW], ..Project::new("convergence-study", "convergence-study") };
 
 fn main() -> ExitCode {
     cli::main(&PROJECT)

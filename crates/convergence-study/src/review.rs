@@ -8,6 +8,7 @@ use crate::run::{self, Finished, Progress};
 use crate::store::baseline::{Baseline, BaselineError, Change, Movement, Refusal};
 use crate::store::writing;
 use crate::study::Study;
+use crate::text::number::interval_text;
 use crate::text::visible::visible;
 use crate::verify::{Request, VerificationError};
 
@@ -98,8 +99,8 @@ pub fn describe(pending: &Pending, change: &Change) -> String {
     };
     let rate = change.name.strip_prefix("rate ").filter(|_| !matches!(change.movement, Movement::Vanished { .. }));
     if let Some((_, rate)) = outcome.rates.iter().find(|(name, _)| rate == Some(name)) {
-        if let Some([low, high]) = rate.interval {
-            let _ = writeln!(text, "  interval {low:.4} to {high:.4}, pairwise {}", pairwise(&rate.pairwise));
+        if let Some(interval) = rate.interval {
+            let _ = writeln!(text, "  interval {}, pairwise {}", interval_text(interval, 4), pairwise(&rate.pairwise));
         }
         let _ = writeln!(text, "  order {} ± {}: {}", rate.order, rate.tolerance, visible(&rate.reason));
     }

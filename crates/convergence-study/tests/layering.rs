@@ -32,9 +32,9 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 14] = [
-    "text", "judge", "input", "plots", "study", "run", "project", "store", "compare", "report", "explain", "verify",
-    "review", "cli",
+const ORDER: [&str; 15] = [
+    "text", "judge", "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain",
+    "verify", "review", "cli",
 ];
 
 /// Uses against the order: module, path used, reason.
@@ -45,7 +45,7 @@ const EXCEPTIONS: [(&str, &str, &str); 1] = [(
 )];
 
 /// Libraries that are known to some modules only.
-const LIBRARIES: [(&str, &[&str]); 14] = [
+const LIBRARIES: [(&str, &[&str]); 15] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("console", &["cli"]),
@@ -53,6 +53,7 @@ const LIBRARIES: [(&str, &[&str]); 14] = [
     ("indicatif", &["cli"]),
     ("levenberg_marquardt", &["judge"]),
     ("nalgebra", &["judge"]),
+    ("nix", &["program"]),
     ("statrs", &["judge"]),
     ("toml", &["input"]),
     ("plotters", &["plots"]),

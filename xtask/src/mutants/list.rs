@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use thermobeam_study::sweep::content_hash;
+use convergence_study::store::content_hash;
 
 use convergence_study::cli::exit::Unusable;
 

@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     let is_worse = comparison.change == Change::Worse;
     let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
-    let words = if flags.quiet { sentence(&comparison) } else { text(&comparison, *all) };
+    let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
     flags.show("compare", verdict, &Object { within: *within, comparison: &comparison }, &words)?;
     Ok(if is_worse { Ended::Badly } else { Ended::Well })
 }

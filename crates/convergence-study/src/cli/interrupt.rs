@@ -7,6 +7,7 @@ use std::process;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use crate::program::guard;
 use crate::store::writing;
 
 use crate::cli::output;
@@ -21,8 +22,12 @@ type Said = Box<dyn Fn() -> String + Send>;
 
 static SAID: Mutex<Option<Said>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, where the operating system has one.
+/// Installs the handler for Ctrl-C, where the operating system has one. A guard has no work of its own to finish, and its thread would be one
+/// that signals end.
 pub fn listen() {
+    if guard::is_guard() {
+        return;
+    }
     let _ = ctrlc::try_set_handler(|| {
         let said = SAID.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(|said| said());
         writing::close(PATIENCE);

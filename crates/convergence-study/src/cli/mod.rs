@@ -11,6 +11,7 @@ pub mod exit;
 mod explain;
 pub mod flags;
 mod github;
+mod guard;
 mod help;
 mod history;
 pub mod interrupt;
@@ -31,6 +32,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::program;
 use crate::project::Project;
 use help::grouped;
 
@@ -47,18 +49,20 @@ pub enum Command {
     Review(review::Arguments),
     History(history::Arguments),
     Completions(completions::Arguments),
+    Guard(guard::Arguments),
 }
 
-/// The names of [`Command`] in the order of `--help`.
+/// The names of [`Command`] in the order of `--help`, which does not list `guard`.
 pub const COMMANDS: [&str; 9] =
     ["verify", "study", "list", "explain", "rates", "compare", "review", "history", "completions"];
 
 impl Command {
-    /// Runs the command for a project; `program` is the whole command line, for completions.
+    /// Runs the command for a project; `whole` is the whole command line, for completions.
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+    pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
+        program::guard::enable();
         match self {
             Self::Verify(arguments) => verify::run(project, arguments),
             Self::Study(arguments) => study::run(project, arguments),
@@ -68,7 +72,8 @@ impl Command {
             Self::Compare(arguments) => compare::run(arguments),
             Self::Review(arguments) => review::run(project, arguments),
             Self::History(arguments) => history::run(project, arguments),
-            Self::Completions(arguments) => completions::run(program, &program_name(project), arguments),
+            Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
+            Self::Guard(arguments) => guard::run(arguments),
         }
     }
 }
@@ -99,8 +104,13 @@ struct Program {
     command: Command,
 }
 
+/// The command line of a project that adds no commands of its own.
+pub fn program(project: &Project) -> clap::Command {
+    command_line::<Program>(project, &[("Commands", &COMMANDS)])
+}
+
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
-    let line = command_line::<Program>(project, &[("Commands", &COMMANDS)]);
+    let line = program(project);
     ended(line.clone(), |asked: Program| asked.command.run(project, line))
 }

@@ -95,7 +95,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             .map(|Accepted { id, reason }| format!("accepted: {}: {}\n", visible(id), visible(reason)));
         taken.chain(left.iter().map(|change| describe(&pending, change))).chain([format!("{sentence}\n")]).collect()
     };
-    flags.show("review", verdict, &object, &flags.words(verdict, &sentence, whole))?;
+    // What went wrong is said in any case.
+    let differs: String = if flags.quiet {
+        left.iter().map(|change| visible(&change.to_string()) + "\n").collect()
+    } else {
+        String::new()
+    };
+    flags.show("review", verdict, &object, &(differs + &flags.words(verdict, &sentence, whole)))?;
     Ok(verdict.into())
 }
 

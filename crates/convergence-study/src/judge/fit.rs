@@ -31,7 +31,7 @@ pub use candidates::{
 };
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
 pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};
-pub use surface::{ConfidenceRegion, SurfaceError, SurfaceFit, SurfacePoint, fit_surface};
+pub use surface::{Adding, ConfidenceRegion, SurfaceError, SurfaceFit, SurfacePoint, fit_surface, fit_surface_by};
 
 /// One level of a refinement study.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -57,6 +57,9 @@ pub struct Findings<'f> {
     pub provenance: Option<&'f Provenance>,
 }
 
+/// Bytes of the longest comment: GitHub takes 65536 characters.
+pub const LONGEST: usize = 65_000;
+
 impl Findings<'_> {
     /// All files of a report; all but `index.html` are the same bytes for the same outcomes.
     ///
@@ -68,6 +71,7 @@ impl Findings<'_> {
         let mut set = ReportSet::default();
         set.add("README.md", self.readme())?;
         set.add("index.html", self.page())?;
+        set.add("summary.md", self.digest())?;
         set.add("results.json", record::json(&record)?)?;
         set.add("junit.xml", junit(self.project.name, self.finished, self.changes).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
@@ -116,13 +120,23 @@ impl Findings<'_> {
         page::page(self)
     }
 
-    /// What of the report fits on one page of a continuous integration: no links, no sections.
+    /// What of the report fits on one page of a continuous integration and in a comment: no links, no sections.
+    ///
+    /// What does not pass comes first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
     pub fn digest(&self) -> String {
-        let title = format!("## Verification, {}\n\n", self.scope);
+        let mut digest = format!("## Verification, {}\n\n{}", self.scope, self.verdict_line());
         let passes = self.finished.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
         let folded =
             section::folded(&format!("{passes} of {} studies pass", self.finished.len()), &self.overview(cell), false);
-        title + &self.verdict_line() + &failures::markdown(self.finished, false) + &self.moved() + "\n" + &folded
+        let parts = [failures::markdown(self.finished, false), self.moved() + "\n", folded];
+        let too_long = "\nA comment holds no more: see the report.\n";
+        for part in parts {
+            if digest.len() + part.len() + too_long.len() > LONGEST {
+                return digest + too_long;
+            }
+            digest += &part;
+        }
+        digest
     }
 
     /// The command that runs a study again.

@@ -46,6 +46,11 @@ pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Optio
     (result, REACHED.take())
 }
 
+/// The limit of the case that this thread computes, for a case that cannot be asked before each round; `None` for none.
+pub fn granted() -> Option<Duration> {
+    DEADLINE.get().map(|deadline| deadline.limit)
+}
+
 /// Asked by a loop before each of its rounds whether there is time for it.
 #[derive(Debug, Clone)]
 pub struct Patience {

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod baseline;
+mod content;
 pub mod file_set;
 pub mod journal;
 pub mod junit;
@@ -9,3 +10,5 @@ pub mod provenance;
 pub mod record;
 pub mod regular;
 pub mod writing;
+
+pub use content::content_hash;

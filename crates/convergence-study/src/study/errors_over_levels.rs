@@ -62,22 +62,11 @@ where
     }
 
     fn levels(&self, ran: &[Ran<D, NamedErrors>]) -> Levels {
-        let mut names: Vec<&str> = self.claims.iter().map(|(name, _)| *name).collect();
-        for (name, _) in ran.iter().filter_map(Ran::ok).flatten() {
-            if !names.contains(name) {
-                names.push(name);
-            }
-        }
-        let column = |(look, name): (usize, &str)| ErrorColumn {
-            name: name.to_owned(),
-            errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, |errors| named(errors, name))).collect(),
-            claim: self.claims.iter().find(|(known, _)| *known == name).map(|(_, claim)| *claim),
-            look,
-        };
+        let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
         Levels {
             axis: self.axis,
             refinements: self.levels.iter().map(|(refinement, _)| refinement.clone()).collect(),
-            columns: names.into_iter().enumerate().map(column).collect(),
+            columns: ErrorColumn::of(&self.claims, &found),
         }
     }
 }

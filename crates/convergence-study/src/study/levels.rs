@@ -36,6 +36,31 @@ pub struct ErrorColumn {
     pub look: usize,
 }
 
+impl ErrorColumn {
+    /// A column for every error that is claimed or was found: claimed ones first, then each in the order in which it occurs.
+    ///
+    /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed. An error that a level lacks is NaN.
+    pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
+        let mut names: Vec<&str> = claims.iter().map(|(name, _)| name.as_ref()).collect();
+        for (name, _) in found.iter().copied().flatten().flatten() {
+            if !names.contains(&name.as_ref()) {
+                names.push(name.as_ref());
+            }
+        }
+        let error = |errors: &Option<&[(M, f64)]>, name: &str| {
+            let named = errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
+            named.map_or(f64::NAN, |(_, error)| *error)
+        };
+        let column = |(look, name): (usize, &str)| Self {
+            name: name.to_owned(),
+            errors: found.iter().map(|errors| error(errors, name)).collect(),
+            claim: claims.iter().find(|(known, _)| known.as_ref() == name).map(|(_, claim)| *claim),
+            look,
+        };
+        names.into_iter().enumerate().map(column).collect()
+    }
+}
+
 /// One level of refinement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
@@ -110,7 +135,7 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| power_law(&points, rate)),
+                fit: rate.and_then(|(_, rate)| power_law(rate)),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -161,6 +186,7 @@ fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
         tolerance,
         pairwise: vec![],
         fitted: None,
+        constant: None,
         interval: None,
         extrapolated: None,
         used: 0..0,
@@ -179,15 +205,9 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// The observed rate as a power law, `error = constant · step^rate`.
-///
-/// The constant is that of least squares, in logarithms, over the levels that the rate was fitted to.
-pub fn power_law(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
-    let used = levels.get(rate.used.clone())?;
-    let rate = rate.fitted?;
-    let logs = used.iter().map(|level| level.error.ln() - rate * level.step.ln());
-    let constant = (logs.sum::<f64>() / used.len() as f64).exp();
-    constant.is_finite().then_some(PowerLaw { rate, constant })
+/// The observed rate as a curve for a figure; `None` where there is no rate.
+pub fn power_law(rate: &RateVerdict) -> Option<PowerLaw> {
+    Some(PowerLaw { rate: rate.fitted?, constant: rate.constant? })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.

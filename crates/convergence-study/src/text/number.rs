@@ -66,6 +66,11 @@ pub fn interval_text(interval: [f64; 2], most: usize) -> String {
     if low == high { format!("{low} ± 0.{}5", "0".repeat(places)) } else { format!("{low} to {high}") }
 }
 
+/// A count with its noun: `1 element`, `2 elements`.
+pub fn counted(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
 /// A number with so many decimals; one that is rounded to nothing shows no sign.
 pub fn decimals(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
@@ -100,6 +105,11 @@ mod tests {
         assert_eq!(decimals(-4e-10, 8), "0.00000000");
         assert_eq!(decimals(-4e-8, 8), "-0.00000004");
         assert_eq!(decimals(f64::NAN, 2), "NaN");
+    }
+
+    #[test]
+    fn one_of_a_kind_has_no_s() {
+        assert_eq!([0, 1, 2].map(|n| counted(n, "element")), ["0 elements", "1 element", "2 elements"]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::report::{Findings, sentence, tables};
+use convergence_study::report::{Findings, LONGEST, sentence, tables};
 use convergence_study::run::Finished;
-use convergence_study::store::baseline::Baseline;
+use convergence_study::store::baseline::{Baseline, Change, Movement};
 use convergence_study::store::junit::junit;
 use convergence_study::study::outcome::{LevelErrors, Quantity, Table};
 use roxmltree::Document;
@@ -68,6 +68,22 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
     ] {
         assert!(page.contains(part), "{part} is not in\n{page}");
     }
+}
+
+#[test]
+fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
+    let studies = several();
+    let digest = with(&studies, |findings| findings.digest());
+    assert!(digest.contains("<details>") && digest.find("study-1.0") < digest.find("Moved from"), "{digest}");
+    let change = |k: usize| Change {
+        study: "study-0.0".to_owned(),
+        name: format!("error {k}"),
+        movement: Movement::Vanished { value: 1.0 },
+    };
+    let many: Vec<Change> = (0..5000).map(change).collect();
+    let long = with(&studies, |findings| Findings { changes: Some(&many), ..*findings }.digest());
+    assert!(long.len() <= LONGEST && long.ends_with("A comment holds no more: see the report.\n"), "{}", long.len());
+    assert!(long.contains("study-1.0") && !long.contains("error 4999"));
 }
 
 #[test]

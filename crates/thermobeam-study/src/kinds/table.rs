@@ -1,19 +1,21 @@
-//! The kinds of study of the beam.
+//! The kinds of study of the beam, and that of any program.
 
+use convergence_study::program;
 use convergence_study::study::KindRow;
 
 use super::{
     any_order, any_order_cost, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments,
-    experiment, frequencies, rigid, self_convergence, solvers, vibration, work_precision,
+    experiment, frequencies, rigid, scenes, self_convergence, solvers, vibration, work_precision,
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 19] = [
     convergence::ROW,
     any_order::ROW,
     any_order_cost::ROW,
     controls::ROW,
     energy::ROW,
+    scenes::ROW,
     solvers::ROW,
     vibration::ROW,
     frequencies::ROW,
@@ -25,5 +27,6 @@ pub const KINDS: [KindRow; 17] = [
     rigid::ROW,
     work_precision::ROW,
     calibration::ROW,
+    program::ROW,
     calibration::bars::ROW,
 ];

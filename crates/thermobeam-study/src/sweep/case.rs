@@ -3,7 +3,7 @@
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Key;
-use super::share::content_hash;
+use convergence_study::store::content_hash;
 
 /// A case; its JSON is that of its parameters, keys in the fixed order of a scene file.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{SweepCase, SweepError, content_hash};
+use super::{SweepCase, SweepError};
 use convergence_study::store::atomic;
+use convergence_study::store::content_hash;
 
 /// Where a line is.
 #[derive(Debug, Clone, Copy)]

@@ -5,8 +5,6 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use convergence_study::judge::random::SplitMix;
-
 /// Share k of n, k from 1 to n; 1/1 is the whole sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
@@ -25,7 +23,7 @@ impl Share {
     /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// Whether a case with this [`content_hash`] belongs to it: to exactly one of n shares.
+    /// Whether a case with this [`content_hash`](convergence_study::store::content_hash) belongs to it: to exactly one of n shares.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.of == self.number - 1
     }
@@ -49,18 +47,10 @@ impl fmt::Display for Share {
     }
 }
 
-/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.
-///
-/// Not cryptographic. With FNV alone the low bits of similar texts, which determine the share, would be correlated.
-pub fn content_hash(bytes: &[u8]) -> u64 {
-    const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
-    const PRIME: u64 = 0x0000_0100_0000_01B3;
-    let fnv = bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME));
-    SplitMix::new(fnv).next_u64()
-}
-
 #[cfg(test)]
 mod tests {
+    use convergence_study::store::content_hash;
+
     use super::*;
 
     #[test]

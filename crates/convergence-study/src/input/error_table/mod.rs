@@ -137,7 +137,7 @@ fn shown(cell: &str) -> String {
     format!("`{}`", input::shorten(cell))
 }
 
-/// Refuses names that cannot be told apart or shown.
+/// Refuses names that are the same or cannot be shown.
 fn check_names(grid: &Grid<'_>, is_named: impl Fn(usize) -> bool, file: &str) -> Result<(), InputError> {
     let mut seen: HashSet<&str> = HashSet::new();
     for (k, cell) in grid.names.iter().enumerate() {

@@ -121,11 +121,38 @@ fn fisher_quantile_2(dof: usize, confidence: f64) -> f64 {
     0.5 * nu * ((1.0 - confidence).powf(-2.0 / nu) - 1.0)
 }
 
+/// How the two contributions make up the error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Adding {
+    /// e² = (C_h h^p)² + (C_t dt^q)²: they are orthogonal.
+    Squares,
+    /// e = C_h h^p + C_t dt^q: they have the same shape.
+    Plain,
+}
+
+impl Adding {
+    fn power(self) -> f64 {
+        match self {
+            Self::Squares => 2.0,
+            Self::Plain => 1.0,
+        }
+    }
+}
+
 /// Fits e² = (C_h h^p)² + (C_t dt^q)² in log e, by Levenberg-Marquardt from several starts.
 ///
 /// * `points`: at least 5, in any order; h and dt must both vary.
 /// * `quantiles`: carries the confidence of the intervals and of the region.
 pub fn fit_surface(points: &[SurfacePoint], quantiles: &Quantiles) -> Result<SurfaceFit, SurfaceError> {
+    fit_surface_by(points, Adding::Squares, quantiles)
+}
+
+/// As [`fit_surface`], the contributions adding in this way.
+pub fn fit_surface_by(
+    points: &[SurfacePoint],
+    adding: Adding,
+    quantiles: &Quantiles,
+) -> Result<SurfaceFit, SurfaceError> {
     if points.len() < 5 {
         return Err(SurfaceError::TooFewPoints { found: points.len() });
     }
@@ -134,9 +161,12 @@ pub fn fit_surface(points: &[SurfacePoint], quantiles: &Quantiles) -> Result<Sur
     if let Some(index) = points.iter().position(unusable) {
         return Err(SurfaceError::Unusable { index, point: points[index] });
     }
-    let squares = minimize(points, 2.0)?;
-    let rms_additive = minimize(points, 1.0).map_or(f64::INFINITY, |additive| additive.rms());
-    summarize(&squares, rms_additive, quantiles)
+    let fitted = minimize(points, adding.power())?;
+    let rms_additive = match adding {
+        Adding::Plain => fitted.rms(),
+        Adding::Squares => minimize(points, Adding::Plain.power()).map_or(f64::INFINITY, |additive| additive.rms()),
+    };
+    summarize(&fitted, rms_additive, quantiles)
 }
 
 fn summarize(surface: &Surface<'_>, rms_additive: f64, quantiles: &Quantiles) -> Result<SurfaceFit, SurfaceError> {

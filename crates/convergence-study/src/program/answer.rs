@@ -1,0 +1,224 @@
+//! What a program answers: the last line of its standard output that is a JSON object.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use crate::input::shorten;
+use crate::text::visible::visible;
+
+/// The numbers of one case, all finite. Names are sorted, and harmless on a terminal.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Answer {
+    /// Errors by name.
+    pub errors: Vec<(String, f64)>,
+    /// Values without an exact solution, by name.
+    pub values: Vec<(String, f64)>,
+    /// The mesh width, where it is not the nominal one; > 0.
+    pub h: Option<f64>,
+    /// The time step, likewise.
+    pub dt: Option<f64>,
+    /// Unknowns, operations, seconds: what the program counts; > 0.
+    pub work: Option<f64>,
+}
+
+/// A number that a study needs of every answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Expected {
+    /// An error of this name.
+    Error(String),
+    /// A value of this name, of which no error is known.
+    Value(String),
+}
+
+impl Expected {
+    /// The key of `[[expect]]` that names it.
+    pub(super) fn what(&self) -> &'static str {
+        match self {
+            Self::Error(_) => "error",
+            Self::Value(_) => "value",
+        }
+    }
+
+    /// Its name.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Error(name) | Self::Value(name) => name,
+        }
+    }
+}
+
+/// Why an object is no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(super) enum AnswerError {
+    /// A number of the wrong type or range.
+    #[error("{name} is {found}; expected {expected}")]
+    Number { name: String, found: String, expected: &'static str },
+    /// `errors` or `values` is no object.
+    #[error("`{name}` is {found}; expected an object of names and numbers, such as {{\"L2\": 1.5e-3}}")]
+    NoTable { name: &'static str, found: String },
+    /// The study expects something that is not there.
+    #[error("its answer has no {what} `{name}`; it has {there}")]
+    Missing { what: &'static str, name: String, there: String },
+}
+
+/// The object that a line is, or why it is none. Lines that do not begin with `{` and end with `}` are no candidates: `None`.
+///
+/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is no number.
+pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, String>> {
+    let line = line.trim();
+    if !(line.starts_with('{') && line.ends_with('}')) {
+        return None;
+    }
+    let read = serde_json::from_str(line).or_else(|_| serde_json::from_str(&with_null_for_nan(line)));
+    Some(read.map_err(|error| error.to_string()))
+}
+
+/// The text with `null` for every NaN and infinity outside of strings.
+fn with_null_for_nan(line: &str) -> String {
+    let mut text = String::with_capacity(line.len());
+    let mut rest = line;
+    let mut is_string = false;
+    while let Some(c) = rest.chars().next() {
+        let token = ["-Infinity", "Infinity", "-NaN", "NaN", "-inf", "inf", "nan", "-nan"];
+        match token.iter().find_map(|token| rest.strip_prefix(token)) {
+            Some(after) if !is_string => {
+                text += "null";
+                rest = after;
+                continue;
+            }
+            _ => {}
+        }
+        // A backslash and what follows it belong together.
+        let length =
+            if is_string && c == '\\' { 1 + rest[1..].chars().next().map_or(0, char::len_utf8) } else { c.len_utf8() };
+        is_string ^= c == '"';
+        text += &rest[..length];
+        rest = &rest[length..];
+    }
+    text
+}
+
+impl Answer {
+    /// Reads an answer; what it does not know is ignored.
+    pub(super) fn read(object: &Map<String, Value>) -> Result<Self, AnswerError> {
+        let step = |name: &'static str| {
+            let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
+            object.get(name).map(read).transpose()
+        };
+        Ok(Self {
+            errors: table(object, "errors")?,
+            values: table(object, "values")?,
+            h: step("h")?,
+            dt: step("dt")?,
+            work: step("work")?,
+        })
+    }
+
+    /// The number of that name; NaN where there is none.
+    pub(super) fn number(&self, expected: &Expected) -> f64 {
+        let among = match expected {
+            Expected::Error(_) => &self.errors,
+            Expected::Value(_) => &self.values,
+        };
+        among.iter().find(|(known, _)| known == expected.name()).map_or(f64::NAN, |(_, number)| *number)
+    }
+
+    /// Refuses an answer that lacks a number that the study expects.
+    pub(super) fn require(&self, expected: &Expected) -> Result<(), AnswerError> {
+        let (what, name) = (expected.what(), expected.name());
+        let has = |names: &[(String, f64)]| names.iter().any(|(known, _)| known == name);
+        let (own, other, other_name) = match expected {
+            Expected::Error(_) => (&self.errors, &self.values, "values"),
+            Expected::Value(_) => (&self.values, &self.errors, "errors"),
+        };
+        if has(own) {
+            return Ok(());
+        }
+        let list = |names: &[(String, f64)]| names.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+        let there = match (own.is_empty(), has(other)) {
+            (_, true) => format!("it among its {other_name}"),
+            (true, _) => "none".to_owned(),
+            _ => list(own),
+        };
+        Err(AnswerError::Missing { what, name: name.to_owned(), there })
+    }
+}
+
+fn table(object: &Map<String, Value>, name: &'static str) -> Result<Vec<(String, f64)>, AnswerError> {
+    let Some(value) = object.get(name) else { return Ok(vec![]) };
+    let entries = value.as_object().ok_or_else(|| AnswerError::NoTable { name, found: written(value) })?;
+    let entry = |(key, value): (&String, &Value)| {
+        let key = visible(key);
+        let value = number(&format!("`{key}` of its {name}"), value, "a finite number", |_| true)?;
+        Ok((key, value))
+    };
+    entries.iter().map(entry).collect()
+}
+
+fn number(name: &str, value: &Value, expected: &'static str, ok: impl Fn(f64) -> bool) -> Result<f64, AnswerError> {
+    let found = value.as_f64().filter(|value| value.is_finite() && ok(*value));
+    found.ok_or_else(|| AnswerError::Number { name: name.to_owned(), found: written(value), expected })
+}
+
+fn written(value: &Value) -> String {
+    if value.is_null() { "NaN, infinite or null".to_owned() } else { shorten(&value.to_string()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(line: &str) -> Result<Answer, String> {
+        Answer::read(&object(line).unwrap().unwrap()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn an_answer_has_errors_values_steps_and_work() {
+        let answer =
+            read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40, "x": [1]} "#)
+                .unwrap();
+        assert_eq!(answer.errors, [("H1".to_owned(), 2.0), ("L2".to_owned(), 1e-3)]);
+        assert_eq!(answer.values, [("flux".to_owned(), -3.5)]);
+        assert_eq!((answer.h, answer.dt, answer.work), (Some(0.1), None, Some(40.0)));
+        assert_eq!(read("{}").unwrap(), Answer::default());
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused_by_name() {
+        let not_finite = "is NaN, infinite or null; expected a finite number";
+        for (line, message) in [
+            (r#"{"errors": {"L2": NaN}}"#, format!("`L2` of its errors {not_finite}")),
+            (r#"{"errors": {"NaN": -Infinity}}"#, format!("`NaN` of its errors {not_finite}")),
+            (r#"{"values": {"a\"nan": nan}}"#, format!("`a\"nan` of its values {not_finite}")),
+            (r#"{"errors": {"L2": null}}"#, format!("`L2` of its errors {not_finite}")),
+            (r#"{"errors": {"L2": "small"}}"#, "`L2` of its errors is \"small\"; expected a finite number".to_owned()),
+            (r#"{"errors": [1]}"#, "`errors` is [1]; expected an object".to_owned()),
+            (r#"{"h": 0}"#, "h is 0; expected a finite number > 0".to_owned()),
+            (r#"{"h": NaN}"#, "h is NaN, infinite or null; expected a finite number > 0".to_owned()),
+        ] {
+            let found = read(line).unwrap_err();
+            assert!(found.contains(&message), "{found}");
+        }
+    }
+
+    #[test]
+    fn a_missing_name_is_told_with_those_that_are_there() {
+        let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
+        let missing = |expected: fn(String) -> Expected, name: &str| {
+            answer.require(&expected(name.to_owned())).unwrap_err().to_string()
+        };
+        assert_eq!(missing(Expected::Error, "L2"), "its answer has no error `L2`; it has it among its values");
+        assert_eq!(missing(Expected::Error, "max"), "its answer has no error `max`; it has H1");
+        assert_eq!(missing(Expected::Value, "flux"), "its answer has no value `flux`; it has L2");
+        assert_eq!(answer.require(&Expected::Error("H1".to_owned())), Ok(()));
+    }
+
+    #[test]
+    fn other_lines_are_no_objects() {
+        assert_eq!(object("iteration 3: {ok"), None);
+        assert_eq!(object("[1]"), None);
+        assert!(object("{not json}").unwrap().is_err());
+        assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
+    }
+}

@@ -1,0 +1,174 @@
+//! Study files of programs.
+//!
+//! ```toml
+//! [study]
+//! id = "poisson-p1"
+//! claim = "P1 elements for the Poisson equation: second order in L2, first in H1"
+//! kind = "program"
+//! tier = "quick"
+//!
+//! [program]
+//! command = ["python3", "poisson.py", "--cells", "{n}"]   # {n} {h} {steps} {dt} {level}; without any, the case is on standard input
+//! directory = "."                # beside this file
+//! timeout = 60                   # seconds for a case
+//! files = ["poisson.py"]         # what a result depends on, relative to the directory
+//! cache = true                   # a case is not repeated while command and files are unchanged
+//!
+//! [refine]
+//! n = [8, 16, 32, 64]            # or h; steps or dt; two lists are refined together, or `grid = true`
+//!
+//! [[expect]]
+//! error = "L2"
+//! order = 2.0                    # of a grid: in h
+//! order_dt = 1.0                 # of a grid alone: in dt, else the same
+//! tolerance = 0.05
+//!
+//! [[expect]]
+//! value = "flux"                 # a value without exact solution, judged by its differences
+//! order = 2.0
+//! tolerance = 0.1
+//! ```
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::answer::Expected;
+use super::kept::Store;
+use super::refine::refine;
+use super::template::Word;
+use super::{Expectation, Program};
+use crate::input::{Field, InputError, Section, visible};
+use crate::judge::verdict::WIDEST_TOLERANCE;
+use crate::study::{Claim, Header};
+
+/// The longest time for a case of a file that does not say.
+const TIMEOUT: Duration = Duration::from_secs(600);
+
+const POSITIVE: &str = "a finite number > 0";
+
+pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
+    root.allow(&["study", "program", "refine", "expect"])?;
+    let section = root.require("program", "a table with the command")?.section()?;
+    section.allow(&["command", "directory", "timeout", "files", "cache"])?;
+    let directory = directory(&section, folder)?;
+    let refine = refine(root)?;
+    let words = words(&section, &refine.names())?;
+    let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
+        let allowed = "a number of seconds > 0";
+        let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
+        Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
+    })?;
+    let store = store(&section, &words, &directory)?.map(|files| Store::new(folder, &header.id, files));
+    let expect = expectations(root, refine.grid)?;
+    Ok(Program { header, words, directory, timeout, store, refine, expect })
+}
+
+/// The folder in which the program runs, as an absolute path: a program's name is relative to it, too.
+fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let Some(field) = section.get("directory") else {
+        return here.canonicalize().map_err(|error| section.refuse("directory", error.to_string(), "a folder"));
+    };
+    let path = here.join(field.text()?);
+    let absolute = path.canonicalize().ok().filter(|path| path.is_dir());
+    absolute.ok_or_else(|| {
+        let found = format!("{}, but {} is no folder", field.as_written(), visible(&path.display().to_string()));
+        field.refuse(found, "a folder, relative to that of this file")
+    })
+}
+
+fn words(section: &Section<'_>, names: &[&'static str]) -> Result<Vec<Word>, InputError> {
+    let allowed = "a list of the program and its arguments, each a text in quotes";
+    let field = section.require("command", allowed)?;
+    let items = field.items(allowed)?;
+    let first = items.first().ok_or_else(|| field.refuse_as_written(allowed))?;
+    if first.text().is_ok_and(str::is_empty) {
+        return Err(first.refuse_as_written("the name of a program"));
+    }
+    let word = |item: &Field<'_>| {
+        if item.text()?.contains('\0') {
+            return Err(item.refuse_as_written("a text without the character 0"));
+        }
+        item.parsed("a text in quotes", |text| Word::parse(text, names))
+    };
+    items.iter().map(word).collect()
+}
+
+/// The files that kept results depend on; `None` where none are kept.
+///
+/// A file that the command itself names is among them, whether or not `files` lists it.
+fn store(section: &Section<'_>, words: &[Word], directory: &Path) -> Result<Option<Vec<PathBuf>>, InputError> {
+    let allowed = "a list of names of files, relative to the directory in which the program runs";
+    let mut files = vec![];
+    let field = section.get("files");
+    for item in field.as_ref().map_or(Ok(vec![]), |field| field.items(allowed))? {
+        let path = directory.join(item.text()?);
+        if !path.is_file() {
+            let found = format!("{}, but {} is no file", item.as_written(), visible(&path.display().to_string()));
+            return Err(item.refuse(found, "the name of a file, relative to the directory in which the program runs"));
+        }
+        files.push(path);
+    }
+    if !section.get("cache").map_or(Ok(false), |field| field.boolean())? {
+        return Ok(None);
+    }
+    if files.is_empty() {
+        return Err(section.refuse("cache", "true without files", "the list `files` of what a result depends on"));
+    }
+    let named = words.iter().filter(|word| !word.has_placeholder()).map(|word| directory.join(word.filled(&[])));
+    let named: Vec<PathBuf> = named.filter(|path| path.is_file() && !files.contains(path)).collect();
+    files.extend(named);
+    Ok(Some(files))
+}
+
+fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, InputError> {
+    let allowed = "at least one table [[expect]] with error or value, order and tolerance";
+    let field = root.require("expect", allowed)?;
+    let mut expectations: Vec<Expectation> = vec![];
+    for item in field.items(allowed)? {
+        let section = item.section()?;
+        let expectation = expectation(&section, grid)?;
+        if expectations.iter().any(|earlier| earlier.expected == expectation.expected) {
+            let found = format!("\"{}\" a second time", visible(expectation.expected.name()));
+            return Err(section.refuse(expectation.expected.what(), found, "each name once"));
+        }
+        expectations.push(expectation);
+    }
+    if expectations.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(expectations) }
+}
+
+/// * `grid`: whether h and dt are refined apart; each error then has two orders.
+fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
+    section.allow(&["error", "value", "order", "order_dt", "tolerance"])?;
+    let expected = match section.get("value") {
+        Some(value) if section.get("error").is_some() => {
+            return Err(value.refuse("value beside error", "one of the two in each table [[expect]]"));
+        }
+        Some(value) if grid => {
+            return Err(value.refuse("value with grid = true", "error, the only one that a grid judges"));
+        }
+        Some(value) => Expected::Value(name(&value, "the name of a value that the program answers")?),
+        None => {
+            let allowed = "the name of an error that the program answers, or `value` with the name of a value";
+            Expected::Error(name(&section.require("error", allowed)?, allowed)?)
+        }
+    };
+    let positive = |field: Field<'_>| field.number_where(POSITIVE, |order| order > 0.0);
+    let order = positive(section.require("order", POSITIVE)?)?;
+    let time = match section.get("order_dt") {
+        Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
+        Some(field) => positive(field)?,
+        None => order,
+    };
+    let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
+    let tolerance = section.require("tolerance", &narrow)?;
+    let tolerance = tolerance.number_where(&narrow, |tolerance| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE)?;
+    Ok(Expectation { expected, claim: Claim { order, tolerance }, time })
+}
+
+/// A name as answers have it, which control characters are never part of.
+fn name(field: &Field<'_>, allowed: &str) -> Result<String, InputError> {
+    let name = field.text()?;
+    let is_name = !name.is_empty() && !name.contains(char::is_control);
+    if is_name { Ok(name.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
+}

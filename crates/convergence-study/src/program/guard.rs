@@ -1,0 +1,240 @@
+//! Nothing that a case has started outlives it, nor this process.
+//!
+//! Every case has a process group, and a guard that leads it: this executable again, started as `COMMAND guard MARK`. The guard waits
+//! for the end of a pipe that only this process holds open. When this process ends, however it ends, the operating system closes the
+//! pipe, and the guard ends its group: SIGTERM, then SIGKILL. The group exists before the program is started in it, so there is no
+//! moment at which the program is unguarded.
+//!
+//! A process that has left its group, such as a daemon, is found on Linux by the mark in its environment.
+
+use std::env;
+use std::io::{self, Read, Write};
+use std::process::{Child, Command};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+#[cfg(unix)]
+use unix as system;
+
+/// The name of the command that a guard is started by.
+pub const COMMAND: &str = "guard";
+
+/// The variable that marks every process of a case; its value differs from case to case.
+const MARK: &str = "CONVERGENCE_STUDY_CASE";
+
+/// Set in guards: one that runs studies instead would start guards without end.
+const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
+
+/// Whether this executable has the command [`COMMAND`].
+static HAS_GUARDS: AtomicBool = AtomicBool::new(false);
+
+/// Says that this executable has the command [`COMMAND`]. The harness's command line does; without it, as in a program that uses this crate
+/// as a library, processes end with their case, but not where this process is killed.
+pub(crate) fn enable() {
+    HAS_GUARDS.store(true, Ordering::Relaxed);
+}
+
+/// Whether this process was started as a guard.
+pub(crate) fn is_guard() -> bool {
+    env::var_os(IS_GUARD).is_some()
+}
+
+/// The guard's own work: waits until its standard input ends, then ends its process group and all processes with that mark.
+pub(crate) fn serve(mark: &str) {
+    #[cfg(unix)]
+    {
+        system::outlive_signals();
+        // Whoever started it waits for a sign that it is a guard.
+        let mut out = io::stdout();
+        let _ = out.write_all(b"\n").and_then(|()| out.flush());
+        let _ = io::copy(&mut io::stdin(), &mut io::sink());
+        system::end_own_group(mark);
+    }
+    #[cfg(not(unix))]
+    let _ = mark;
+}
+
+/// The process group of one case.
+#[derive(Debug)]
+pub(super) struct Group {
+    mark: String,
+    #[cfg(unix)]
+    guard: Option<Child>,
+    #[cfg(unix)]
+    leader: Option<u32>,
+}
+
+#[cfg(unix)]
+impl Group {
+    /// A group with its guard, where this executable has guards.
+    ///
+    /// # Errors
+    /// The guard cannot be started.
+    pub(super) fn new() -> io::Result<Self> {
+        let mark = new_mark();
+        if !HAS_GUARDS.load(Ordering::Relaxed) {
+            return Ok(Self { mark, guard: None, leader: None });
+        }
+        let guard = system::start_guard(&mark)?;
+        Ok(Self { mark, leader: Some(guard.id()), guard: Some(guard) })
+    }
+
+    /// Starts the program in the group.
+    ///
+    /// # Errors
+    /// That of the operating system.
+    pub(super) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
+        use std::os::unix::process::CommandExt;
+        let child =
+            command.env(MARK, &self.mark).process_group(self.leader.map_or(0, |leader| leader as i32)).spawn()?;
+        self.leader.get_or_insert(child.id());
+        Ok(child)
+    }
+
+    /// Asks the processes of the group to end.
+    pub(super) fn ask_to_end(&self, _: &mut Child) {
+        self.leader.iter().for_each(|leader| system::terminate(*leader));
+    }
+
+    /// Ends what is left of the group, and whatever has left it. The guard, which is one of the group, ends last: should this process be
+    /// killed meanwhile, the guard goes on.
+    pub(super) fn end(&self, _: &mut Child) {
+        system::kill_marked(&self.mark);
+        self.leader.iter().for_each(|leader| system::kill(*leader));
+    }
+}
+
+#[cfg(unix)]
+impl Drop for Group {
+    fn drop(&mut self) {
+        if let Some(guard) = &mut self.guard {
+            let _ = guard.kill();
+            let _ = guard.wait();
+        }
+    }
+}
+
+/// Without process groups only the program itself is ended.
+#[cfg(not(unix))]
+impl Group {
+    pub(super) fn new() -> io::Result<Self> {
+        Ok(Self { mark: new_mark() })
+    }
+
+    pub(super) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
+        command.env(MARK, &self.mark).spawn()
+    }
+
+    pub(super) fn ask_to_end(&self, program: &mut Child) {
+        let _ = program.kill();
+    }
+
+    pub(super) fn end(&self, program: &mut Child) {
+        let _ = program.kill();
+    }
+}
+
+/// A mark that no other case has, of this process or another.
+fn new_mark() -> String {
+    use std::sync::atomic::AtomicU64;
+    use std::time::{SystemTime, UNIX_EPOCH};
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
+    format!("{}-{now}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed))
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::os::unix::process::CommandExt;
+    use std::path::{Path, PathBuf};
+    use std::process::{Child, Command, Stdio};
+    use std::time::Duration;
+    use std::{env, fs, io, thread};
+
+    use nix::sys::signal::{SigSet, Signal, killpg};
+    use nix::unistd::{Pid, getpgrp};
+
+    use super::{COMMAND, IS_GUARD, MARK, Read};
+
+    /// Between SIGTERM and SIGKILL when the harness is gone.
+    const GRACE: Duration = Duration::from_secs(1);
+
+    /// A process may start others while the processes are listed.
+    const MOST_ROUNDS: usize = 100;
+
+    pub(super) fn start_guard(mark: &str) -> io::Result<Child> {
+        if super::is_guard() {
+            return Err(io::Error::other("this process was started as a guard"));
+        }
+        let mut guard = Command::new(this_executable()?)
+            .args([COMMAND, mark])
+            .env(IS_GUARD, "1")
+            .process_group(0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()?;
+        let mut sign = [0];
+        let is_ready = guard.stdout.take().is_some_and(|mut out| out.read_exact(&mut sign).is_ok()) && sign == *b"\n";
+        if !is_ready {
+            let _ = guard.kill();
+            let _ = guard.wait();
+            return Err(io::Error::other(format!("this executable has no command `{COMMAND}`")));
+        }
+        Ok(guard)
+    }
+
+    /// On Linux also where the file has been replaced since.
+    fn this_executable() -> io::Result<PathBuf> {
+        let own = Path::new("/proc/self/exe");
+        if own.exists() { Ok(own.to_owned()) } else { env::current_exe() }
+    }
+
+    /// This process has one thread: no other may take the signals that this one does not.
+    pub(super) fn outlive_signals() {
+        let mut signals = SigSet::empty();
+        [Signal::SIGTERM, Signal::SIGINT, Signal::SIGHUP].into_iter().for_each(|signal| signals.add(signal));
+        let _ = signals.thread_block();
+    }
+
+    pub(super) fn end_own_group(mark: &str) {
+        let _ = killpg(getpgrp(), Signal::SIGTERM);
+        thread::sleep(GRACE);
+        kill_marked(mark);
+        let _ = killpg(getpgrp(), Signal::SIGKILL);
+    }
+
+    pub(super) fn terminate(leader: u32) {
+        let _ = killpg(Pid::from_raw(leader as i32), Signal::SIGTERM);
+    }
+
+    pub(super) fn kill(leader: u32) {
+        let _ = killpg(Pid::from_raw(leader as i32), Signal::SIGKILL);
+    }
+
+    /// Kills every process that has the mark in its environment.
+    pub(super) fn kill_marked(mark: &str) {
+        let mark = format!("{MARK}={mark}");
+        for _ in 0..MOST_ROUNDS {
+            let marked = marked(mark.as_bytes());
+            if marked.is_empty() {
+                return;
+            }
+            for process in marked {
+                let _ = nix::sys::signal::kill(process, Signal::SIGKILL);
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// The running processes with this variable in their environment; none where there is no `/proc`.
+    fn marked(variable: &[u8]) -> Vec<Pid> {
+        let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
+        let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
+        // The environment of a process that has ended is empty, and that of another user's cannot be read.
+        let has_mark = |process: &i32| {
+            let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
+            environment.split(|byte| *byte == 0).any(|entry| entry == variable)
+        };
+        entries.filter_map(number).filter(has_mark).map(Pid::from_raw).collect()
+    }
+}

@@ -1,0 +1,128 @@
+//! From answers to an outcome.
+
+use super::answer::{Answer, Expected};
+use super::refine::Resolution;
+use super::{Expectation, Program, values};
+use crate::plots::{self, Series, WorkPrecision};
+use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
+use crate::study::levels::{self, ErrorColumn, Levels};
+use crate::study::{Axis, Claim, Figure, LevelErrors, Outcome, Ran};
+
+type Run = Ran<Resolution, Answer>;
+
+pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
+    let levels = levels(study, ran);
+    if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) }
+}
+
+/// Both orders of each error at once.
+fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+    let point = |ran: &Run| [step(ran, Axis::Space), step(ran, Axis::Time)];
+    let column = |expectation: &Expectation| GridColumn {
+        name: expectation.expected.name().to_owned(),
+        space: expectation.claim,
+        time: expectation.time,
+        errors: ran
+            .iter()
+            .map(|ran| ran.ok().map_or(f64::NAN, |answer| answer.number(&expectation.expected)))
+            .collect(),
+    };
+    let grid = Grid {
+        points: ran.iter().map(point).collect(),
+        times: study.refine.times(),
+        columns: study.expect.iter().map(column).collect(),
+        model: Model::Either,
+    };
+    let GridVerdict { mut checks, table, mut quantities, headline } = grid.judge();
+    let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+    checks.push(levels::completion(ran, |_| vec![]));
+    quantities.extend(levels.quantities(&[]));
+    let mut figures = grid.figures(&study.header.id, "error");
+    figures.extend(work_precision(&study.header.id, levels, ran));
+    Outcome {
+        headline,
+        levels: errors_and_work(levels, ran),
+        tables: vec![table],
+        figures,
+        quantities,
+        ..Outcome::new(summary, vec![], checks)
+    }
+}
+
+fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+    let mut rates = levels.judge();
+    let id = &study.header.id;
+    let mut figures = vec![];
+    if !levels.columns.is_empty() {
+        let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
+        figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
+        figures.extend(work_precision(id, levels, ran));
+    }
+    let mut quantities = levels.quantities(&rates);
+    let values = values::judge(study, ran, &levels.refinements);
+    figures.extend(values.figures);
+    quantities.extend(values.quantities);
+    rates.extend(values.rates);
+    let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
+    let summary = summary.collect::<Vec<_>>().join("; ");
+    Outcome {
+        levels: if levels.columns.is_empty() { vec![] } else { errors_and_work(levels, ran) },
+        tables: values.tables,
+        figures,
+        quantities,
+        ..Outcome::new(summary, rates, vec![levels::completion(ran, |_| vec![])])
+    }
+}
+
+/// The step of a case: the one that the program reports, else the nominal one.
+fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
+    let answered = found.as_ref().ok();
+    match axis {
+        Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
+        Axis::Time => answered.and_then(|answer| answer.dt).unwrap_or(case.data.dt),
+    }
+}
+
+/// Every error of every answer; NaN where a case failed.
+fn levels(study: &Program, ran: &[Run]) -> Levels {
+    let axis = study.refine.axis();
+    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
+    Levels {
+        axis,
+        refinements: ran.iter().map(|ran| ran.case.data.refinement(step(ran, axis))).collect(),
+        columns: ErrorColumn::of(&claims(study), &found),
+    }
+}
+
+fn claims(study: &Program) -> Vec<(String, Claim)> {
+    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
+        Expected::Error(name) => Some((name.clone(), *claim)),
+        Expected::Value(_) => None,
+    };
+    study.expect.iter().filter_map(claim).collect()
+}
+
+/// The errors of each level, with the work that its program counts.
+fn errors_and_work(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
+    let work = ran.iter().map(|ran| ran.ok().and_then(|answer| answer.work));
+    levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
+}
+
+/// Errors over the work that the program counts, where every case that answered says how much it was.
+fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
+    let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
+    let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
+    let claimed: Vec<_> = levels.columns.iter().filter(|column| column.claim.is_some()).collect();
+    let series = claimed.iter().map(|column| {
+        let points = work.iter().copied().zip(column.errors.iter().copied()).collect();
+        Series { label: column.name.clone(), points }
+    });
+    let svg = plots::work_precision(&WorkPrecision {
+        x_label: Some("work, as the program counts it".to_owned()),
+        y_label: "error".to_owned(),
+        series: series.collect(),
+        ..WorkPrecision::default()
+    });
+    let caption = "Errors over the work that they cost: the lower and the further left, the better.".to_owned();
+    Some(Figure { file: format!("{id}-work.svg"), caption, svg })
+}

@@ -1,0 +1,99 @@
+//! Results that are kept by content: a case is not repeated while its command and the files it depends on are unchanged.
+//!
+//! A result is a file of its own, named after the hash of its [`Key`] and holding the whole key; anything else under that name is not a
+//! result, and the case is computed anew.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::Answer;
+use super::command::Invocation;
+use crate::store::{atomic, content_hash, regular};
+
+/// Version of the form of the files: a result of another form is not a result.
+const FORM: u32 = 1;
+
+/// The folder of kept results, beside the study file.
+const FOLDER: &str = ".convergence-study";
+
+/// All that a result depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Key {
+    form: u32,
+    /// The version of this crate, which may read an answer otherwise.
+    version: String,
+    words: Vec<String>,
+    input: String,
+    /// Each file with the hash of its content.
+    files: Vec<(String, String)>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Kept<K, A> {
+    key: K,
+    answer: A,
+}
+
+/// Where the results of one study are kept.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Store {
+    folder: PathBuf,
+    files: Vec<PathBuf>,
+}
+
+impl Store {
+    /// * `folder`: that of the study file.
+    /// * `id`: the study's.
+    /// * `files`: what every result depends on beside its command.
+    pub(super) fn new(folder: &Path, id: &str, files: Vec<PathBuf>) -> Self {
+        Self { folder: folder.join(FOLDER).join(id), files }
+    }
+
+    /// The key of a case now.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(super) fn key(&self, invocation: &Invocation) -> io::Result<Key> {
+        let hashed = |path: &PathBuf| {
+            let bytes = regular::read(path).map_err(|error| atomic::naming(path, &error))?;
+            let name = path.strip_prefix(&invocation.directory).unwrap_or(path);
+            Ok((name.display().to_string(), format!("{:016x}", content_hash(&bytes))))
+        };
+        Ok(Key {
+            form: FORM,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            words: invocation.words.clone(),
+            input: invocation.input.clone(),
+            files: self.files.iter().map(hashed).collect::<io::Result<_>>()?,
+        })
+    }
+
+    /// The kept answer of a case; `None` where there is none, whatever else there may be.
+    pub(super) fn get(&self, key: &Key) -> Option<Answer> {
+        let text = regular::read_to_string(&self.path(key)).ok()?;
+        let kept: Kept<Key, Answer> = serde_json::from_str(&text).ok()?;
+        (kept.key == *key).then_some(kept.answer)
+    }
+
+    /// Keeps an answer. Where the files have changed while the program ran, nothing tells which of them it has read: it is not kept.
+    ///
+    /// # Errors
+    /// That of the operating system.
+    pub(super) fn put(&self, key: &Key, invocation: &Invocation, answer: &Answer) -> io::Result<()> {
+        if self.key(invocation)? != *key {
+            return Ok(());
+        }
+        let ignore = self.folder.with_file_name(".gitignore");
+        if !ignore.exists() {
+            atomic::write(&ignore, "*\n")?;
+        }
+        atomic::write(&self.path(key), serde_json::to_string(&Kept { key, answer })?)
+    }
+
+    fn path(&self, key: &Key) -> PathBuf {
+        let text = serde_json::to_string(key).unwrap_or_default();
+        self.folder.join(format!("{:016x}.json", content_hash(text.as_bytes())))
+    }
+}

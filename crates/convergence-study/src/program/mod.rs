@@ -1,0 +1,148 @@
+//! Studies whose cases are runs of another program, in any language.
+//!
+//! A case is one resolution. The program is started with it, without a shell, and answers with the last line of its standard output that
+//! is a JSON object: errors by name, values, its own step, its work. A program that fails, hangs or answers nonsense is a failed case, in one
+//! line; nothing that it has started outlives it. What it answered may be kept, by content.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `file.rs`, `refine.rs`, `template.rs` | the study file: tables, resolutions, placeholders |
+//! | `command.rs`, `output.rs`, `guard.rs` | a process: time limit, what it prints, its end |
+//! | `answer.rs`, `kept.rs` | what it answered; what is kept of that |
+//! | `judge.rs`, `values.rs` | from answers to an outcome: errors, and values without an exact solution |
+
+mod answer;
+mod command;
+mod file;
+pub mod guard;
+mod judge;
+mod kept;
+mod output;
+mod refine;
+mod template;
+mod values;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::input::{InputError, Section};
+use crate::run::time_limit;
+use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use answer::Expected;
+use command::Invocation;
+use kept::Store;
+use refine::Refine;
+use template::Word;
+
+pub use answer::Answer;
+pub use refine::{Parameter, Resolution};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "program",
+    read: reader::<Program>,
+    why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
+    judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
+             an interval (95 %), and the interval is held against the order: it must lie within the tolerance, whole. Above is as wrong as \
+             below. What cannot be told is inconclusive, which is not a pass. A value without an exact solution is judged by the differences \
+             of its levels in the same way; Richardson's extrapolation gives its limit and an interval for that, where the differences are \
+             asymptotic, and beside it stands the grid convergence index. A run that ends with another exit status than 0, takes too long \
+             or answers no finite numbers is a failed case, and fails the study.",
+    failure: "The program does not have the order at these resolutions: a term, a boundary value or a quadrature is wrong, or another error, \
+              such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
+};
+
+/// A study of a program, validated.
+#[derive(Debug, Clone)]
+pub struct Program {
+    header: Header,
+    /// The program and its arguments.
+    words: Vec<Word>,
+    /// Where it runs.
+    directory: PathBuf,
+    /// The longest time for a case.
+    timeout: Duration,
+    /// Where results are kept, if they are.
+    store: Option<Store>,
+    refine: Refine,
+    expect: Vec<Expectation>,
+}
+
+/// A table `[[expect]]`.
+#[derive(Debug, Clone, PartialEq)]
+struct Expectation {
+    expected: Expected,
+    /// Of a grid: the order in h.
+    claim: Claim,
+    /// Of a grid: the order in dt.
+    time: f64,
+}
+
+impl FromFile for Program {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        file::read(header, root, folder)
+    }
+}
+
+impl Program {
+    /// The command of a case. Without placeholders the program reads the case from standard input.
+    fn invocation(&self, case: &Resolution) -> Invocation {
+        let has_placeholder = self.words.iter().any(Word::has_placeholder);
+        Invocation {
+            words: self.words.iter().map(|word| word.filled(&case.told)).collect(),
+            directory: self.directory.clone(),
+            input: if has_placeholder { String::new() } else { case.json() },
+            timeout: time_limit::granted().map_or(self.timeout, |limit| limit.min(self.timeout)),
+        }
+    }
+}
+
+impl Kind for Program {
+    type Data = Resolution;
+    type Found = Answer;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<Resolution>> {
+        let case = |data: Resolution| Case { label: data.label.clone(), cost: data.cost(), data };
+        self.refine.resolutions().into_iter().map(case).collect()
+    }
+
+    fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
+        let expected: Vec<Expected> = self.expect.iter().map(|expectation| expectation.expected.clone()).collect();
+        let invocation = self.invocation(case);
+        let Some(store) = &self.store else { return Ok(invocation.run(&expected)?) };
+        let key = store.key(&invocation)?;
+        // What was kept for other expectations may lack what is expected now.
+        let kept = store.get(&key).filter(|answer| expected.iter().all(|expected| answer.require(expected).is_ok()));
+        if let Some(answer) = kept {
+            return Ok(answer);
+        }
+        let answer = invocation.run(&expected)?;
+        store.put(&key, &invocation, &answer)?;
+        Ok(answer)
+    }
+
+    fn judge(&self, ran: &[Ran<Resolution, Answer>]) -> Outcome {
+        judge::judge(self, ran)
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        let words: Vec<String> = self.words.iter().map(ToString::to_string).collect();
+        let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
+        let order = |Expectation { expected, claim, time }: &Expectation| {
+            let time = if self.refine.grid { format!(" in h, {time} in dt") } else { String::new() };
+            format!("{} {} {}{time} ± {}", expected.what(), expected.name(), claim.order, claim.tolerance)
+        };
+        let orders: Vec<String> = self.expect.iter().map(order).collect();
+        let kept = if self.store.is_some() { " Results are kept while command and files are unchanged." } else { "" };
+        let run = format!("{}, for at most {} s a case.{kept}", words.join(" "), self.timeout.as_secs_f64());
+        vec![
+            ("what is run".to_owned(), run),
+            ("levels".to_owned(), labels.join("; ")),
+            ("orders claimed".to_owned(), orders.join("; ")),
+        ]
+    }
+}

@@ -1,0 +1,258 @@
+//! The table `[refine]`: the resolutions that a program is run at.
+
+use crate::input::{Field, InputError, Section};
+use crate::study::{Axis, Refinement};
+
+/// A number that a case is given, by its name.
+pub type Parameter = (&'static str, f64);
+
+/// Largest count of cells or steps: every whole number up to it is a floating-point number.
+const LARGEST_COUNT: usize = 1 << 53;
+
+/// Most cases of a study: each is a process.
+const MOST_CASES: usize = 10_000;
+
+/// Values of one parameter, coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sequence {
+    /// `n` or `h` in space, `steps` or `dt` in time.
+    name: &'static str,
+    values: Vec<f64>,
+}
+
+impl Sequence {
+    fn is_count(&self) -> bool {
+        matches!(self.name, "n" | "steps")
+    }
+
+    /// The step of a value: itself, or one over the count.
+    fn step(&self, value: f64) -> f64 {
+        if self.is_count() { 1.0 / value } else { value }
+    }
+
+    /// What one value says: itself and, of a count, the nominal step.
+    fn parameters(&self, value: f64) -> Vec<Parameter> {
+        match self.name {
+            "n" => vec![("n", value), ("h", 1.0 / value)],
+            "steps" => vec![("steps", value), ("dt", 1.0 / value)],
+            name => vec![(name, value)],
+        }
+    }
+}
+
+/// What is refined; at least one of both.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Refine {
+    pub(super) space: Option<Sequence>,
+    pub(super) time: Option<Sequence>,
+    /// All pairs, instead of both refined together.
+    pub(super) grid: bool,
+}
+
+/// One case: what identifies it, and what it is told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolution {
+    /// As in `[refine]`, such as `n = 8`.
+    pub label: String,
+    /// The values listed in `[refine]`.
+    pub listed: Vec<Parameter>,
+    /// These, the nominal steps of counts, and the number of the case.
+    pub told: Vec<Parameter>,
+    /// Nominal mesh width, or NaN.
+    pub h: f64,
+    /// Nominal time step, or NaN.
+    pub dt: f64,
+}
+
+impl Refine {
+    /// What is refined, for figures.
+    pub(super) fn axis(&self) -> Axis {
+        match (&self.space, &self.time) {
+            (Some(_), Some(_)) => Axis::Both,
+            (None, Some(_)) => Axis::Time,
+            _ => Axis::Space,
+        }
+    }
+
+    /// The number of time steps.
+    pub(super) fn times(&self) -> usize {
+        self.time.as_ref().map_or(0, |time| time.values.len())
+    }
+
+    /// The names that placeholders may have.
+    pub(super) fn names(&self) -> Vec<&'static str> {
+        self.resolutions().first().map_or(vec![], |first| first.told.iter().map(|(name, _)| *name).collect())
+    }
+
+    /// All cases, coarse to fine; of a grid the time steps run first.
+    pub(super) fn resolutions(&self) -> Vec<Resolution> {
+        let values = |sequence: &Option<Sequence>| match sequence {
+            Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
+            None => vec![None],
+        };
+        let (space, time) = (values(&self.space), values(&self.time));
+        let together = !self.grid && space.len() == time.len();
+        let pairs: Vec<_> = if together {
+            space.into_iter().zip(time).collect()
+        } else {
+            space.iter().flat_map(|&h| time.iter().map(move |&dt| (h, dt))).collect()
+        };
+        pairs.into_iter().enumerate().map(|(level, (h, dt))| self.resolution(level, h, dt)).collect()
+    }
+
+    fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> Resolution {
+        let given = [(&self.space, in_space), (&self.time, in_time)];
+        let given: Vec<_> = given.into_iter().filter_map(|(sequence, value)| sequence.as_ref().zip(value)).collect();
+        let listed: Vec<Parameter> = given.iter().map(|(sequence, value)| (sequence.name, *value)).collect();
+        let mut told: Vec<Parameter> = given.iter().flat_map(|(sequence, value)| sequence.parameters(*value)).collect();
+        told.push(("level", level as f64));
+        let step = |sequence: &Option<Sequence>, value: Option<f64>| {
+            sequence.as_ref().zip(value).map_or(f64::NAN, |(sequence, value)| sequence.step(value))
+        };
+        let label: Vec<String> = listed.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        Resolution {
+            label: label.join(", "),
+            listed,
+            told,
+            h: step(&self.space, in_space),
+            dt: step(&self.time, in_time),
+        }
+    }
+}
+
+impl Resolution {
+    /// Estimate of the cost: the number of cells and steps, up to factors.
+    pub(super) fn cost(&self) -> f64 {
+        [self.h, self.dt].into_iter().filter(|step| step.is_finite()).map(|step| 1.0 / step).product()
+    }
+
+    /// The level that the errors of this case belong to.
+    pub(super) fn refinement(&self, step: f64) -> Refinement {
+        let parameters = self.listed.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        Refinement { label: self.label.clone(), parameters, step }
+    }
+
+    /// All that the case is told, as one JSON object on one line; whole numbers have no point.
+    pub(super) fn json(&self) -> String {
+        let entries: Vec<String> = self.told.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
+        format!("{{{}}}\n", entries.join(", "))
+    }
+}
+
+/// Reads `[refine]`.
+pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
+    let lists = "a list n or h, and dt or steps where time is refined";
+    let section = root.require("refine", &format!("a table with {lists}"))?.section()?;
+    section.allow(&["n", "h", "dt", "steps", "grid"])?;
+    let space = one_of(&section, "n", "h")?;
+    let time = one_of(&section, "steps", "dt")?;
+    let grid = section.get("grid").map_or(Ok(false), |field| field.boolean())?;
+    let lengths = [&space, &time].map(|sequence| sequence.as_ref().map(|sequence| sequence.values.len()));
+    match (lengths, grid) {
+        ([None, None], _) => return Err(section.missing("n", lists)),
+        ([Some(h), Some(dt)], false) if h != dt => {
+            let key = time.as_ref().map_or("dt", |time| time.name);
+            let found = format!("{dt} values beside {h}");
+            return Err(section.refuse(key, found, "lists of the same length, or grid = true for all pairs"));
+        }
+        ([Some(h), Some(dt)], true) if h.saturating_mul(dt) > MOST_CASES => {
+            return Err(section.refuse("grid", format!("{h} times {dt} cases"), format!("at most {MOST_CASES}")));
+        }
+        ([Some(_), None] | [None, Some(_)], true) => {
+            return Err(section.refuse(
+                "grid",
+                "true beside one list",
+                "true only with a list in space and one in time",
+            ));
+        }
+        _ => {}
+    }
+    Ok(Refine { space, time, grid })
+}
+
+/// The list of one of two names; both together are refused.
+fn one_of(section: &Section<'_>, count: &'static str, step: &'static str) -> Result<Option<Sequence>, InputError> {
+    match (section.get(count), section.get(step)) {
+        (Some(_), Some(field)) => {
+            Err(field.refuse(format!("{step} beside {count}"), format!("one of the two: {count} or {step}")))
+        }
+        (Some(field), None) => values(&field, count, true).map(Some),
+        (None, Some(field)) => values(&field, step, false).map(Some),
+        (None, None) => Ok(None),
+    }
+}
+
+/// A list from coarse to fine: increasing counts, or decreasing steps.
+fn values(field: &Field<'_>, name: &'static str, is_count: bool) -> Result<Sequence, InputError> {
+    let allowed = if is_count { "a list of increasing whole numbers >= 1" } else { "a list of decreasing numbers > 0" };
+    let mut values: Vec<f64> = vec![];
+    for item in field.items(allowed)? {
+        let value = if is_count {
+            item.count(1..=LARGEST_COUNT)? as f64
+        } else {
+            item.number_where("a number > 0", |value| value > 0.0 && value.recip().is_finite())?
+        };
+        let Some(&before) = values.last() else {
+            values.push(value);
+            continue;
+        };
+        let is_finer = if is_count { value > before } else { value < before };
+        if !is_finer {
+            let relation = if is_count { ">" } else { "<" };
+            return Err(item.refuse_as_written(format!("a number {relation} {before}, the level before")));
+        }
+        values.push(value);
+    }
+    match values.len() {
+        0 => Err(field.refuse_as_written(allowed)),
+        1..=MOST_CASES => Ok(Sequence { name, values }),
+        many => Err(field.refuse(format!("{many} values"), format!("at most {MOST_CASES}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::parse;
+
+    fn read(text: &str) -> Result<Refine, String> {
+        parse(&format!("[refine]\n{text}\n"), "a.toml", refine).map_err(|error| error.to_string())
+    }
+
+    fn told(text: &str) -> Vec<String> {
+        read(text).unwrap().resolutions().iter().map(|case| case.json().trim().to_owned()).collect()
+    }
+
+    #[test]
+    fn a_case_is_told_its_values_and_the_nominal_steps_of_counts() {
+        assert_eq!(told("n = [8, 16]")[1], r#"{"n": 16, "h": 0.0625, "level": 1}"#);
+        assert_eq!(told("h = [0.5, 1e-7]")[1], r#"{"h": 0.0000001, "level": 1}"#);
+        assert_eq!(told("steps = [4]"), [r#"{"steps": 4, "dt": 0.25, "level": 0}"#]);
+        let both = told("h = [0.5, 0.25]\ndt = [0.1, 0.05]");
+        assert_eq!(both, [r#"{"h": 0.5, "dt": 0.1, "level": 0}"#, r#"{"h": 0.25, "dt": 0.05, "level": 1}"#]);
+        let grid = read("n = [2, 4]\ndt = [0.1, 0.05, 0.01]\ngrid = true").unwrap().resolutions();
+        let labels: Vec<_> = grid.iter().map(|case| case.label.as_str()).collect();
+        assert_eq!(labels[..4], ["n = 2, dt = 0.1", "n = 2, dt = 0.05", "n = 2, dt = 0.01", "n = 4, dt = 0.1"]);
+        assert_eq!((grid.len(), grid[3].cost()), (6, 40.0));
+    }
+
+    #[test]
+    fn what_is_no_refinement_is_refused_with_its_line() {
+        for (text, message) in [
+            ("", "a.toml:1:1: refine.n: missing; expected a list n or h"),
+            ("n = []", "a.toml:2:5: refine.n: found the list []; expected a list of increasing whole numbers >= 1"),
+            ("n = 8", "a.toml:2:5: refine.n: found 8; expected a list"),
+            ("n = [8, 8]", "a.toml:2:9: refine.n[1]: found 8; expected a number > 8, the level before"),
+            ("n = [0, 8]", "a.toml:2:6: refine.n[0]: found 0; expected a whole number >= 1"),
+            ("h = [0.1, 0.2]", "refine.h[1]: found 0.2; expected a number < 0.1, the level before"),
+            ("h = [inf]", "refine.h[0]: found inf; expected a number > 0"),
+            ("n = [8]\nh = [0.1]", "refine.h: found h beside n; expected one of the two: n or h"),
+            ("n = [8]\ndt = [0.1, 0.01]", "refine.dt: found 2 values beside 1; expected lists of the same length"),
+            ("n = [8]\ngrid = true", "refine.grid: found true beside one list"),
+            ("n = [8]\nlevels = 3", "unknown key `levels`"),
+        ] {
+            let found = read(text).unwrap_err();
+            assert!(found.contains(message), "{found}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Values of which no error is known: their rate, their limit and what is left to it.
+
+use super::answer::{Answer, Expected};
+use super::refine::Resolution;
+use super::{Expectation, Program};
+use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
+use crate::study::{Claim, Figure, Quantity, Ran, Table};
+use crate::text::number::{error_text, plain_text, rate_text};
+
+/// What the values of a study say.
+#[derive(Debug, Default)]
+pub(super) struct Values {
+    /// The rate of the differences of each value that is expected.
+    pub(super) rates: Vec<(String, RateVerdict)>,
+    pub(super) tables: Vec<Table>,
+    pub(super) figures: Vec<Figure>,
+    pub(super) quantities: Vec<Quantity>,
+    /// The limits in a sentence.
+    pub(super) summary: String,
+}
+
+/// * `refinements`: one for each of `ran`, with its step.
+pub(super) fn judge(study: &Program, ran: &[Ran<Resolution, Answer>], refinements: &[Refinement]) -> Values {
+    let columns = columns(study, ran);
+    if columns.is_empty() {
+        return Values::default();
+    }
+    let estimates: Vec<(&ErrorColumn, Estimate)> =
+        columns.iter().filter_map(|column| Some((column, estimate(column, refinements)?))).collect();
+    let rates: Vec<_> = estimates.iter().map(|(column, estimate)| (name(column), estimate.judged.clone())).collect();
+    let figure = (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
+    let value = |column: &ErrorColumn, level: usize| Quantity {
+        name: format!("{}, {}", name(column), refinements[level].label),
+        value: column.errors[level],
+        tolerance: ERROR_TOLERANCE,
+    };
+    let guarded = (0..refinements.len()).flat_map(|level| columns.iter().map(move |column| value(column, level)));
+    let mut tables = vec![table_of_values(&columns, refinements)];
+    if !estimates.is_empty() {
+        tables.insert(0, limits(&estimates));
+    }
+    let summary = estimates.iter().filter_map(|(column, estimate)| sentence(column, estimate)).collect::<Vec<_>>();
+    Values {
+        tables,
+        figures: figure.into_iter().collect(),
+        quantities: levels::rate_quantities(&rates).chain(guarded).collect(),
+        rates,
+        summary: summary.join("; "),
+    }
+}
+
+/// The name of a value among the rates: an error may have the same.
+fn name(column: &ErrorColumn) -> String {
+    format!("value {}", column.name)
+}
+
+/// Every value of every answer; NaN where a case failed.
+fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn> {
+    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
+        Expected::Value(name) => Some((name.clone(), *claim)),
+        Expected::Error(_) => None,
+    };
+    let claims: Vec<_> = study.expect.iter().filter_map(claim).collect();
+    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.values.as_slice())).collect();
+    ErrorColumn::of(&claims, &found)
+}
+
+/// `None` where nothing is claimed of the value.
+fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
+    let Claim { order, tolerance } = column.claim?;
+    let level = |(level, value): (&Refinement, &f64)| Value { step: level.step, value: *value };
+    let values: Vec<Value> = refinements.iter().zip(&column.errors).map(level).collect();
+    Some(Estimator::new(tolerance).ok()?.estimate(&values, order))
+}
+
+/// The differences of neighbouring levels, each at the finer of its steps, with the lines of their rates.
+fn differences(
+    study: &Program,
+    estimates: &[(&ErrorColumn, Estimate)],
+    refinements: &[Refinement],
+    rates: &[(String, RateVerdict)],
+) -> Figure {
+    let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
+        name: name(column),
+        errors: column.errors.windows(2).map(|pair| (pair[0] - pair[1]).abs()).collect(),
+        claim: column.claim,
+        look: column.look,
+    };
+    let levels = Levels {
+        axis: study.refine.axis(),
+        refinements: refinements[1..].to_vec(),
+        columns: estimates.iter().map(column).collect(),
+    };
+    let caption =
+        "Differences of neighbouring levels, each at the finer of its steps, with the lines of the observed rates.";
+    levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), rates)
+}
+
+const HEAD: [&str; 9] =
+    ["value", "finest", "rate", "limit", "limit, 95 %", "finest - limit", "error, 95 %", "GCI", "GCI's order, factor"];
+
+/// Limit, error bar and grid convergence index of each value of which an order is claimed, or why there is none.
+fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
+    let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
+        let finest = column.errors.last().copied().unwrap_or(f64::NAN);
+        let mut row = vec![column.name.clone(), digits(finest, width(estimate)), rate_text(estimate.judged.fitted)];
+        row.extend(match &estimate.bar {
+            Ok(bar) => bar_cells(bar),
+            Err(refusal) => [format!("none: {refusal}"), "-".into(), "-".into(), "-".into()],
+        });
+        row.extend(match &estimate.gci {
+            Ok(Gci { half_width, order, factor, .. }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
+            Err(refusal) => [format!("none: {refusal}"), "-".into()],
+        });
+        row
+    };
+    Table {
+        title: "Limits without an exact solution, and what the finest level is off them".to_owned(),
+        head: HEAD.map(str::to_owned).into(),
+        rows: estimates.iter().map(row).collect(),
+    }
+}
+
+fn bar_cells(bar: &Bar) -> [String; 4] {
+    let width = bar.limit[1] - bar.limit[0];
+    let [low, high] = bar.limit.map(|end| digits(end, width));
+    let [least, most] = bar.error_interval.map(error_text);
+    [digits(bar.extrapolated, width), format!("{low} to {high}"), error_text(bar.error), format!("{least} to {most}")]
+}
+
+/// The width of the interval of the limit; NaN where there is none.
+fn width(estimate: &Estimate) -> f64 {
+    estimate.bar.as_ref().map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
+}
+
+/// A number with so many decimals that two digits of `width` are seen.
+fn digits(value: f64, width: f64) -> String {
+    let places = 1.0 - width.log10().floor();
+    if (0.0..=15.0).contains(&places) { format!("{value:.*}", places as usize) } else { plain_text(value) }
+}
+
+fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
+    let row = |(level, refinement): (usize, &Refinement)| {
+        let values = columns.iter().map(|column| plain_text(column.errors[level]));
+        [refinement.label.clone()].into_iter().chain(values).collect()
+    };
+    Table {
+        title: "Values".to_owned(),
+        head: ["level".to_owned()].into_iter().chain(columns.iter().map(|column| column.name.clone())).collect(),
+        rows: refinements.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The limit with its interval, where the rate is what was claimed; else the summary of the rates says what is wrong.
+fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
+    let bar = estimate.bar.as_ref().ok().filter(|_| estimate.judged.verdict == Verdict::Pass)?;
+    let width = bar.limit[1] - bar.limit[0];
+    let [low, high] = bar.limit.map(|end| digits(end, width));
+    Some(format!("{} tends to {} ({low} to {high})", column.name, digits(bar.extrapolated, width)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_digits_of_the_interval_are_shown() {
+        assert_eq!(digits(3.123456789, 1.2e-4), "3.12346");
+        assert_eq!(digits(3.123456789, 9.0), "3.1");
+        assert_eq!(digits(3.123456789, f64::NAN), "3.12346");
+        assert_eq!(digits(31234.56789, 1e4), "31234.6");
+    }
+}

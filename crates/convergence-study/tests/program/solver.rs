@@ -1,0 +1,118 @@
+//! The program that the studies of these tests run: a solver of second order that can misbehave in many ways.
+
+use std::fs::OpenOptions;
+use std::io::{self, Read, Write};
+use std::process::{Command, Stdio, exit};
+use std::thread::sleep;
+use std::time::Duration;
+
+use nix::sys::signal::{SigSet, Signal};
+
+/// The argument that this executable is the solver by.
+pub(crate) const COMMAND: &str = "solver";
+
+/// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16 misbehaves.
+pub(crate) fn main(arguments: &[String]) -> ! {
+    let [token, mode, n, rest @ ..] = arguments else { exit(64) };
+    let n: u32 = if mode == "stdin" { number_from_stdin() } else { n.parse().unwrap_or(0) };
+    if n == 16 {
+        misbehave(token, mode);
+    }
+    if mode == "count" {
+        let mut file = OpenOptions::new().append(true).create(true).open("runs").unwrap();
+        writeln!(file, "{n}").unwrap();
+        sleep(Duration::from_millis(30));
+    }
+    if let [dt] = rest {
+        // Second order in space, first in time; they have the same shape.
+        let error = f64::from(n).powi(-2) + 0.1 * dt.parse::<f64>().unwrap();
+        println!(r#"{{"errors": {{"L2": {error:e}}}}}"#);
+        exit(0)
+    }
+    println!("iteration 1 {{residual}} [1]");
+    println!("{}", answer(n));
+    exit(0)
+}
+
+fn answer(n: u32) -> String {
+    let h = 1.0 / f64::from(n);
+    let flux = 3.0 + 0.7 * h * h;
+    format!(
+        r#"{{"errors": {{"L2": {:e}, "H1": {:e}}}, "values": {{"flux": {flux:?}}}, "work": {}}}"#,
+        h * h,
+        3.0 * h,
+        n * n
+    )
+}
+
+/// The whole of standard input must be one object.
+fn number_from_stdin() -> u32 {
+    let mut text = String::new();
+    io::stdin().read_to_string(&mut text).unwrap();
+    let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(case["h"].as_f64(), case["n"].as_f64().map(f64::recip), "{text}");
+    case["n"].as_u64().unwrap() as u32
+}
+
+/// Standard streams as this process has them, so that whoever reads them waits for both.
+fn start(token: &str, mode: &str) -> Command {
+    let mut child = Command::new(std::env::current_exe().unwrap());
+    child.args([COMMAND, token, mode, "16"]).stdin(Stdio::null());
+    child
+}
+
+fn misbehave(token: &str, mode: &str) {
+    use std::os::unix::process::CommandExt;
+    let hang = || -> ! {
+        loop {
+            sleep(Duration::from_secs(1));
+        }
+    };
+    match mode {
+        "hang" => hang(),
+        "ignore-term" => {
+            let mut signals = SigSet::empty();
+            signals.add(Signal::SIGTERM);
+            signals.thread_block().unwrap();
+            hang()
+        }
+        "abort" => std::process::abort(),
+        "status" => {
+            eprintln!("reading the mesh\n\n\x1b[31mno such file: mesh.msh\x1b[0m");
+            exit(3)
+        }
+        "garbage" => {
+            println!("\u{7}fin\n\n");
+            io::stdout().write_all(&[0xff, 0xfe, b'\n']).unwrap();
+            exit(0)
+        }
+        "silent" => exit(0),
+        "nan" => {
+            println!(r#"{{"errors": {{"L2": NaN, "H1": 1.0}}}}"#);
+            exit(0)
+        }
+        "missing" => {
+            println!(r#"{{"errors": {{"H1": 1.0}}}}"#);
+            exit(0)
+        }
+        // Each leaves a child that holds standard output open and would hang for ever.
+        "fork" => drop(start(token, "hang").spawn().unwrap()),
+        "leave" => drop(start(token, "ignore-term").process_group(0).spawn().unwrap()),
+        "flood" => flood(),
+        "read" => {
+            let mut text = String::new();
+            assert_eq!(io::stdin().read_to_string(&mut text).unwrap(), 0, "standard input is not at its end");
+        }
+        _ => {}
+    }
+}
+
+/// 100 MB without a line end, and 20 MB in lines.
+fn flood() {
+    let mut out = io::stdout().lock();
+    let block = [b'{'; 1 << 20];
+    (0..100).for_each(|_| out.write_all(&block).unwrap());
+    let line = format!("\n{}", "x".repeat(99));
+    (0..200_000).for_each(|_| out.write_all(line.as_bytes()).unwrap());
+    out.write_all(b"\n").unwrap();
+}

@@ -1,0 +1,441 @@
+//! The tests.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, ExitCode, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use convergence_study::cli;
+use convergence_study::program;
+use convergence_study::project::Project;
+use tempfile::TempDir;
+
+use crate::solver;
+
+const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
+
+const PROJECT: Project = Project { kinds: &[program::ROW], ..Project::new("programs", "programs") };
+
+type Test = (&'static str, fn());
+
+/// Each test with its name.
+macro_rules! tests {
+    ($($name:ident),* $(,)?) => { [$((stringify!($name), $name as fn())),*] };
+}
+
+const TESTS: &[Test] = &tests![
+    a_program_is_judged_by_its_errors,
+    a_program_without_placeholders_reads_the_case,
+    a_value_is_judged_by_its_differences,
+    a_grid_finds_both_orders,
+    every_misbehaviour_is_one_line_and_leaves_nothing,
+    a_program_that_hangs_is_stopped_and_leaves_nothing,
+    much_output_takes_little_memory,
+    a_killed_harness_leaves_nothing,
+    an_interrupted_harness_leaves_nothing,
+    kept_results_are_used_until_something_changes,
+    garbage_among_kept_results_is_computed_anew,
+    a_killed_harness_leaves_whole_results,
+    what_a_study_file_may_get_wrong_is_named,
+    a_study_of_a_program_is_guarded_and_explained,
+];
+
+pub(crate) fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments.first().is_some_and(|first| first == solver::COMMAND) {
+        solver::main(&arguments[1..]);
+    }
+    if std::env::var_os(AS_PROJECT).is_some() {
+        return cli::main(&PROJECT);
+    }
+    let filter = arguments.iter().find(|argument| !argument.starts_with('-'));
+    let mut failed = 0;
+    for (name, test) in TESTS.iter().filter(|(name, _)| filter.is_none_or(|filter| name.contains(filter.as_str()))) {
+        let start = Instant::now();
+        let passes = std::panic::catch_unwind(test).is_ok();
+        failed += usize::from(!passes);
+        let ending = if passes { "ok" } else { "FAILED" };
+        println!("test {name} ... {ending} ({:.1} s)", start.elapsed().as_secs_f64());
+    }
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// A folder with the study `s.toml` of the solver in this mode; its processes are marked by the path of the folder.
+struct Place {
+    folder: TempDir,
+    more: String,
+}
+
+impl Place {
+    fn new(mode: &str, more: &str) -> Self {
+        let place = Self { folder: tempfile::tempdir().unwrap(), more: more.to_owned() };
+        place.write(mode);
+        place
+    }
+
+    fn write(&self, mode: &str) {
+        let exe = std::env::current_exe().unwrap();
+        let command =
+            [exe.to_str().unwrap(), solver::COMMAND, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
+        // Where the case is read from standard input, no placeholder is there.
+        let command = command.join(", ").replace("{n}", if mode == "stdin" { "-" } else { "{n}" });
+        self.write_text(&format!(
+            "[study]\nid = \"s\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
+             [program]\ncommand = [{command}]\n{}\n[refine]\nn = [4, 8, 16, 32, 64]\n\
+             [[expect]]\nerror = \"L2\"\norder = 2.0\ntolerance = 0.05\n",
+            self.more
+        ));
+    }
+
+    fn write_text(&self, text: &str) {
+        fs::write(self.folder.path().join("s.toml"), text).unwrap();
+    }
+
+    fn token(&self) -> &str {
+        self.folder.path().to_str().unwrap()
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(std::env::current_exe().unwrap());
+        command.args(arguments).current_dir(self.folder.path()).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
+        command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    /// Exit status, standard output and standard error of `study s.toml` with these arguments.
+    fn study(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
+        texts(self.command(&[&["study", "s.toml"], arguments].concat()).output().unwrap())
+    }
+
+    fn start(&self) -> Child {
+        self.command(&["study", "s.toml", "--jobs", "2"]).spawn().unwrap()
+    }
+
+    /// Command lines of the processes of this test that are running.
+    fn running(&self) -> Vec<String> {
+        let processes = fs::read_dir("/proc").unwrap().flatten();
+        let command_line = |entry: fs::DirEntry| {
+            let bytes = fs::read(entry.path().join("cmdline")).ok()?;
+            Some(String::from_utf8_lossy(&bytes).replace('\0', " "))
+        };
+        processes.filter_map(command_line).filter(|line| line.contains(self.token())).collect()
+    }
+
+    /// Waits until `so_many` processes are running.
+    fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
+        let start = Instant::now();
+        while !so_many(self.running().len()) {
+            assert!(start.elapsed() < Duration::from_secs(20), "still running: {:#?}", self.running());
+            sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn runs(&self) -> usize {
+        fs::read_to_string(self.folder.path().join("runs")).map_or(0, |text| text.lines().count())
+    }
+
+    fn kept(&self) -> Vec<std::path::PathBuf> {
+        let folder = self.folder.path().join(".convergence-study/s");
+        let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        files.filter(|path| path.extension().is_some_and(|extension| extension == "json")).collect()
+    }
+}
+
+fn texts(output: Output) -> (Option<i32>, String, String) {
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code(), out, err)
+}
+
+fn a_program_is_judged_by_its_errors() {
+    let place = Place::new("ok", "");
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("L2 2.0000 (order 2)"), "{out}");
+    place.write_text(
+        &fs::read_to_string(place.folder.path().join("s.toml")).unwrap().replace("order = 2.0", "order = 1.0"),
+    );
+    assert_eq!(place.study(&[]).0, Some(1));
+    // The same bytes for any number of processes at a time, but for the seconds.
+    let record = |jobs| place.study(&["--format", "json", "--jobs", jobs]).1;
+    assert_eq!(record("1"), record("4"));
+    // What `compare` needs for the work that the same error takes.
+    let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
+    let levels = object["studies"][0]["levels"].as_array().unwrap();
+    assert!(levels.iter().all(|level| level["work"].is_number() && level["step"].is_number()), "{levels:?}");
+}
+
+fn a_value_is_judged_by_its_differences() {
+    let place = Place::new("ok", "");
+    let text =
+        fs::read_to_string(place.folder.path().join("s.toml")).unwrap().replace("error = \"L2\"", "value = \"flux\"");
+    place.write_text(&text);
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    // 3 + 0.7 h^2.
+    assert!(out.contains("value flux 2.0000 (order 2); flux tends to 3.000"), "{out}");
+    for (old, new, told) in [
+        ("order = 2.0", "order = 1.0", "value flux 2.0000 (order 1)"),
+        ("[4, 8, 16, 32, 64]", "[4, 8]", "none: 2 values; three are the fewest that tell an order"),
+    ] {
+        place.write_text(&text.replace(old, new));
+        let (status, out, _) = place.study(&[]);
+        assert!(status == Some(1) && out.contains(told), "{out}");
+    }
+}
+
+fn a_grid_finds_both_orders() {
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = text
+        .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]")
+        .replace("64]", "64]\ndt = [0.1, 0.05, 0.025, 0.0125]\ngrid = true");
+    place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("L2: p = 2 ± 0.05") && out.contains("L2: q = 1 ± 0.05"), "{out}");
+    // The same order in both, which the error in time has not.
+    place.write_text(&text);
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("L2 q = 1.0000 in ["), "{out}");
+    // Refined together, with the error in time hidden by nothing.
+    place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
+    assert_eq!(place.study(&[]).0, Some(1));
+    for (old, new, message) in [
+        ("error = \"L2\"", "value = \"flux\"", "expect[0].value: found value with grid = true; expected error"),
+        ("grid = true", "", "refine.dt: found 4 values beside 5; expected lists of the same length"),
+    ] {
+        place.write_text(&text.replace(old, new));
+        let (status, _, err) = place.study(&[]);
+        assert!(status == Some(2) && err.contains(message), "{err}");
+    }
+}
+
+fn a_program_without_placeholders_reads_the_case() {
+    let (status, out, err) = Place::new("stdin", "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    // One with placeholders finds standard input at its end.
+    let (status, out, err) = Place::new("read", "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+}
+
+/// The one line about the case n = 16.
+#[track_caller]
+fn complaint(place: &Place) -> String {
+    let (status, out, err) = place.study(&["--jobs", "2"]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    assert!(!out.contains(|c: char| c.is_control() && c != '\n'), "{out:?}");
+    assert!(out.contains("4 of 5 cases completed"), "{out}");
+    assert_eq!(place.running(), [""; 0]);
+    let at = out.find("n = 16: ").unwrap_or_else(|| panic!("{out}"));
+    out[at..].lines().next().unwrap().to_owned()
+}
+
+fn every_misbehaviour_is_one_line_and_leaves_nothing() {
+    for (mode, told) in [
+        ("abort", "ended with signal 6 (SIGABRT)"),
+        ("status", "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh"),
+        (
+            "garbage",
+            "answered nothing: no line of its standard output is a JSON object; the last is `\u{fffd}\u{fffd}`",
+        ),
+        ("silent", "answered nothing: its standard output is empty"),
+        ("nan", "`L2` of its errors is NaN, infinite or null; expected a finite number"),
+        ("missing", "its answer has no error `L2`; it has H1"),
+    ] {
+        let line = complaint(&Place::new(mode, ""));
+        let program = std::env::current_exe().unwrap();
+        assert!(line.contains(told) && line.contains(program.to_str().unwrap()), "{mode}: {line}");
+    }
+    // A program that is not there.
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let (head, tail) = text.split_once("command = [").unwrap();
+    let (_, tail) = tail.split_once(']').unwrap();
+    place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("n = 4: ./nowhere cannot be started: No such file"), "{out}");
+    // Children that outlive their program, in its group and out of it, harm neither the case nor the others.
+    for mode in ["fork", "leave"] {
+        let place = Place::new(mode, "");
+        let (status, out, err) = place.study(&[]);
+        assert_eq!(status, Some(0), "{mode}: {out}{err}");
+        assert_eq!(place.running(), [""; 0]);
+    }
+}
+
+fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
+    for mode in ["hang", "ignore-term"] {
+        let line = complaint(&Place::new(mode, "timeout = 0.3"));
+        assert!(line.contains("was stopped at the limit of 0.3 s"), "{line}");
+    }
+    let place = Place::new("hang", "");
+    let (status, out, _) = place.study(&["--case-limit", "0.3"]);
+    assert!(status == Some(1) && out.contains("was stopped at the limit of 0.3 s"), "{out}");
+    assert_eq!(place.running(), [""; 0]);
+}
+
+fn much_output_takes_little_memory() {
+    let place = Place::new("flood", "");
+    let mut harness = place.start();
+    let peak = |pid: u32| {
+        let status = fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        line.trim().trim_end_matches(" kB").parse::<u64>().ok()
+    };
+    let mut kilobytes = 0;
+    while harness.try_wait().unwrap().is_none() {
+        kilobytes = peak(harness.id()).map_or(kilobytes, |now| now.max(kilobytes));
+        sleep(Duration::from_millis(2));
+    }
+    assert_eq!(harness.wait().unwrap().code(), Some(0));
+    assert!((1000..60_000).contains(&kilobytes), "{kilobytes} kB");
+}
+
+/// Processes of every kind, ended with the harness by this signal.
+fn nothing_is_left_after(signal: &str) {
+    for mode in ["hang", "ignore-term", "fork", "leave"] {
+        let mut place = Place::new(mode, "");
+        // So that a program whose child hangs is still running, too.
+        place.more = "timeout = 100".to_owned();
+        let hangs = |mode: &str| matches!(mode, "hang" | "ignore-term");
+        let mut harness = place.start();
+        if hangs(mode) {
+            place.wait_for(|running| running > 0);
+        }
+        sleep(Duration::from_millis(50));
+        let pid = harness.id().to_string();
+        assert!(Command::new("kill").args([signal, &pid]).status().unwrap().success());
+        let status = harness.wait().unwrap();
+        assert!(!hangs(mode) || !status.success(), "{mode}: {status}");
+        place.wait_for(|running| running == 0);
+    }
+}
+
+fn a_killed_harness_leaves_nothing() {
+    nothing_is_left_after("-KILL");
+    nothing_is_left_after("-TERM");
+}
+
+fn an_interrupted_harness_leaves_nothing() {
+    let place = Place::new("hang", "");
+    let mut harness = place.start();
+    place.wait_for(|running| running > 0);
+    assert!(Command::new("kill").args(["-INT", &harness.id().to_string()]).status().unwrap().success());
+    assert_eq!(harness.wait().unwrap().code(), Some(130));
+    place.wait_for(|running| running == 0);
+}
+
+const CACHED: &str = "files = [\"data\"]\ncache = true";
+
+fn cached(mode: &str) -> Place {
+    let mut place = Place::new(mode, "");
+    fs::write(place.folder.path().join("data"), "1").unwrap();
+    place.more = CACHED.to_owned();
+    place.write(mode);
+    place
+}
+
+fn kept_results_are_used_until_something_changes() {
+    let place = cached("count");
+    assert_eq!(place.study(&[]).0, Some(0));
+    let first = place.study(&["--format", "json"]);
+    assert_eq!((first.0, place.runs(), place.kept().len()), (Some(0), 5, 5));
+    // Another level is computed, and no other.
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&text.replace("32, 64", "32, 64, 128"));
+    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 6));
+    // A file on which they depend.
+    fs::write(place.folder.path().join("data"), "2").unwrap();
+    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 12));
+    // What was expected has changed: kept answers are judged by what is expected now.
+    place.write_text(&text.replace("\"L2\"", "\"max\""));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("its answer has no error `max`"), "{out}");
+    // A failed case is not kept.
+    let failing = cached("status");
+    assert_eq!((failing.study(&[]).0, failing.kept().len()), (Some(1), 4));
+}
+
+fn garbage_among_kept_results_is_computed_anew() {
+    let place = cached("count");
+    assert_eq!(place.study(&[]).0, Some(0));
+    let kept = place.kept();
+    let whole = fs::read_to_string(&kept[0]).unwrap();
+    // Of another case; cut off; empty; no number; a folder.
+    fs::copy(&kept[1], &kept[0]).unwrap();
+    fs::write(&kept[1], &whole[..whole.len() / 2]).unwrap();
+    fs::write(&kept[2], "").unwrap();
+    let nan = fs::read_to_string(&kept[3]).unwrap();
+    let at = nan.find("\"L2\",").unwrap() + 5;
+    let end = at + nan[at..].find(']').unwrap();
+    fs::write(&kept[3], format!("{}null{}", &nan[..at], &nan[end..])).unwrap();
+    let (status, out, _) = place.study(&[]);
+    assert_eq!((status, place.runs()), (Some(0), 9), "{out}");
+    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 9));
+}
+
+fn a_killed_harness_leaves_whole_results() {
+    let place = cached("count");
+    for moment in [20, 60, 90, 120] {
+        let mut harness = place.start();
+        sleep(Duration::from_millis(moment));
+        harness.kill().unwrap();
+        harness.wait().unwrap();
+        for path in place.kept() {
+            let text = fs::read_to_string(&path).unwrap();
+            assert!(serde_json::from_str::<serde_json::Value>(&text).is_ok(), "{}: {text}", path.display());
+        }
+    }
+    place.wait_for(|running| running == 0);
+    let before = (place.kept().len(), place.runs());
+    assert_eq!(place.study(&[]).0, Some(0));
+    assert_eq!((place.kept().len(), place.runs()), (5, before.1 + 5 - before.0));
+}
+
+fn what_a_study_file_may_get_wrong_is_named() {
+    let place = Place::new("ok", "timeout = 9");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    for (old, new, message) in [
+        (
+            "\"{n}\"",
+            "\"--dt={dt}\"",
+            "program.command[4]: found the placeholder {dt}; expected one that `refine` gives",
+        ),
+        ("command = [", "command = [] # [", "program.command: found the list []; expected a list of the program"),
+        ("timeout = 9", "timeout = 0", "s.toml:8:11: program.timeout: found 0; expected a number of seconds > 0"),
+        ("timeout = 9", "directory = \"x\"", "program.directory: found the text \"x\", but ./x is no folder"),
+        ("timeout = 9", "files = [\"x\"]", "program.files[0]: found the text \"x\", but "),
+        ("timeout = 9", "cache = true", "program.cache: found true without files; expected the list `files`"),
+        ("timeout = 9", "shell = true", "program.shell: unknown key `shell`; expected command, directory, timeout"),
+        ("n = [4, ", "n = [8, ", "refine.n[1]: found 8; expected a number > 8, the level before"),
+        ("error = \"L2\"", "norm = \"L2\"", "expect[0].norm: unknown key `norm`"),
+        ("tolerance = 0.05", "tolerance = 0.5", "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"),
+        ("[[expect]]", "[[expct]]", "unknown key `expct`, did you mean `expect`?"),
+    ] {
+        assert!(text.contains(old), "{old}");
+        place.write_text(&text.replace(old, new));
+        let (status, out, err) = place.study(&[]);
+        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{new}: {err}");
+    }
+}
+
+fn a_study_of_a_program_is_guarded_and_explained() {
+    let place = Place::new("ok", "");
+    let root = place.folder.path();
+    fs::write(root.join("Cargo.toml"), "").unwrap();
+    fs::create_dir(root.join("studies")).unwrap();
+    fs::rename(root.join("s.toml"), root.join("studies/s.toml")).unwrap();
+    let run = |arguments: &[&str]| texts(place.command(arguments).output().unwrap());
+    assert_eq!(run(&["verify", "--bless"]).0, Some(0));
+    assert_eq!(run(&["verify"]).0, Some(0));
+    let baseline = fs::read_to_string(root.join("studies/baseline.json")).unwrap();
+    assert!(baseline.contains("error H1, n = 64") && baseline.contains("program.command"), "{baseline}");
+    let figures = Path::new("reports/figures");
+    assert!(["s-errors.svg", "s-work.svg"].iter().all(|name| root.join(figures).join(name).is_file()));
+    let (status, out, _) = run(&["explain", "s"]);
+    assert!(status == Some(0) && out.contains("what is run") && out.contains("error L2 2 ± 0.05"), "{out}");
+    assert!(run(&["list"]).1.contains("program"), "the kind is listed");
+    assert!(!run(&["--help"]).1.contains("guard"));
+}

@@ -35,8 +35,8 @@
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
-//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit` for the time
-//! left.)
+//! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
+//! for the time left.)
 
 pub mod cli;
 pub mod compare;
@@ -47,6 +47,7 @@ pub mod plots;
 pub mod program;
 pub mod project;
 pub mod report;
+pub mod review;
 pub mod run;
 pub mod store;
 pub mod study;

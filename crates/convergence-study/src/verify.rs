@@ -1,5 +1,6 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless, write the report.
 
+use std::fs::File;
 use std::io;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -57,7 +58,8 @@ impl Scope {
         }
     }
 
-    fn known(&self) -> Option<&[Header]> {
+    /// The headers of all studies that there are, where a whole tier was asked for.
+    pub fn known(&self) -> Option<&[Header]> {
         match self {
             Self::Tier(_, known) => Some(known),
             Self::Selection(_) => None,
@@ -101,6 +103,22 @@ pub struct Request {
     pub root: PathBuf,
     /// The folder of its reports, by custom `reports/` in it.
     pub reports: PathBuf,
+}
+
+impl Request {
+    /// The file of the baseline.
+    pub fn baseline(&self) -> PathBuf {
+        self.root.join("studies").join("baseline.json")
+    }
+
+    /// Waits for other processes that write here, and keeps them waiting.
+    ///
+    /// # Errors
+    /// [`VerificationError::Reports`].
+    pub(crate) fn lock(&self) -> Result<File, VerificationError> {
+        let fail = |error| VerificationError::Reports { folder: self.reports.clone(), error };
+        lock(&self.reports.join("local").join("lock")).map_err(fail)
+    }
 }
 
 /// The result of a verification.
@@ -147,14 +165,14 @@ pub fn verify(
     request: &Request,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    let baseline_file = request.root.join("studies").join("baseline.json");
+    let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
     let folder = &request.reports;
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     tidy(request).map_err(fail)?;
     let finished = run::run(studies, request.effort, progress)?;
 
-    let _lock = lock(&folder.join("local").join("lock")).map_err(fail)?;
+    let _lock = request.lock()?;
     // A request to end the process waits until everything is written.
     let _writing = writing::begin();
     // Another run may have blessed in the meantime: under the lock it is read again.
@@ -229,7 +247,7 @@ fn tidy(request: &Request) -> io::Result<()> {
     }
     let _lock = lock(&local.join("lock"))?;
     let _writing = writing::begin();
-    atomic::remove_leftovers(&request.root.join("studies").join("baseline.json"))?;
+    atomic::remove_leftovers(&request.baseline())?;
     atomic::remove_leftovers(&local.join("provenance.json"))?;
     let whole = |tier| Scope::Tier(tier, vec![]);
     [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]

@@ -32,9 +32,9 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "text", "judge", "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain",
-    "verify", "cli",
+    "verify", "review", "cli",
 ];
 
 /// Uses against the order: module, path used, reason.

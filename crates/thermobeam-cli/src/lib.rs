@@ -43,7 +43,7 @@ pub enum Command {
 pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate a scene", &["run", "equilibria"]),
     ("Verify", &["verify", "study", "list", "explain", "new"]),
-    ("What has changed", &["compare"]),
+    ("What has changed", &["compare", "review", "history"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
     ("Everything else", &["bench", "completions"]),

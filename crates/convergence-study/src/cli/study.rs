@@ -1,6 +1,6 @@
-//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` asks for.
+//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` and `--journal` ask for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::project::Project;
 use crate::report::{tables, text_of_failures};
@@ -13,6 +13,7 @@ use crate::verify::{findings, publish, quoted};
 use super::exit::Outcome;
 use super::flags::Flags;
 use super::github;
+use super::history::Journal;
 use super::output::{self, Format};
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
@@ -26,6 +27,8 @@ pub struct Arguments {
     #[command(flatten)]
     limits: Limits,
     #[command(flatten)]
+    journal: Journal,
+    #[command(flatten)]
     flags: Flags,
 }
 
@@ -34,6 +37,7 @@ pub struct Arguments {
 /// # Errors
 /// Study files that cannot be used.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    arguments.journal.check()?;
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let flags = &arguments.flags;
@@ -46,6 +50,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
     let findings = findings(project, &finished, &command);
     let verdict = findings.verdict;
+    arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
     let text = match flags.format {
         Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
         Format::Text if flags.quiet => {

@@ -12,6 +12,7 @@ use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
 use super::flags::Flags;
+use super::history::Journal;
 use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched};
 use crate::cli::screen;
@@ -29,12 +30,14 @@ pub struct Arguments {
     /// Take the new numbers for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
-    /// Why claims of study files have changed; a changed claim is not blessed without, and the baseline keeps it
+    /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
     /// Every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
+    #[command(flatten)]
+    journal: Journal,
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -48,11 +51,12 @@ pub struct Arguments {
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
+    arguments.journal.check()?;
     let all = workspace::studies(project, &root)?;
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &list)?;
-    let scope = scope(arguments, &all);
+    let scope = scope(arguments.tier, &arguments.ids, &all);
     let studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
@@ -65,6 +69,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let verification = verification?;
+    let command = request.scope.command(project);
+    arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
     output::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments),
         Format::Json => record::json(&verification.record(&request.scope))?,
@@ -74,17 +80,18 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 }
 
 /// A reason: it is kept in a file that people read, one line of text.
-fn reason(text: &str) -> Result<String, String> {
+pub(super) fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
     let is_line = !text.is_empty() && !text.contains(char::is_control);
     if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
 }
 
-fn scope(arguments: &Arguments, all: &[StudyFile]) -> Scope {
-    if arguments.ids.is_empty() {
-        Scope::Tier(arguments.tier, all.iter().map(|file| file.study.header().clone()).collect())
+/// The tier where nothing is named.
+pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
+    if ids.is_empty() {
+        Scope::Tier(tier, all.iter().map(|file| file.study.header().clone()).collect())
     } else {
-        Scope::Selection(arguments.ids.clone())
+        Scope::Selection(ids.to_vec())
     }
 }
 

@@ -10,7 +10,9 @@ use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
-const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), include_str!("picture.js")];
+/// What makes pictures answer the pointer.
+pub(super) const PICTURES: &str = include_str!("picture.js");
+const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), PICTURES];
 
 /// Nothing is loaded from anywhere, whatever a study's text holds.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
@@ -18,18 +20,23 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 /// The page: verdicts first, then the studies, folded but for those that do not pass.
 pub(super) fn page(findings: &Findings<'_>) -> String {
     let studies: String = findings.finished.iter().map(|finished| study(finished, &findings.again(finished))).collect();
+    let title = format!("{}: verification report", findings.verdict);
+    let body = format!("{}<main>\n{}{}{studies}</main>\n", head(findings), front(findings), overview(findings));
+    document(&title, &body, &SCRIPTS)
+}
+
+/// A page around its body, with style and scripts.
+///
+/// * `title`: HTML.
+pub(super) fn document(title: &str, body: &str, scripts: &[&str]) -> String {
+    let scripts: String = scripts.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-         <title>{}: verification report</title>\n<link rel=\"icon\" href=\"data:,\"/>\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n{}<main>\n{}{}{studies}</main>\n{}</body>\n</html>\n",
-        findings.verdict,
-        head(findings),
-        front(findings),
-        overview(findings),
-        SCRIPTS.map(|script| format!("<script>\n{script}</script>\n")).concat(),
+         <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\"/>\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n{body}{scripts}</body>\n</html>\n",
     )
 }
 

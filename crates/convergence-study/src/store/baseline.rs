@@ -15,8 +15,11 @@
 //! A claim that changed is blessed with a reason only, which is kept beside it; one that was withdrawn stays as `null` with the
 //! reason. A blessing takes the claims of the studies that were run: a claim is not changed without a run that passes.
 //!
+//! A number that is accepted alone, or blessed with a reason, keeps the reason likewise.
+//!
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
 
+mod accept;
 mod change;
 mod claims;
 
@@ -52,7 +55,7 @@ pub struct Baseline {
 }
 
 /// A guarded number.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guarded {
     /// Its value; `null`, which meets nothing, is read as NaN.
@@ -61,6 +64,9 @@ pub struct Guarded {
     /// The relative change that is tolerated.
     #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
+    /// Why it was changed; nothing where nobody said so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// What every version of the file has.
@@ -129,6 +135,12 @@ pub enum Refusal {
         value: f64,
         /// Its tolerance.
         tolerance: f64,
+    },
+    /// A claim of a study that was not run: it is not changed without a run that passes.
+    #[error("not accepted: `{study}` was not run; name it, or its tier")]
+    NotRun {
+        /// The study.
+        study: String,
     },
     /// Claims changed, and nobody said why.
     #[error("not blessed: a changed claim needs a reason; repeat it with --bless --reason TEXT\n  {}", .claims.join("\n  "))]
@@ -238,8 +250,10 @@ impl Baseline {
             let former = self.studies.remove(&header.id).unwrap_or_default();
             // A number that has not moved keeps its digits: a blessing changes what it is asked to change.
             let guarded = outcome.quantities.iter().map(|quantity| {
-                let kept = former.get(&quantity.name).filter(|former| change::holds(former, quantity)).copied();
-                let new = Guarded { value: quantity.value, tolerance: quantity.tolerance };
+                let before = former.get(&quantity.name);
+                let kept = before.filter(|former| change::holds(former, quantity)).cloned();
+                let reason = before.and(reason).map(str::to_owned);
+                let new = Guarded { value: quantity.value, tolerance: quantity.tolerance, reason };
                 (quantity.name.clone(), kept.unwrap_or(new))
             });
             self.studies.insert(header.id.clone(), guarded.collect());
@@ -262,6 +276,11 @@ impl Baseline {
     /// A claim as it was blessed: of a study, by its dotted path.
     pub fn claim(&self, id: &str, path: &str) -> Option<&Claim> {
         self.claims.get(id)?.get(path)
+    }
+
+    /// A guarded number of a study.
+    pub fn number(&self, id: &str, name: &str) -> Option<&Guarded> {
+        self.studies.get(id)?.get(name)
     }
 
     /// Number of guarded numbers of a study.

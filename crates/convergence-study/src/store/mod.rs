@@ -4,6 +4,7 @@ pub mod atomic;
 pub mod baseline;
 mod content;
 pub mod file_set;
+pub mod journal;
 pub mod junit;
 pub mod provenance;
 pub mod record;

@@ -82,8 +82,7 @@ impl Provenance {
     pub fn sentences(&self) -> Vec<String> {
         let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };
         let commit = self.git_revision.as_ref().map(|revision| format!("Commit {revision}{changed}."));
-        let date = self.finished_at.and_then(|seconds| DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0));
-        let date = date.map(|date| format!("{}.", date.format("%Y-%m-%d %H:%M UTC")));
+        let date = self.finished_at.and_then(date).map(|date| date + ".");
         let threads = match self.threads_available {
             Some(available) => format!("{} of {available} threads", self.jobs),
             None => format!("{} threads", self.jobs),
@@ -93,6 +92,12 @@ impl Provenance {
         let toolchain = self.toolchain.as_ref().map(|toolchain| format!("{toolchain}."));
         [commit, date, machine, toolchain].into_iter().flatten().collect()
     }
+}
+
+/// Seconds since 1970 as a date with the time of day; `None` beyond the calendar.
+pub fn date(seconds: u64) -> Option<String> {
+    let date = DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0)?;
+    Some(date.format("%Y-%m-%d %H:%M UTC").to_string())
 }
 
 fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {

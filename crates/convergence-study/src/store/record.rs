@@ -6,7 +6,7 @@
 //!
 //! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why. Read back, `null` is NaN.
 
-mod form;
+pub(in crate::store) mod form;
 
 use std::io;
 use std::path::{Path, PathBuf};

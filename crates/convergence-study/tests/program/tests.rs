@@ -160,6 +160,10 @@ fn a_program_is_judged_by_its_errors() {
     // The same bytes for any number of processes at a time, but for the seconds.
     let record = |jobs| place.study(&["--format", "json", "--jobs", jobs]).1;
     assert_eq!(record("1"), record("4"));
+    // What `compare` needs for the work that the same error takes.
+    let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
+    let levels = object["studies"][0]["levels"].as_array().unwrap();
+    assert!(levels.iter().all(|level| level["work"].is_number() && level["step"].is_number()), "{levels:?}");
 }
 
 fn a_value_is_judged_by_its_differences() {

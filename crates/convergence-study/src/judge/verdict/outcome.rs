@@ -22,6 +22,11 @@ impl Verdict {
         verdicts.into_iter().max().unwrap_or(Self::Inconclusive)
     }
 
+    /// Whether the claim holds.
+    pub fn is_pass(self) -> bool {
+        self == Self::Pass
+    }
+
     /// `pass`, `fail` or `inconclusive`.
     pub fn name(self) -> &'static str {
         match self {

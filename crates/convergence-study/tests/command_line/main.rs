@@ -1,5 +1,7 @@
 //! A project's command line as a shell sees it: this program is the project where `AS_PROJECT` is set, else its tests.
 
+mod changes;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode, Output, Stdio};
@@ -9,6 +11,11 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::project::Project;
 use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refinement, Study, erased};
 use tempfile::TempDir;
+
+use changes::{
+    a_damaged_line_of_a_journal_is_named, changes_are_accepted_one_some_or_all_with_a_reason,
+    records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
+};
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
 
@@ -28,7 +35,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 17] = [
+const TESTS: [Test; 20] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -47,6 +54,9 @@ const TESTS: [Test; 17] = [
     ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
+    ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
+    ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
+    ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
     ("wrong_claims_are_answered_as_the_page_says", wrong_claims_are_answered_as_the_page_says),
 ];
@@ -408,49 +418,6 @@ fn json_is_alone_on_standard_output() {
         assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
         assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
         fs::remove_file(summary).unwrap();
-    }
-}
-
-fn records_are_compared_with_0_1_or_2() {
-    let root = workspace(true);
-    let write = |name: &str, files: &[&str]| {
-        let (_, out, _) = run(&root, &[&["study", "--format", "json"], files].concat());
-        fs::write(root.path().join(name), out).unwrap();
-    };
-    write("old.json", &["studies/one.toml", "studies/two.toml"]);
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.8)).unwrap();
-    write("new.json", &["studies/one.toml", "studies/two.toml"]);
-    write("part.json", &["studies/two.toml"]);
-    let (status, out, err) = run(&root, &["compare", "old.json", "new.json"]);
-    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
-    let (finding, rest) = out.split_once('\n').unwrap();
-    assert!(finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"), "{out}");
-    assert_eq!(rest, "worse: 1 worse, 0 better, 1 the same, in 2 studies\n");
-    let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
-    assert!(status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"), "{out}");
-    let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
-    let named = "note: the study one is in the old record only\nsame: 0 worse, 0 better, 1 the same, in 1 studies\n";
-    assert_eq!((status, out.as_str()), (Some(0), named));
-    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--format", "json"]);
-    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["change"], &object["studies"][0]["norms"][0]["change"]), (&"worse".into(), &"worse".into()));
-    assert!(object["studies"][0]["norms"][0]["lines"][1]["order_interval"].is_array(), "{out}");
-    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
-    assert!(out.contains("two: error: same: errors the same at the same step: 1.0000 times"), "{out}");
-    fs::write(root.path().join("bad.json"), "{\n}").unwrap();
-    write("other.json", &["studies/one.toml"]);
-    for (arguments, message) in [
-        (
-            &["compare", "old.json", "bad.json"][..],
-            "bad.json: missing field `schema` at line 2 column 1; expected a record",
-        ),
-        (&["compare", "old.json", "none.json"], "none.json: No such file"),
-        (&["compare", "part.json", "other.json"], "other.json: found no study that part.json has, too"),
-        (&["compare", "old.json", "new.json", "--within", "-1"], "expected a number >= 0"),
-        (&["compare", "old.json", "new.json", "--floor", "-1"], "floor = -1: expected a finite number >= 0"),
-    ] {
-        let (status, out, err) = run(&root, arguments);
-        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
     }
 }
 

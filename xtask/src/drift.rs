@@ -21,12 +21,17 @@ use crate::PROJECT;
 
 use convergence_study::cli::{output, screen, selection, workspace};
 
-/// Compare the guarded numbers of other builds and thread counts with this one's; writes reports/drift.md
+/// Compare the guarded numbers of other builds and thread counts with this one's
+///
+/// Builds this project three times and runs the tier six times: some minutes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Tier of the studies
     #[arg(long, value_parser = selection::tier_parser(), default_value = Tier::Quick.name())]
     tier: Tier,
+    /// Write reports/drift.md
+    #[arg(long)]
+    write: bool,
 }
 
 /// A way to the same numbers.
@@ -144,7 +149,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let ours = numbers_of(&own, SHIPPED.jobs, &files)?;
     let mut rows = vec![];
     let mut kept = ours.not_passing.is_empty();
-    for variant in VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")) {
+    let variants: Vec<&Variant> =
+        VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")).collect();
+    output::tell(&format!("{} variants, three of them built first: some minutes", variants.len()));
+    for (k, variant) in variants.iter().enumerate() {
+        output::tell(&format!("{} of {}: {}", k + 1, variants.len(), variant.name));
         let program = match variant.build {
             None => own.clone(),
             Some(how) => build(&root, how, &root.join("target").join(variant.folder))?,
@@ -159,9 +168,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let title = "Guarded numbers against those of the release on one thread".to_owned();
     let table = Table { title, head: head.map(str::to_owned).to_vec(), rows };
     output::print(&screen::table(&head, &table.rows))?;
-    let file = root.join("reports/drift.md");
-    atomic::write(&file, page(&root, &table))?;
-    output::print(&format!("written to {}\n", file.display()))?;
+    if arguments.write {
+        let file = root.join("reports/drift.md");
+        atomic::write(&file, page(&root, &table))?;
+        output::print(&format!("written to {}\n", file.display()))?;
+    }
     Ok(if kept { Ended::Well } else { Ended::Badly })
 }
 
@@ -185,9 +196,9 @@ fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: boo
 }
 
 fn page(root: &Path, table: &Table) -> String {
-    let machine = provenance::Provenance::collect(root, "cargo xtask dev drift".to_owned(), 1, &[]);
+    let machine = provenance::Provenance::collect(root, "cargo xtask dev drift --write".to_owned(), 1, &[]);
     format!(
-        "# Drift\n\nWritten by `cargo xtask dev drift` on {}, {}. Differences are relative; `median` is that of the numbers that \
+        "# Drift\n\nWritten by `cargo xtask dev drift --write` on {}, {}. Differences are relative; `median` is that of the numbers that \
          differ.\n\n## {}\n\n{}",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),

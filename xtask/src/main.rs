@@ -3,6 +3,7 @@
 mod drift;
 mod fuzz;
 mod mutants;
+mod regressions;
 
 use std::process::ExitCode;
 
@@ -33,6 +34,7 @@ enum Command {
 enum Dev {
     Drift(drift::Arguments),
     Mutants(mutants::Arguments),
+    Regressions(regressions::Arguments),
     Fuzz(fuzz::Arguments),
 }
 
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Dev(Dev::Drift(arguments)) => drift::run(&arguments),
         Command::Dev(Dev::Mutants(arguments)) => mutants::run(&arguments),
+        Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
         Command::Dev(Dev::Fuzz(arguments)) => fuzz::run(&arguments),
     })
 }

@@ -28,27 +28,32 @@ pub(crate) const REASONS: [Reason; 17] = [
     Reason::AtTheEdge,
 ];
 
-/// The name by which a reason is asked for, and what it means.
-fn reason_text(reason: Reason) -> (&'static str, &'static str) {
+/// The name by which a reason is asked for, and what it means, with what to do next.
+pub(crate) fn reason_text(reason: Reason) -> (&'static str, &'static str) {
     match reason {
         Reason::Agrees => ("agrees", "The whole interval of the rate lies within the tolerance of the order."),
-        Reason::NonFiniteError => {
-            ("non-finite", "An error is NaN or infinite: a case broke down, or did not come to its end.")
-        }
+        Reason::NonFiniteError => (
+            "non-finite",
+            "An error is NaN or infinite: a case broke down, or did not come to its end. Mend that case.",
+        ),
         Reason::NegativeError => {
             ("negative", "An error is negative, which no norm can be: a sign was lost, or a difference was given.")
         }
         Reason::ErrorGrows => (
             "grows",
-            "Refining does not make the error smaller, though it is above the round-off floor: no convergence.",
+            "Refining does not make the error smaller, though it is above the round-off floor: no convergence. Are the levels those \
+             of these errors, and is the exact solution that of the problem?",
         ),
         Reason::FallsAway => (
             "falls-away",
-            "The finest rates fall, by more than half an order: an inconsistency is emerging which coarse levels hide.",
+            "The finest rates fall, by more than half an order: the error tends to a limit that is not zero, or to a lower order. Look \
+             for what does not change with the step: the reference, the solver's tolerance, the error of the other axis.",
         ),
-        Reason::TooLow => {
-            ("too-low", "The whole interval lies below the band: an order is lost. Look for a term of lower order.")
-        }
+        Reason::TooLow => (
+            "too-low",
+            "The whole interval lies below the band: an order is lost. Look for a term of lower order: boundary or initial data, the \
+             quadrature, the first step, a coefficient at the wrong time.",
+        ),
         Reason::TooHigh => (
             "too-high",
             "The whole interval lies above the band: the exact solution may be too simple, or the error not the one that was meant.",
@@ -69,18 +74,23 @@ fn reason_text(reason: Reason) -> (&'static str, &'static str) {
             "levels",
             "A rate with an interval needs three levels above the round-off floor; four or more make the interval narrow.",
         ),
-        Reason::NotAsymptotic => {
-            ("asymptotic", "The rates are still changing, or change more and more. Add finer levels.")
-        }
-        Reason::RoundOffFloor => {
-            ("floor", "Errors so small are round-off. Add coarser levels, or tighten the tolerance of the steps.")
-        }
+        Reason::NotAsymptotic => (
+            "asymptotic",
+            "The rates are still changing, or change more and more. Add finer levels; where they scatter, take an error that \
+                 does not change its sign.",
+        ),
+        Reason::RoundOffFloor => (
+            "floor",
+            "Errors so small are taken for round-off. Add coarser levels, or set a lower floor where they are known better.",
+        ),
         Reason::WildRate => {
             ("wild", "A pairwise rate is more than five orders away from the claim: these levels are not one family.")
         }
-        Reason::IntervalTooWide => {
-            ("wide", "The data scatter too much for this tolerance. Add levels, or claim less narrowly.")
-        }
+        Reason::IntervalTooWide => (
+            "wide",
+            "The data scatter too much for this tolerance. Add levels, take an error that does not change its sign, or claim less \
+             narrowly.",
+        ),
         Reason::AtTheEdge => (
             "edge",
             "The interval is narrow, but holds an end of the band: the claim is neither confirmed nor refuted.",
@@ -161,7 +171,7 @@ fn describe(text: &mut String, kind: &KindRow, details: &[(String, String)]) {
 }
 
 /// A title, and a paragraph with lines of at most 100 characters.
-fn section(text: &mut String, title: &str, paragraph: &str) {
+pub(crate) fn section(text: &mut String, title: &str, paragraph: &str) {
     const WIDTH: usize = 100;
     let _ = write!(text, "\n{title}\n ");
     let mut column = 1;

@@ -13,7 +13,7 @@ use crate::report::Findings;
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
-use crate::store::file_set::{ReportFolder, lock};
+use crate::store::file_set::{ReportFolder, ReportSet, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::{self, Precision, Record};
 use crate::store::writing;
@@ -161,14 +161,17 @@ pub fn verify(
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
     let blessing = request.bless.then(|| baseline.bless(&finished, known, request.reason.as_deref()));
-    if let Some(Ok(())) = &blessing {
-        baseline.write(&baseline_file)?;
-    }
     let changes = baseline.compare(&finished, known);
     let verdict = verdict(&finished, &changes);
     let target = request.scope.report_folder(folder);
     let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
-    write_reports(project, &verification, request, &target).map_err(fail)?;
+    // Everything is made before anything is written.
+    let (files, provenance) = report_files(project, &verification, request).map_err(fail)?;
+    if let Some(Ok(())) = &verification.blessing {
+        baseline.write(&baseline_file)?;
+    }
+    target.publish(&files).map_err(fail)?;
+    atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(fail)?;
     Ok(verification)
 }
 
@@ -263,13 +266,14 @@ impl Verification {
     }
 }
 
-fn write_reports(project: &Project, found: &Verification, request: &Request, target: &ReportFolder) -> io::Result<()> {
+/// The files of a report, and where they come from as JSON.
+fn report_files(project: &Project, found: &Verification, request: &Request) -> io::Result<(ReportSet, String)> {
     let Request { scope, reports: folder, .. } = request;
     let command = scope.command(project);
     let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
     let see_also = has_full.then_some(("the report on the full tier", "full"));
     let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
     let findings = found.findings(project, scope, &command);
-    target.publish(&Findings { see_also, provenance: Some(&provenance), ..findings }.files()?)?;
-    atomic::write(&folder.join("local").join("provenance.json"), record::json(&provenance)?)
+    let files = Findings { see_also, provenance: Some(&provenance), ..findings }.files()?;
+    Ok((files, record::json(&provenance)?))
 }

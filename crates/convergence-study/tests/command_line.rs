@@ -28,7 +28,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 16] = [
+const TESTS: [Test; 17] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -48,6 +48,7 @@ const TESTS: [Test; 16] = [
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
+    ("wrong_claims_are_answered_as_the_page_says", wrong_claims_are_answered_as_the_page_says),
 ];
 
 fn main() -> ExitCode {
@@ -300,8 +301,8 @@ fn rates_come_in_words_and_as_an_object() {
     let with = |more: &[&str]| run(&root, &[&claims, more].concat());
     let (status, out, err) = with(&[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000, "), "{out}");
-    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000, "), "{out}");
+    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000 ± 0.0000005 from "), "{out}");
+    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000 ± 0.0000005 from "), "{out}");
     assert!(out.contains("powers rates t: --order P") && !out.contains("xtask"), "{out}");
     assert!(out.ends_with("pass: 2 of 2 columns agree with their orders\n"), "{out}");
     assert_eq!(with(&["--all"]).0, Some(1));
@@ -310,7 +311,8 @@ fn rates_come_in_words_and_as_an_object() {
     let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
     assert_eq!(status, Some(1));
     assert!(
-        out.starts_with("H1: fail: the rate is too low; rate 1.000000, ") && out.contains("claimed 2 ± 0.05"),
+        out.starts_with("H1: fail: the rate is too low; rate 1.000000 ± 0.0000005 from ")
+            && out.contains("claimed 2 ± 0.05"),
         "{out}"
     );
     let (_, out, _) = with(&["--format", "json"]);
@@ -462,4 +464,39 @@ fn every_command_is_in_the_help() {
     assert_eq!(status, Some(0));
     assert!(cli::COMMANDS.iter().all(|name| out.contains(&format!("\n  {name}"))), "{out}");
     assert!(out.contains("Exit status: 0 "), "{out}");
+    for name in cli::COMMANDS {
+        let (status, out, _) = run(&workspace(false), &[name, "--help"]);
+        let widest = out.lines().map(|line| line.chars().count()).max();
+        assert!(status == Some(0) && widest <= Some(100), "{out}");
+    }
+}
+
+/// Blocks of a page of Markdown: the words behind the fence, and the text.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let fenced = page.split("```").skip(1).step_by(2);
+    fenced.map(|block| block.split_once('\n').expect("a fence and its text")).collect()
+}
+
+/// Every table of CLAIMS.md is answered as it says there. With `BLESS_CLAIMS` set, the page is written anew, to be read before it is committed.
+fn wrong_claims_are_answered_as_the_page_says() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("CLAIMS.md");
+    let page = fs::read_to_string(&file).unwrap();
+    let root = workspace(false);
+    let mut written = page.clone();
+    let blocks = blocks(&page);
+    assert!(blocks.len() >= 20 && blocks.len().is_multiple_of(2), "{} blocks", blocks.len());
+    for pair in blocks.chunks(2) {
+        let [(options, table), (says, expected)] = [pair[0], pair[1]];
+        assert!(options.starts_with("table ") && says == "says", "{options}, {says}");
+        fs::write(root.path().join("TABLE"), table).unwrap();
+        let options: Vec<&str> = options.split(' ').skip(1).collect();
+        let (status, out, err) = run(&root, &[&["rates", "TABLE"], &options[..]].concat());
+        assert_eq!((status, err.as_str()), (Some(1), ""), "{table}");
+        let block = |text: &str| format!("{table}```\n\n```says\n{text}```");
+        written = written.replace(&block(expected), &block(&out));
+    }
+    if std::env::var_os("BLESS_CLAIMS").is_some() {
+        fs::write(&file, &written).unwrap();
+    }
+    assert!(written == page, "CLAIMS.md is not what `rates` says; now it says\n{written}");
 }

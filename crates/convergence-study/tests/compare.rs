@@ -32,6 +32,7 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
             tolerance: 0.1,
             pairwise: judged.pairwise,
             fitted: judged.fitted,
+            constant: judged.constant,
             interval: judged.interval,
             extrapolated: judged.extrapolated,
             verdict: judged.verdict,

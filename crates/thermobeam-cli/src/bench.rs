@@ -1,4 +1,4 @@
-//! `bench`: how long things take on this machine. Written to `reports/bench.md`, which no verdict depends on.
+//! `bench`: how long things take on this machine. With `--out` written to `bench.md` there, which no verdict depends on.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,9 @@ const ANY_ORDER_END: f64 = 1.0;
 /// Studies in the table of the costliest.
 const COSTLIEST: usize = 12;
 
-/// Time per step, and run time against error, on this machine; writes reports/bench.md
+/// Time per step, and run time against error, on this machine: some minutes
+///
+/// With --out it is also written as bench.md; the one of this project is in reports.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The scene that is timed
@@ -55,9 +57,16 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let scene = Scene::read(&path)?;
     let studies = workspace::studies(project, &root)?;
     let Flags { quiet, format, out, jobs } = &arguments.flags;
-    let folder = out.clone().unwrap_or_else(|| root.join("reports"));
     let shows = !quiet && *format == Format::Text;
-    let mut page = Page { text: heading(project, &root, &path), folder, tables: vec![], shows };
+    let accuracies = studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name).count();
+    if !quiet {
+        output::tell(&format!(
+            "times steps, {accuracies} studies of accuracy, and the tier {} on one thread and on all: some minutes",
+            arguments.tier.name()
+        ));
+    }
+    let mut page =
+        Page { text: heading(project, &root, &path), folder: out.clone(), tables: vec![], shows, quiet: *quiet };
     page.add(step_time::ways(&scene, 100)?)?;
     page.add(step_time::ways(&scene, 1000)?)?;
     page.add(step_time::scenes(&scene, 100)?)?;
@@ -68,9 +77,13 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         accuracy(&WorkPrecision::read(&file.path)?, &mut page)?;
     }
     threads(studies, arguments.tier, screen::jobs(*jobs), &mut page)?;
-    let file = page.folder.join("bench.md");
-    atomic::write(&file, &page.text)?;
-    let sentence = format!("written to {}", file.display());
+    let sentence = match page.folder.as_ref().map(|folder| folder.join("bench.md")) {
+        Some(file) => {
+            atomic::write(&file, &page.text)?;
+            format!("written to {}", file.display())
+        }
+        None => "nothing is written without --out".to_owned(),
+    };
     let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
     arguments.flags.print(Verdict::Pass, &Object { tables: &page.tables }, &words)?;
     Ok(Ended::Well)
@@ -79,10 +92,13 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 /// What has been measured so far, as Markdown.
 struct Page {
     text: String,
-    folder: PathBuf,
+    /// Where it is written, if anywhere.
+    folder: Option<PathBuf>,
     tables: Vec<Table>,
     /// Whether a table is shown as soon as it is there.
     shows: bool,
+    /// Whether nothing is said of what is done.
+    quiet: bool,
 }
 
 impl Page {
@@ -92,6 +108,8 @@ impl Page {
         self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
         if self.shows {
             output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
+        } else if !self.quiet {
+            output::tell(&format!("done: {}", table.title));
         }
         self.tables.push(table);
         Ok(())
@@ -100,12 +118,15 @@ impl Page {
     /// Adds a figure, in a file beside the page.
     fn draw(&mut self, name: &str, caption: &str, svg: &str) -> std::io::Result<()> {
         self.text += &format!("![{caption}](bench/{name})\n\n");
-        atomic::write(&self.folder.join("bench").join(name), svg)
+        match &self.folder {
+            Some(folder) => atomic::write(&folder.join("bench").join(name), svg),
+            None => Ok(()),
+        }
     }
 }
 
 fn heading(project: &Project, root: &Path, scene: &Path) -> String {
-    let command = format!("{} bench", project.command);
+    let command = format!("{} bench --out reports", project.command);
     let machine = Provenance::collect(root, command.clone(), 1, &[]);
     let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     format!(

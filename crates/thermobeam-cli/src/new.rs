@@ -1,4 +1,4 @@
-//! `new study NAME`, `new scene NAME`: a file to begin with.
+//! `new study NAME`, `new scene NAME`, `new any-order-scene NAME`: a file to begin with.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
@@ -33,6 +33,8 @@ enum What {
     Study,
     /// A scene: a beam, how it starts, a mesh, time steps
     Scene,
+    /// The same by elements of high degree and dG(q), for many digits
+    AnyOrderScene,
 }
 
 /// What `new --format json` prints beside the verdict.
@@ -50,6 +52,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let (template, command) = match arguments.what {
         What::Study => (Template::Study, "study"),
         What::Scene => (Template::Scene, "run"),
+        What::AnyOrderScene => (Template::AnyOrderScene, "run"),
     };
     let file = format!("{}.toml", arguments.name);
     let flags = &arguments.flags;

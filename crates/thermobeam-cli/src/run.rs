@@ -45,7 +45,7 @@ pub struct Arguments {
     /// What the target error is about
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
-    /// The longest that the run may take; what was done until then is told, and the exit status is 1 [default: as long as it takes]
+    /// The longest that the run may take; what was done until then is shown, and the exit status is 1 [default: as long as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene.
+//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, of a one-step scheme or of any order.
 //!
 //! ```toml
 //! [sweep]
@@ -42,7 +42,7 @@ mod values;
 
 use std::path::Path;
 
-use crate::scene::Scene;
+use crate::scene::any_order::SceneFile;
 use crate::scene::limits;
 use convergence_study::input::{self, InputError};
 
@@ -110,8 +110,8 @@ impl Sweep {
     ///
     /// # Errors
     /// [`InputError`] where the case's numbers are incompatible, such as a dt that does not divide t_end.
-    pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
-        Scene::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
+    pub fn scene(&self, case: &SweepCase<'_>) -> Result<SceneFile, InputError> {
+        SceneFile::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
     }
 
     /// A hash of the sweep file and the base scene.

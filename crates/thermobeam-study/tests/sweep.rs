@@ -130,3 +130,79 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
         assert!(refused.contains(words), "{refused}");
     }
 }
+
+/// Scenes of any order: a case whose first step is above its largest has no scene, one without iterations fails in a step.
+const ANY_ORDER: [&str; 2] = [
+    "[obstacles]\n[initial]\nu_t = \"20*x*(x-1)^2\"\n[mesh]\ndegree = 8\n\
+     [time]\nscheme = \"dg\"\ndt = 0.02\nrestart_dt = 0.01\nt_end = 0.3\n",
+    "[sweep]\nscene = \"base.toml\"\n[grid]\nmesh.degree = [6, 8]\ntime.dt = [0.02, 0.013]\n\
+     time.max_iterations = [100, 1]\ntime.degree = [1, 3]\ntime.restart_dt = [0.01, 0.015]\n",
+];
+
+#[test]
+fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interruptions() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("base.toml", ANY_ORDER[0]);
+    write("sweep.toml", ANY_ORDER[1]);
+    // Of the cases with dt = 0.013, those with restart_dt = 0.015 have no scene; a sweep refuses only what no case can have.
+    let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
+    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, Line::compute(&sweep, case, None))).collect();
+    let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
+    assert_eq!((sweep.cases(), with("time.restart_dt: found 0.015")), (32, 8));
+    assert_eq!(with("\"scheme\":\"dg\""), 24);
+    assert!(with("\"done\"") >= 12 && with("\"failure\"") > 0, "{alone:?}");
+    assert_eq!((with("wall_seconds"), with("\"events\":[{")), (0, with("\"done\"")));
+    for jobs in [1, 3] {
+        assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
+    }
+    assert_eq!(all(&sweep, 2, Some(Duration::from_secs(3600))), alone);
+    // Each case belongs to one share; a journal of half of the lines is gone on with, and refused once one is altered.
+    let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
+    let held = |case: usize| shares.iter().filter(|share| share.holds(sweep.case(case).hash())).count();
+    assert!((0..sweep.cases()).all(|case| held(case) == 1));
+    let share = folder.path().join("out");
+    let resumed = |lines: String| {
+        let _ = std::fs::remove_dir_all(&share);
+        std::fs::create_dir(&share).unwrap();
+        let manifest = serde_json::to_string(&Manifest::new(&sweep, Share::ALL)).unwrap();
+        std::fs::write(share.join("sweep.json"), manifest).unwrap();
+        std::fs::write(share.join("journal.jsonl"), lines).unwrap();
+        Journal::open(&share, &sweep, Share::ALL, true).map(|journal| (0..32).filter(|&case| journal.has(case)).count())
+    };
+    let half: String = alone.values().take(16).map(|line| line.json.clone() + "\n").collect();
+    assert_eq!(resumed(half.clone()).unwrap(), 16);
+    assert!(resumed(half.replacen("\"u_tip\":", "\"u_tip\":1", 1)).is_err());
+}
+
+#[test]
+fn keys_of_the_other_scheme_are_refused_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |base: &str, grid: &str| {
+        std::fs::write(folder.path().join("base.toml"), base).unwrap();
+        let text = format!("[sweep]\nscene = \"base.toml\"\n[grid]\n{grid}\n");
+        std::fs::write(folder.path().join("sweep.toml"), text).unwrap();
+        Sweep::read(folder.path().join("sweep.toml")).unwrap_err().to_string()
+    };
+    for (grid, message) in [("mesh.degree = [1, 2]", "mesh.degree"), ("time.growth = [1.0, 1.5]", "time")] {
+        let error = refused(BASE, grid);
+        assert!(error.contains("sweep.toml:4") && error.contains(message), "{error}");
+    }
+    for grid in ["mesh.degree = [0, 2]", "mesh.degree = [4, 41]", "time.degree = [6]", "time.growth = [0.5]"] {
+        let error = refused(ANY_ORDER[0], grid);
+        assert!(error.contains("sweep.toml:4"), "{error}");
+    }
+}
+
+#[test]
+fn a_drawn_largest_step_of_any_order_need_not_divide_the_time() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("base.toml"), ANY_ORDER[0]).unwrap();
+    let latin = "[sweep]\nscene = \"base.toml\"\n[latin]\nsamples = 5\nseed = 1\ntime.dt = { from = 0.01, to = 0.02 }\n\
+        mesh.degree = { from = 4, to = 9 }\n";
+    std::fs::write(folder.path().join("sweep.toml"), latin).unwrap();
+    let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
+    let drawn = |case: usize| sweep.case(case).parameters().find(|(key, _)| key.name == "dt").expect("dt").1;
+    assert!((0..5).any(|case| (0.3 / drawn(case)).fract() > 0.01));
+    assert!(all(&sweep, 2, None).values().all(|line| line.passed));
+}

@@ -3,6 +3,7 @@
 
 mod fuzz;
 mod mutants;
+mod regressions;
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;

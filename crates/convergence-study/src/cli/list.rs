@@ -75,10 +75,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let sentence = format!("{passed} of {} studies passed when they last ran", studies.len());
     let words = arguments.flags.words(verdict, &sentence, || {
         let mut rows: Vec<Vec<String>> = studies.iter().map(row).collect();
+        let mut head = HEAD.to_vec();
         if let Some(width) = screen::width() {
-            fit(&mut rows, width);
+            fit(&mut head, &mut rows, width);
         }
-        screen::table(&HEAD, &rows)
+        screen::table(&head, &rows)
     });
     arguments.flags.show("list", verdict, &Object { studies: &studies }, &words)?;
     Ok(Ended::Well)
@@ -104,15 +105,26 @@ fn row(study: &Listed) -> Vec<String> {
     vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
 }
 
-/// Cuts the claims so that no row is wider than the screen.
-fn fit(rows: &mut [Vec<String>], width: usize) {
-    let columns = Columns::of(&HEAD.map(str::to_owned), rows);
-    let claim = HEAD.len() - 1;
-    let before: usize = (0..claim).map(|column| columns.width(column) + 2).sum();
-    let room = width.saturating_sub(before).max(NARROWEST);
+/// Leaves out columns for a claim to have room, then cuts the claims, so that no row is wider than the screen.
+fn fit(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
+    for dispensable in ["kind", "work", "tier"] {
+        let column = head.iter().position(|name| *name == dispensable);
+        if let Some(column) = column.filter(|_| room(head, rows, width) < NARROWEST) {
+            head.remove(column);
+            rows.iter_mut().for_each(|row| drop(row.remove(column)));
+        }
+    }
+    let (claim, room) = (head.len() - 1, room(head, rows, width).max(NARROWEST));
     for cell in rows.iter_mut().map(|row| &mut row[claim]).filter(|cell| cell.chars().count() > room) {
         *cell = cell.chars().take(room - 1).chain(['…']).collect();
     }
+}
+
+/// What the other columns leave to the last one.
+fn room(head: &[&str], rows: &[Vec<String>], width: usize) -> usize {
+    let head: Vec<String> = head.iter().map(|name| (*name).to_owned()).collect();
+    let columns = Columns::of(&head, rows);
+    width.saturating_sub((0..head.len() - 1).map(|column| columns.width(column) + 2).sum())
 }
 
 #[cfg(test)]
@@ -120,23 +132,29 @@ mod tests {
     use super::{HEAD, NARROWEST, fit};
     use crate::cli::screen;
 
+    fn row(id: &str, claim: &str) -> Vec<String> {
+        [id, "quick", "self-convergence", "inconclusive", "100.00", "1.00", claim].map(str::to_owned).into()
+    }
+
+    /// The widest line, and the names of the columns.
+    fn fitted(rows: &mut [Vec<String>], width: usize) -> (String, Vec<&'static str>) {
+        let mut head = HEAD.to_vec();
+        fit(&mut head, rows, width);
+        (screen::table(&head, rows), head)
+    }
+
     #[test]
     fn rows_fit_on_the_screen_and_short_claims_stay_whole() {
-        let row = |claim: &str| {
-            let mut row = vec!["x".to_owned(); HEAD.len() - 1];
-            row.push(claim.to_owned());
-            row
-        };
         let long = "é".repeat(200);
-        for width in [80, 120] {
-            let mut rows = vec![row(&long), row("short")];
-            fit(&mut rows, width);
-            let table = screen::table(&HEAD, &rows);
-            assert_eq!(table.lines().map(|line| line.chars().count()).max(), Some(width));
-            assert!(table.contains('…') && table.contains("short\n"));
+        for (width, columns) in [(80, 5), (120, HEAD.len())] {
+            let mut rows = [row("work-precision-manufactured", &long), row("x", "short")];
+            let (table, head) = fitted(&mut rows, width);
+            assert_eq!(table.lines().map(|line| line.chars().count()).max(), Some(width), "{table}");
+            assert!(table.contains('…') && table.contains("short\n") && table.contains("inconclusive"), "{table}");
+            assert_eq!(head.len(), columns, "{head:?}");
         }
-        let mut rows = vec![row(&long)];
-        fit(&mut rows, 10);
-        assert_eq!(rows[0][HEAD.len() - 1].chars().count(), NARROWEST);
+        let mut rows = [row("x", &long)];
+        let (_, head) = fitted(&mut rows, 10);
+        assert_eq!(rows[0][head.len() - 1].chars().count(), NARROWEST);
     }
 }

@@ -9,7 +9,7 @@ mod section;
 mod settings;
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use toml::Spanned;
@@ -47,19 +47,32 @@ impl Source<'_> {
 
 /// The whole text of a file.
 pub fn read_text(path: &Path) -> Result<String, InputError> {
-    let file = path.display().to_string();
-    let fail = |complaint| InputError { file: file.clone(), place: None, field: None, complaint: Box::new(complaint) };
-    let unreadable = |error: std::io::Error| fail(Complaint::Unreadable { reason: error.to_string() });
+    let name = path.display().to_string();
+    let file = File::open(path).map_err(|error| unreadable(&name, &error))?;
+    read_from(&name, file)
+}
+
+fn failed(file: &str, complaint: Complaint) -> InputError {
+    InputError { file: file.to_owned(), place: None, field: None, complaint: Box::new(complaint) }
+}
+
+fn unreadable(file: &str, error: &io::Error) -> InputError {
+    failed(file, Complaint::Unreadable { reason: error.to_string() })
+}
+
+/// The whole text of anything that can be read; messages name `file`.
+pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputError> {
+    let fail = |complaint| failed(file, complaint);
     let mut bytes = Vec::new();
     // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
-    File::open(path).and_then(|f| f.take(FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    source.take(FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(file, &error))?;
     if bytes.len() as u64 > FILE_BYTES {
         return Err(fail(Complaint::TooLarge { allowed: FILE_BYTES }));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
-        let place = Source { file: &file, text: &text }.place(valid);
+        let place = Source { file, text: &text }.place(valid);
         let found = format!("the byte 0x{:02x}", error.as_bytes()[valid]);
         InputError { place: Some(place), ..fail(Complaint::NotAllowed { found, allowed: "UTF-8 text".to_owned() }) }
     })

@@ -64,7 +64,7 @@ pub struct Family {
     pub exponent: [f64; 2],
     /// Standard deviation σ of the scatter of log e.
     pub noise: f64,
-    /// Whether a round-off floor f, 1e-9 to 1e-5 of the coarsest error, is added; the judge is told [`FLOOR_MARGIN`] f.
+    /// Whether a round-off floor f, 1e-9 to 1e-5 of the coarsest error, is added; the judge's floor is then [`FLOOR_MARGIN`] f.
     pub floor: bool,
     /// Whether the rule is made for it.
     pub declared: bool,

@@ -61,7 +61,7 @@ pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
 
 /// The error at h from the differences of h against 2h (`fine`) and of 2h against 4h (`coarse`), and the observed rate.
 ///
-/// A rate above the `order` of theory is not believed: near a zero of `fine` it would promise an error of nothing. It is
+/// A rate above the `order` of theory is not used: near a zero of `fine` it would promise an error of nothing. It is
 /// cut at the order, and the error is then read off `coarse`. Below ½ it is cut too.
 pub fn error_and_rate(fine: f64, coarse: f64, order: f64) -> (f64, Option<f64>) {
     let rate = Some((coarse / fine).log2()).filter(|rate| rate.is_finite());

@@ -4,7 +4,7 @@ use super::Scale;
 
 /// Values beyond this overflow the arithmetic of ranges, and count as not finite.
 const LARGEST: f64 = 1e300;
-/// A range narrower than this fraction of its values is widened: its ticks could not be told apart in print.
+/// A range narrower than this fraction of its values is widened: its ticks would be the same in print.
 const NARROWEST: f64 = 1e-6;
 
 /// Position of a value on its scale: itself, or its decimal logarithm. `None` where it has none.

@@ -12,6 +12,7 @@ use super::ruler::{Ruler, on_scale};
 use super::sheet::{Plan, Sheet, guide_margin};
 use super::style::{self, TICK_SIZE};
 use super::{Axis, Guide, Phases, Scale, Series};
+use crate::text::number::counted;
 
 /// Room left around the data, as a fraction of its range.
 const MARGIN: f64 = 0.05;
@@ -239,8 +240,7 @@ impl Xy {
 /// The note on data that a figure cannot show.
 pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
     let points = |n: usize, what: &str, why: &str| {
-        let s = if n == 1 { "" } else { "s" };
-        (n > 0).then(|| format!("{n} {what} point{s} not drawn{why}"))
+        (n > 0).then(|| format!("{} not drawn{why}", counted(n, &format!("{what} point"))))
     };
     let non_finite = points(non_finite, "non-finite", "");
     let not_positive = points(not_positive, "non-positive", " (logarithmic axis)");

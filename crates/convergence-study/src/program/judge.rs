@@ -6,7 +6,7 @@ use super::{Expectation, Program, values};
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
-use crate::study::{Axis, Claim, Figure, Outcome, Ran};
+use crate::study::{Axis, Claim, Figure, LevelErrors, Outcome, Ran};
 
 type Run = Ran<Resolution, Answer>;
 
@@ -41,7 +41,8 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     figures.extend(work_precision(&study.header.id, levels, ran));
     Outcome {
         headline,
-        levels: levels.errors(),
+        // No step alone is the one that these errors are judged over.
+        levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
         tables: vec![table],
         figures,
         quantities,
@@ -66,7 +67,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
     let summary = summary.collect::<Vec<_>>().join("; ");
     Outcome {
-        levels: levels.errors(),
+        levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
         tables: values.tables,
         figures,
         quantities,
@@ -92,6 +93,12 @@ fn levels(study: &Program, ran: &[Run]) -> Levels {
         refinements: ran.iter().map(|ran| ran.case.data.refinement(step(ran, axis))).collect(),
         columns: ErrorColumn::of(&claims(study), &found),
     }
+}
+
+/// Every error of every level, with the work that the program counts.
+fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
+    let work = ran.iter().map(|ran| ran.ok().and_then(|answer| answer.work));
+    levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
 }
 
 fn claims(study: &Program) -> Vec<(String, Claim)> {

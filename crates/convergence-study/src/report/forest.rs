@@ -7,7 +7,9 @@ use crate::run::Finished;
 use crate::study::Figure;
 
 /// The name of its file.
-pub(super) const FILE: &str = "all-rates.svg";
+///
+/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is no figure of any study.
+pub(super) const FILE: &str = "rates.svg";
 
 /// Every judged rate relative to its claim, studies in groups; `None` where no rate was judged.
 pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {

@@ -122,6 +122,9 @@ pub struct RateRecord {
     pub pairwise: Vec<f64>,
     /// The rate fitted over the asymptotic range.
     pub fitted: Option<f64>,
+    /// The constant C of error = C step^rate; not there in records of versions before.
+    #[serde(default)]
+    pub constant: Option<f64>,
     /// Its interval.
     #[serde(deserialize_with = "null_is_nan_of_pair")]
     pub interval: Option<[f64; 2]>,
@@ -301,6 +304,7 @@ impl Precision {
             tolerance: rate.tolerance,
             pairwise: rate.pairwise.iter().map(|rate| self.rate_number(*rate)).collect(),
             fitted: rate.fitted.map(|rate| self.rate_number(rate)),
+            constant: rate.constant.map(|constant| self.number(constant)),
             interval: rate.interval.map(|ends| ends.map(|end| self.rate_number(end))),
             extrapolated: rate.extrapolated.map(|rate| self.rate_number(rate)),
             verdict: rate.verdict,

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::case::{Ran, by_reason};
 use super::outcome::{Check, Figure, LevelErrors, Quantity, Table};
 use crate::judge::fit::Level;
-use crate::judge::verdict::{Judge, JudgeError, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by 1e-8 at
@@ -108,8 +108,8 @@ pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
-        let steps = self.refinements.iter().map(|level| level.step);
-        steps.zip(&column.errors).map(|(step, &error)| Level { step, error }).collect()
+        let level = |(i, level): (usize, &Refinement)| Level { step: level.step, error: at(&column.errors, i) };
+        self.refinements.iter().enumerate().map(level).collect()
     }
 
     /// One verdict for each error of which an order is claimed.
@@ -121,8 +121,10 @@ impl Levels {
     pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let verdict = |column: &ErrorColumn| {
             let Claim { order, tolerance } = column.claim?;
-            let judged = Judge::new(tolerance).map(|judge| settings(judge).judge(&self.points(column), order));
-            Some((column.name.clone(), judged.unwrap_or_else(|error| unusable(order, tolerance, &error))))
+            let points = self.points(column);
+            // A tolerance that no verdict can be based on; readers of study files refuse it before.
+            let judged = Judge::new(tolerance).map(|judge| settings(judge).judge(&points, order));
+            Some((column.name.clone(), judged.unwrap_or_else(|_| verdict::judge(&points, order, tolerance))))
         };
         self.columns.iter().filter_map(verdict).collect()
     }
@@ -135,7 +137,7 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| power_law(&points, rate)),
+                fit: rate.and_then(|(_, rate)| power_law(rate)),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -179,23 +181,6 @@ fn at(errors: &[f64], level: usize) -> f64 {
     errors.get(level).copied().unwrap_or(f64::NAN)
 }
 
-/// A tolerance that no verdict can be based on; readers of study files refuse it before.
-fn unusable(order: f64, tolerance: f64, error: &JudgeError) -> RateVerdict {
-    RateVerdict {
-        order,
-        tolerance,
-        pairwise: vec![],
-        fitted: None,
-        interval: None,
-        extrapolated: None,
-        used: 0..0,
-        set_aside: vec![],
-        verdict: Verdict::Inconclusive,
-        kind: Reason::ToleranceTooWide,
-        reason: error.to_string(),
-    }
-}
-
 /// The observed rates, as numbers that the baseline guards.
 pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     rates.iter().filter_map(|(name, rate)| {
@@ -204,15 +189,9 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// The observed rate as a power law, `error = constant · step^rate`.
-///
-/// The constant is that of least squares, in logarithms, over the levels that the rate was fitted to.
-pub fn power_law(levels: &[Level], rate: &RateVerdict) -> Option<PowerLaw> {
-    let used = levels.get(rate.used.clone())?;
-    let rate = rate.fitted?;
-    let logs = used.iter().map(|level| level.error.ln() - rate * level.step.ln());
-    let constant = (logs.sum::<f64>() / used.len() as f64).exp();
-    constant.is_finite().then_some(PowerLaw { rate, constant })
+/// The observed rate as a curve for a figure; `None` where there is no rate.
+pub fn power_law(rate: &RateVerdict) -> Option<PowerLaw> {
+    Some(PowerLaw { rate: rate.fitted?, constant: rate.constant? })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.
@@ -274,6 +253,26 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
 mod tests {
     use super::*;
     use crate::study::case::{Case, CaseFailure};
+
+    #[test]
+    fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
+        let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
+        let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
+        let judged = |count: usize, tolerance: f64| {
+            let errors = refinements.iter().take(count).map(|level| level.step * level.step).collect();
+            let claim = Some(Claim { order: 2.0, tolerance });
+            let columns = vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }];
+            let levels = Levels { axis: Axis::Space, refinements: refinements.clone(), columns };
+            levels.judge().remove(0).1
+        };
+        assert_eq!(judged(5, 0.1).verdict, Verdict::Pass);
+        assert_eq!(judged(4, 0.1).verdict, Verdict::Fail, "the finest level has no error");
+        for tolerance in [-0.1, 0.7, f64::NAN] {
+            let judged = judged(5, tolerance);
+            assert_eq!(judged.verdict, Verdict::Inconclusive, "{tolerance}");
+            assert!(judged.fitted.is_some_and(|rate| (rate - 2.0).abs() < 1e-6), "{tolerance}");
+        }
+    }
 
     #[test]
     fn a_failed_case_or_a_nan_fails_the_completion() {

@@ -84,6 +84,7 @@ fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k 
     }
     let names: Vec<String> = kinds.iter().map(|row| format!("\"{}\"", row.name)).collect();
     let study = root.require("study", "a table")?.section()?;
+    // A file without kind has the default one, which not every project knows.
     study.require("kind", &names.join(", "))?;
     Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
 }

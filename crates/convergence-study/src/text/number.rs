@@ -45,7 +45,7 @@ pub fn error_text(value: f64) -> String {
 
 /// A rate as reports show it: three decimals; a dash where there is none.
 pub fn rate_text(rate: Option<f64>) -> String {
-    rate.map_or_else(|| "-".to_owned(), |rate| format!("{:.3}", committed_rate(rate)))
+    rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, 3))
 }
 
 /// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most `most`.
@@ -64,6 +64,11 @@ pub fn interval_text(interval: [f64; 2], most: usize) -> String {
     let places = interval_places(interval, most);
     let [low, high] = interval.map(|end| decimals(end, places));
     if low == high { format!("{low} ± 0.{}5", "0".repeat(places)) } else { format!("{low} to {high}") }
+}
+
+/// A count with its noun: `1 element`, `2 elements`.
+pub fn counted(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
 /// A number with so many decimals; one that is rounded to nothing shows no sign.
@@ -100,6 +105,11 @@ mod tests {
         assert_eq!(decimals(-4e-10, 8), "0.00000000");
         assert_eq!(decimals(-4e-8, 8), "-0.00000004");
         assert_eq!(decimals(f64::NAN, 2), "NaN");
+    }
+
+    #[test]
+    fn one_of_a_kind_has_no_s() {
+        assert_eq!([0, 1, 2].map(|n| counted(n, "element")), ["0 elements", "1 element", "2 elements"]);
     }
 
     #[test]

@@ -408,6 +408,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         ("n = [4, ", "n = [8, ", "refine.n[1]: found 8; expected a number > 8, the level before"),
         ("error = \"L2\"", "norm = \"L2\"", "expect[0].norm: unknown key `norm`"),
         ("tolerance = 0.05", "tolerance = 0.5", "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"),
+        ("kind = \"program\"", "", "s.toml:1:1: study.kind: missing; expected \"program\""),
         ("[[expect]]", "[[expct]]", "unknown key `expct`, did you mean `expect`?"),
     ] {
         assert!(text.contains(old), "{old}");

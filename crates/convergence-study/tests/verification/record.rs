@@ -20,11 +20,14 @@ fn a_record_has_the_documented_fields() {
     assert_eq!((&study["id"], &study["verdict"]), (&"a".into(), &"pass".into()));
     let level = &study["levels"][4];
     assert_eq!((&level["elements"], &level["steps"]), (&128.into(), &20.into()));
+    assert_eq!(level["step"], 1.0 / 128.0);
     assert_eq!(level["errors"]["velocity"], std::f64::consts::PI * 0.3 / 128.0);
     let rate = &study["rates"][0];
     assert_eq!((&rate["norm"], &rate["order"]), (&"velocity".into(), &1.0.into()));
     assert_eq!(rate["pairwise"].as_array().unwrap().len(), 4);
     assert_eq!(rate["interval"].as_array().unwrap().len(), 2);
+    let constant = rate["constant"].as_f64().unwrap();
+    assert!((constant - std::f64::consts::PI * 0.3).abs() < 1e-6, "{constant}");
     assert!(rate["fitted"].is_f64() && rate["extrapolated"].is_f64());
     assert_eq!(rate["verdict"], "pass");
     assert!(rate["reason"].as_str().unwrap().contains("agrees"));

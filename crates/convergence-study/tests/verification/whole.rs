@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::project::Project;
 use convergence_study::study::{Study, Tier, erased};
 use convergence_study::verify::{Request, Scope, Verification, VerificationError, verify};
 
@@ -39,6 +40,16 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     let moved = run(vec![erased(moved)], &plain);
     assert_eq!((moved.finished[0].outcome.verdict, moved.verdict), (Verdict::Pass, Verdict::Fail));
     assert!(fs::read_to_string(root.path().join("reports/README.md")).unwrap().contains("by +50 %"));
+}
+
+#[test]
+fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let bless = Request { bless: true, ..request(root.path(), &["a"]) };
+    let twice = Project { front_pictures: &[("a-errors.svg", "README.md")], ..PROJECT };
+    let failed = verify(&twice, &[study("a", Does::Converge)], &bless, &|_| {}).map(|found| found.verdict);
+    assert!(matches!(&failed, Err(VerificationError::Reports { .. })), "{failed:?}");
+    assert!(!root.path().join("studies/baseline.json").exists());
 }
 
 #[test]

@@ -100,7 +100,7 @@ impl Planned {
             format!("{:.3} s for the pilots, {:.3} s for the run", choice.pilots.seconds, run.wall.as_secs_f64());
         vec![
             ("asked for", format!("{:.3e}", self.target), what),
-            ("believed", format!("{:.3e}", choice.believed), parts),
+            ("expected", format!("{:.3e}", choice.believed), parts),
             ("node-steps", format!("{:.3e}", pilots + node_steps), format!("of which {pilots:.3e} for pilot runs")),
             ("time", format!("{:.3} s", choice.pilots.seconds + run.wall.as_secs_f64()), seconds),
         ]

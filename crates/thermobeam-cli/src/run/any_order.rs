@@ -6,6 +6,7 @@ use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::{interrupt, output, progress};
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
+use convergence_study::text::number::counted;
 use thermobeam_study::predict::any_order::{Budget, estimate};
 use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIMES, phase_name, run};
 use thermobeam_study::scene::any_order::AnyOrderScene;
@@ -79,9 +80,9 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
 fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {
     let stepping = scene.stepping;
     let mut text = format!(
-        "{}: {} elements of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
+        "{}: {} of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
         scene.name,
-        scene.mesh.elements(),
+        counted(scene.mesh.elements(), "element"),
         scene.degree,
         stepping.degree,
         stepping.restart_dt,

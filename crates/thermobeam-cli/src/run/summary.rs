@@ -1,5 +1,6 @@
 //! A run for people.
 
+use convergence_study::text::number::counted;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -57,10 +58,10 @@ pub(super) fn section(text: &mut String, title: &str, lines: Vec<Line>) {
 fn headline(scene: &Scene, run: &Run) -> String {
     let settings = scene.settings;
     let mut text = format!(
-        "{}: {} elements, {} steps of dt = {:?} to t = {:?}\n{}, {}, tolerance {:?}\n",
+        "{}: {}, {} of dt = {:?} to t = {:?}\n{}, {}, tolerance {:?}\n",
         scene.name,
-        scene.mesh.elements(),
-        scene.steps,
+        counted(scene.mesh.elements(), "element"),
+        counted(scene.steps, "step"),
         scene.dt,
         scene.t_end,
         scene.scheme.name,

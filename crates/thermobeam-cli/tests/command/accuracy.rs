@@ -22,7 +22,7 @@ fn an_accuracy_asked_for_is_told_with_its_cost() {
 
     let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-2", "--quantity", "theorem-3.4"]));
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "believed", "Theorem 3.4", "pilot runs"] {
+    for piece in ["asked for", "expected", "Theorem 3.4", "pilot runs"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

@@ -49,7 +49,7 @@ fn the_summary_shows_degrees_work_and_events() {
     let folder = Folder::new();
     let ended = ended(thermobeam().arg("run").arg(folder.file("thrown.toml", &thrown("degree = 8", ""))));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    for piece in ["thrown: 1 elements of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
+    for piece in ["thrown: 1 element of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
     }
 }
@@ -105,7 +105,7 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
 
     let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "believed", "inside steps included", "steps half as long", "runs to compare with"] {
+    for piece in ["asked for", "expected", "inside steps included", "steps half as long", "runs to compare with"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

@@ -10,6 +10,7 @@ mod interrupted;
 mod killed;
 mod places;
 mod rates;
+#[cfg(unix)]
 mod run;
 mod sweep;
 mod workspace;

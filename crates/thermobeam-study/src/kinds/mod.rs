@@ -15,6 +15,7 @@ pub mod exact_experiments;
 pub mod experiment;
 pub mod frequencies;
 pub mod rigid;
+pub mod scenes;
 pub mod self_convergence;
 pub mod solvers;
 mod steady;

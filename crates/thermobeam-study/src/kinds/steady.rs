@@ -57,7 +57,7 @@ pub(super) struct Rest {
 }
 
 /// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,
-/// and the slowest oscillation of a beam near buckling is told from rest by its speed alone.
+/// and the slowest oscillation of a beam near buckling differs from rest by its speed alone.
 const QUIET: f64 = 5.0;
 
 /// Runs until no node has been faster than `speed`, in u or φ, for a while.

@@ -309,7 +309,8 @@ pub struct AnyOrderObject<'r> {
     dt: f64,
     t_end: f64,
     iterations: Iterations,
-    wall_seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_seconds: Option<f64>,
     #[serde(rename = "final")]
     last: Sample,
     extremes: Extremes,
@@ -349,8 +350,13 @@ pub fn phase_name(phase: Phase) -> &'static str {
 }
 
 impl<'r> AnyOrderObject<'r> {
-    /// The object of a run of this scene.
+    /// Everything there is to say about a run.
     pub fn new(scene: &'r AnyOrderScene, run: &AnyOrderRun) -> Self {
+        Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
+    }
+
+    /// The same without the time on the clock: the same run gives the same bytes.
+    pub fn reproducible(scene: &'r AnyOrderScene, run: &AnyOrderRun) -> Self {
         let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
         Self {
             scene: &scene.name,
@@ -359,7 +365,7 @@ impl<'r> AnyOrderObject<'r> {
             dt: scene.stepping.dt,
             t_end: scene.t_end,
             iterations: run.iterations,
-            wall_seconds: run.wall.as_secs_f64(),
+            wall_seconds: None,
             last: run.ends[1],
             extremes: run.extremes,
             energy: run.energy,

@@ -89,14 +89,25 @@ impl SceneFile {
     /// # Errors
     /// As [`SceneFile::read`].
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse(text, file_name, |root| {
-            root.allow(&super::TABLES)?;
-            let name = stem(file_name);
-            Ok(if is_any_order(root)? {
-                Self::AnyOrder(from_document(root, name)?)
-            } else {
-                Self::OneStep(Scene::from_tables(root, name)?)
-            })
+        input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
+    }
+
+    /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
+    pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
+        input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
+    }
+
+    fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
+        root.allow(&super::TABLES)?;
+        Self::from_tables(root, name)
+    }
+
+    /// The scene of the tables in a section, which may hold other keys besides.
+    pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
+        Ok(if is_any_order(root)? {
+            Self::AnyOrder(from_document(root, name)?)
+        } else {
+            Self::OneStep(Scene::from_tables(root, name)?)
         })
     }
 }

@@ -96,11 +96,6 @@ impl Scene {
         input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
-    /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
-    pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
-    }
-
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         root.allow(&TABLES)?;
         Self::from_tables(root, name)

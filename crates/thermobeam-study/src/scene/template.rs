@@ -1,4 +1,4 @@
-//! Files to begin with: a study and a scene, commented, that run as they are.
+//! Files to begin with: a study and two scenes, commented, that run as they are.
 
 /// A kind of file that can be begun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -7,6 +7,8 @@ pub enum Template {
     Study,
     /// A scene.
     Scene,
+    /// A scene of any order.
+    AnyOrderScene,
 }
 
 impl Template {
@@ -18,6 +20,7 @@ impl Template {
         let text = match self {
             Self::Study => include_str!("template/study.toml"),
             Self::Scene => include_str!("template/scene.toml"),
+            Self::AnyOrderScene => include_str!("template/any-order-scene.toml"),
         };
         text.replace("NAME", name).replace("PROGRAM", program)
     }

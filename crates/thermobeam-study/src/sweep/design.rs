@@ -9,8 +9,8 @@ use convergence_study::store::content_hash;
 pub(super) enum Design {
     /// The values of each key; every combination, the last key running fastest.
     Grid(Vec<Vec<f64>>),
-    /// The values of each key, one for each sample, and the base scene's dt and t_end.
-    Latin { samples: usize, values: Vec<Vec<f64>>, dt: f64, t_end: f64 },
+    /// The values of each key, one for each sample, and the base scene's dt and t_end where the one must divide the other.
+    Latin { samples: usize, values: Vec<Vec<f64>>, steps: Option<(f64, f64)> },
 }
 
 impl Design {
@@ -29,9 +29,12 @@ impl Design {
     pub(super) fn values(&self, index: usize, keys: &[Key]) -> Vec<f64> {
         match self {
             Self::Grid(values) => combination(values, index),
-            Self::Latin { values, dt, t_end, .. } => {
+            Self::Latin { values, steps, .. } => {
                 let drawn = values.iter().map(|values| values[index]).collect();
-                with_whole_steps(drawn, keys, *dt, *t_end)
+                match *steps {
+                    Some((dt, t_end)) => with_whole_steps(drawn, keys, dt, t_end),
+                    None => drawn,
+                }
             }
         }
     }

@@ -20,7 +20,7 @@ const fn whole(table: &'static str, name: &'static str) -> Key {
 }
 
 /// All of them, in the order in which a case lists them.
-pub(super) const KEYS: [Key; 13] = [
+pub(super) const KEYS: [Key; 17] = [
     number("beam", "zeta"),
     number("beam", "a"),
     number("beam", "rho"),
@@ -30,10 +30,14 @@ pub(super) const KEYS: [Key; 13] = [
     number("obstacles", "g1"),
     number("obstacles", "g2"),
     whole("mesh", "elements"),
+    whole("mesh", "degree"),
     number("time", "dt"),
     number("time", "t_end"),
     number("time", "tolerance"),
     whole("time", "max_iterations"),
+    whole("time", "degree"),
+    number("time", "restart_dt"),
+    number("time", "growth"),
 ];
 
 /// The tables that have numeric keys.

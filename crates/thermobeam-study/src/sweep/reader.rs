@@ -6,8 +6,9 @@ use super::design::Design;
 use super::key::{KEYS, TABLES};
 use super::values::{self, VariedKey};
 use super::{Base, Key, MOST_CASES, Sweep, SweepCase};
+use crate::scene::any_order::SceneFile;
 use crate::scene::limits;
-use crate::scene::{Scene, stem};
+use crate::scene::stem;
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
 use convergence_study::store::content_hash;
 
@@ -48,7 +49,7 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     section.allow(&["scene"])?;
     let scene = section.require("scene", "a scene file beside this one")?.file(folder)?;
     let base = Base { file: scene.display().to_string(), text: input::read_text(&scene)? };
-    let plain = Scene::parse(&base.text, &base.file)?;
+    let plain = SceneFile::parse(&base.text, &base.file)?;
     let set = set(root)?;
     let varied = varied(root)?;
     check_placeholders(&set, &varied)?;
@@ -59,8 +60,8 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     let values = varied.iter().map(|varied| varied.values.clone()).collect();
     let design = match samples {
         Some((samples, _)) => {
-            let (dt, t_end) = common_steps(&base, &template, &varied).unwrap_or((plain.dt, plain.t_end));
-            Design::Latin { samples, values, dt, t_end }
+            let steps = steps(&plain).map(|plain| common_steps(&base, &template, &varied).unwrap_or(plain));
+            Design::Latin { samples, values, steps }
         }
         None => Design::Grid(values),
     };
@@ -162,8 +163,15 @@ fn check_placeholders(set: &[(String, String, Field<'_>)], varied: &[VariedKey<'
 /// The dt and t_end of all cases, where one of them varies alone.
 fn common_steps(base: &Base, template: &Template, varied: &[VariedKey<'_>]) -> Option<(f64, f64)> {
     let fixed: Vec<&VariedKey<'_>> = varied.iter().filter(|varied| !is_step(varied.key)).collect();
-    let scene = attempt(base, template, &fixed, None).ok()?;
-    Some((scene.dt, scene.t_end))
+    steps(&attempt(base, template, &fixed, None).ok()?)
+}
+
+/// dt and t_end where the one must divide the other.
+fn steps(scene: &SceneFile) -> Option<(f64, f64)> {
+    match scene {
+        SceneFile::OneStep(scene) => Some((scene.dt, scene.t_end)),
+        SceneFile::AnyOrder(_) => None,
+    }
 }
 
 fn is_step(key: Key) -> bool {
@@ -176,13 +184,13 @@ fn attempt(
     template: &Template,
     varied: &[&VariedKey<'_>],
     probed: Option<(usize, f64)>,
-) -> Result<Scene, InputError> {
+) -> Result<SceneFile, InputError> {
     let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
     let mut values: Vec<f64> = varied.iter().map(|varied| varied.probes[0].0).collect();
     if let Some((index, value)) = probed {
         values[index] = value;
     }
-    Scene::parse_overlaid(&base.text, &template.overlay(&SweepCase::new(0, &keys, values)), &base.file)
+    SceneFile::parse_overlaid(&base.text, &template.overlay(&SweepCase::new(0, &keys, values)), &base.file)
 }
 
 /// Builds a scene with every number that the file lists, the other keys at their first value.

@@ -10,8 +10,10 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
 use super::{Sweep, SweepCase, lines};
+use crate::run::any_order::{self, AnyOrderObject};
 use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
 use crate::scene::Scene;
+use crate::scene::any_order::{AnyOrderScene, SceneFile};
 use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.
@@ -39,7 +41,15 @@ struct Content<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    result: Option<Object<'a>>,
+    result: Option<Found<'a>>,
+}
+
+/// What a scene's scheme has to say about a run.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Found<'a> {
+    OneStep(Object<'a>),
+    AnyOrder(AnyOrderObject<'a>),
 }
 
 impl Line {
@@ -72,7 +82,7 @@ fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
 }
 
 /// The scene of a case, or the line of its failure.
-fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
+fn scene(sweep: &Sweep, index: usize) -> Result<SceneFile, Line> {
     let case = sweep.case(index);
     sweep.scene(&case).map_err(|error| {
         // The line number would refer to a generated text.
@@ -81,19 +91,40 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     })
 }
 
-fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
+fn simulate(sweep: &Sweep, index: usize, scene: &SceneFile) -> Line {
+    match scene {
+        SceneFile::OneStep(scene) => one_step(sweep, index, scene),
+        SceneFile::AnyOrder(scene) => any_order(sweep, index, scene),
+    }
+}
+
+fn one_step(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     match Simulator::new(scene) {
         Ok(simulator) => line(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_| ())),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     }
 }
 
+fn any_order(sweep: &Sweep, index: usize, scene: &AnyOrderScene) -> Line {
+    match any_order::run(scene, 0, &mut |_| ()) {
+        Ok(run) => {
+            let reason = run.failure.as_ref().map(ToString::to_string);
+            ended(sweep, index, reason, Found::AnyOrder(AnyOrderObject::reproducible(scene, &run)))
+        }
+        Err(error) => Line::failed(&sweep.case(index), error.to_string()),
+    }
+}
+
 fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
-    let case = sweep.case(index);
     let reason = run.failure.as_ref().map(ToString::to_string);
+    ended(sweep, index, reason, Found::OneStep(Object::reproducible(scene, run)))
+}
+
+/// The line of a run, or of the part of it that was done.
+fn ended(sweep: &Sweep, index: usize, reason: Option<String>, found: Found<'_>) -> Line {
+    let case = sweep.case(index);
     let status = if reason.is_none() { "done" } else { "failed" };
-    let result = Some(Object::reproducible(scene, run));
-    Line::of(&Content { case: index, status, parameters: &case, reason, result })
+    Line::of(&Content { case: index, status, parameters: &case, reason, result: Some(found) })
 }
 
 /// Cases that run side by side: at most [`LANES`], and their scenes agree.
@@ -102,16 +133,19 @@ struct Group {
     together: Option<Together>,
     indices: Vec<usize>,
     scenes: Vec<Scene>,
-    /// The line of a case without a scene.
-    refused: Option<Line>,
+    /// A scene of any order, or the line of a case without a scene.
+    alone: Option<Result<AnyOrderScene, Line>>,
 }
 
-/// Groups cases; a case without a scene forms a group of its own.
+/// Groups cases; a scene of any order forms a group of its own, and so does a case without a scene.
 fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for &index in indices {
         let read = caught(|| scene(sweep, index)).unwrap_or_else(|| Err(Line::panicked(sweep, index)));
-        let together = read.as_ref().ok().and_then(Together::of);
+        let together = match &read {
+            Ok(SceneFile::OneStep(scene)) => Together::of(scene),
+            _ => None,
+        };
         let fits = |group: &&mut Group| group.indices.len() < LANES && group.together == together;
         let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
             Some(group) => group,
@@ -122,8 +156,9 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
         };
         group.indices.push(index);
         match read {
-            Ok(scene) => group.scenes.push(scene),
-            Err(line) => group.refused = Some(line),
+            Ok(SceneFile::OneStep(scene)) => group.scenes.push(scene),
+            Ok(SceneFile::AnyOrder(scene)) => group.alone = Some(Ok(scene)),
+            Err(line) => group.alone = Some(Err(line)),
         }
     }
     groups
@@ -131,9 +166,13 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
 
 /// The lines of a group: its cases side by side, or one after the other where that fails.
 fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
-    let Group { indices, scenes, refused, .. } = group;
-    if let Some(line) = refused {
-        return sink(line.clone());
+    let Group { indices, scenes, alone, .. } = group;
+    let guarded =
+        |index: usize, compute: &dyn Fn() -> Line| caught(compute).unwrap_or_else(|| Line::panicked(sweep, index));
+    match alone {
+        Some(Err(line)) => return sink(line.clone()),
+        Some(Ok(scene)) => return sink(guarded(indices[0], &|| any_order(sweep, indices[0], scene))),
+        None => {}
     }
     let together = || {
         let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
@@ -143,9 +182,7 @@ fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<
     if let Some(lines) = caught(together).flatten() {
         return lines.into_iter().try_for_each(sink);
     }
-    indices.iter().zip(scenes).try_for_each(|(&index, scene)| {
-        sink(caught(|| simulate(sweep, index, scene)).unwrap_or_else(|| Line::panicked(sweep, index)))
-    })
+    indices.iter().zip(scenes).try_for_each(|(&index, scene)| sink(guarded(index, &|| one_step(sweep, index, scene))))
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on

@@ -133,3 +133,21 @@ fn files_with_errors_are_refused_with_the_field() {
         assert!(error.contains(message), "{to}: {error}");
     }
 }
+
+#[test]
+fn free_vibrations_pass_and_a_wrong_viscosity_fails() {
+    passes_but_not_without_each_case(&read("any-order-vibration.toml"));
+    for coefficient in ["zeta = 0.10001", "a = 1e-3", "beta = 1e-6"] {
+        let planted = format!("{}\n[control]\n{coefficient}\n", text("any-order-vibration.toml"));
+        assert_eq!(run_here(&parse(&planted)).verdict, Verdict::Fail, "{coefficient}");
+    }
+    for (from, to, message) in [
+        ("modes = [1, 2, 5]", "modes = []", "vibration.modes"),
+        ("modes = [1, 2, 5]", "modes = [0]", "vibration.modes"),
+        ("zeta = 0.1", "zeta = -0.1", "vibration.zeta"),
+        ("[vibration]", "[beam]\na = 0.0\n[vibration]", "beam"),
+    ] {
+        let error = refusal(&ROW, "any-order-vibration.toml", from, to);
+        assert!(error.contains(message), "{to}: {error}");
+    }
+}

@@ -16,7 +16,7 @@ fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
     let sound = run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
-    assert_eq!(sound.len(), 8, "the honest solver and seven coefficients");
+    assert_eq!(sound.len(), 9, "the honest solver and eight coefficients");
     assert_eq!(sound[0].case.data.coefficient, None);
     for (index, ran) in sound.iter().enumerate() {
         let judged = ran.ok().expect("a verdict");

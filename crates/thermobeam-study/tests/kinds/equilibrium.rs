@@ -30,7 +30,7 @@ fn every_claim_about_end_states_can_fail() {
     let study = study();
     let sound = run_cases_here(&study);
     type Defect = fn(&mut End);
-    let planted: [(&str, Defect); 6] = [
+    let planted: [(&str, Defect); 8] = [
         ("paper-2-beta-5, n = 160", |end| end.error.u = 2e-6),
         ("paper-2-beta-5, n = 160", |end| end.error.phi = 2e-6),
         ("paper-2-beta-5, n = 160", |end| end.tip.u = 0.0141797),
@@ -39,6 +39,8 @@ fn every_claim_about_end_states_can_fail() {
         }),
         ("paper-2-beta-5, n = 40", |end| end.error.u = 1e-5),
         ("paper-1-beta-0, n = 160", |end| end.error.u = 2e-6),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| end.error.u = 2e-13),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| end.error.phi = 2e-13),
     ];
     for (k, (label, defect)) in planted.into_iter().enumerate() {
         assert_ne!(verdict(&study, &sound, label, defect), Verdict::Pass, "defect {k}: {label}");

@@ -14,6 +14,7 @@ mod frequencies;
 mod planted;
 mod refused;
 mod rigid;
+mod scenes;
 mod self_convergence;
 mod solvers;
 mod typed;

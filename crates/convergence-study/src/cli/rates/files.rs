@@ -48,7 +48,7 @@ fn figure(findings: &Findings<'_>) -> String {
             label: judged.name.to_owned(),
             points: levels.iter().map(|level| (level.step, level.error)).collect(),
             order: Some(judged.rate.order).filter(|order| !order.is_nan()),
-            fit: power_law(levels, judged.rate),
+            fit: power_law(judged.rate),
             used: Some(judged.rate.used.clone()),
             ..ErrorSeries::default()
         }

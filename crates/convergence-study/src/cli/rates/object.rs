@@ -22,6 +22,8 @@ struct Rate<'a> {
     tolerance: f64,
     pairwise: &'a [f64],
     fitted: Option<f64>,
+    /// Of error = constant step^rate.
+    constant: Option<f64>,
     interval: Option<[f64; 2]>,
     extrapolated: Option<f64>,
     verdict: &'static str,
@@ -76,6 +78,7 @@ impl<'a> Rate<'a> {
             tolerance: rate.tolerance,
             pairwise: &rate.pairwise,
             fitted: rate.fitted,
+            constant: rate.constant,
             interval: rate.interval,
             extrapolated: rate.extrapolated,
             verdict: rate.verdict.name(),

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use super::{Findings, Judged};
 use crate::cli::screen;
-use crate::judge::verdict::{Aside, Verdict};
+use crate::explain::{reason_text, section};
+use crate::judge::verdict::{Aside, Reason, Verdict};
 use crate::text::number::{decimals, interval_places, interval_text};
 
 /// Most decimals of a rate.
@@ -52,7 +53,9 @@ pub(super) fn rate(judged: &Judged<'_>) -> String {
         (Some(fitted), Some(interval)) => {
             let (fitted, interval) = (decimals(fitted, places), interval_text(interval, MOST_PLACES));
             let (first, last, levels) = (rate.used.start + 1, rate.used.end, rate.pairwise.len() + 1);
-            format!("rate {fitted}, {interval} from levels {first} to {last} of {levels}")
+            // A narrow interval begins with its middle.
+            let fitted = if interval.starts_with(&fitted) { String::new() } else { fitted + ", " };
+            format!("rate {fitted}{interval} from levels {first} to {last} of {levels}")
         }
         _ => match rate.pairwise.iter().rfind(|rate| rate.is_finite()) {
             Some(finest) => format!("rate {} between the finest levels that have one", decimals(*finest, places)),
@@ -81,6 +84,7 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
         }
     }
     if !quiet {
+        text += &advice(findings);
         for (name, why) in &findings.table.not_errors {
             let _ = writeln!(text, "{name}: not judged: {why}");
         }
@@ -95,6 +99,19 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
         text.push('\n');
     }
     text + &format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings))
+}
+
+/// What the reasons mean for which columns do not pass, each once, and what to do next.
+fn advice(findings: &Findings<'_>) -> String {
+    let mut text = String::new();
+    let missed = findings.columns.iter().filter(|column| column.decides && column.rate.verdict != Verdict::Pass);
+    let mut reasons: Vec<Reason> = missed.filter(|column| column.is_claimed()).map(|column| column.rate.kind).collect();
+    reasons.sort_by_key(|reason| reason.text());
+    reasons.dedup();
+    for (name, means) in reasons.into_iter().map(reason_text) {
+        section(&mut text, name, means);
+    }
+    text
 }
 
 /// The overall verdict in words.

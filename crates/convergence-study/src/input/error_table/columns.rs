@@ -39,7 +39,7 @@ pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateT
     let by_name: Vec<Meaning> = grid.names.iter().map(|cell| meaning(&name(*cell))).collect();
     let named = |k: usize| match (by_name[k], grid.names[k].text) {
         // Nameless are the number of the row and, behind an error, its rate.
-        (_, "") => !(grid.has_dash(k) || (k == 0 && grid.first_counts_rows())),
+        (_, "") => !(grid.has_dash(k) || (k == 0 && grid.counts_rows(0))),
         (Meaning::Rate, _) => false,
         _ => true,
     };

@@ -41,6 +41,69 @@ struct Head<'t> {
     is_comment: bool,
 }
 
+/// What the rows of a table show of its columns, whatever their names.
+struct Shape {
+    width: usize,
+    /// Whether the first column counts the rows.
+    indexed: bool,
+    /// Which columns hold rates: their first cell is a dash.
+    dashed: Vec<bool>,
+}
+
+impl Shape {
+    /// The names of a line, one for each of the `width` columns; `None` where it has too few or too many.
+    fn names_of<'t>(&self, head: &Head<'t>, below: Option<&Head<'t>>, separator: Separator) -> Option<Vec<Cell<'t>>> {
+        // A comment may be separated in another way than the rows: `# h, L2` above columns of blanks.
+        let others: &[Separator] = match separator {
+            Separator::Blanks if head.is_comment => &[
+                Separator::Char(','),
+                Separator::Char(';'),
+                Separator::Char('\t'),
+                Separator::Blanks,
+                Separator::WideBlanks,
+            ],
+            Separator::Blanks => &[Separator::Blanks, Separator::WideBlanks],
+            _ if head.is_comment => &[separator, Separator::Blanks],
+            _ => std::slice::from_ref(&separator),
+        };
+        let Self { width, indexed, ref dashed } = *self;
+        let dashes = dashed.iter().filter(|dash| **dash).count();
+        let mut one_each = None;
+        for cells in others.iter().map(|separator| head.cells(*separator)) {
+            if head.is_comment && cells.iter().any(|cell| number(cell.text, false).is_some()) {
+                continue;
+            }
+            let nameless = Cell { column: 1, text: "" };
+            let spread = |named: &dyn Fn(usize) -> bool| {
+                let mut cells = cells.iter().copied();
+                (0..width).map(|k| if named(k) { cells.next().unwrap_or(nameless) } else { nameless }).collect()
+            };
+            let index_name = below.map(|below| below.cells(separator)).filter(|below| below.len() == 1);
+            if cells.len() == width {
+                let is_rate = |(cell, dash): (&Cell<'_>, &bool)| !dash || meaning(cell.text) == Meaning::Rate;
+                if separator != Separator::Blanks || cells.iter().zip(dashed).all(is_rate) {
+                    return Some(cells);
+                }
+                // A column with a dash may hold nameless rates.
+                one_each.get_or_insert(cells);
+            } else if let (Some(name), true) = (index_name, cells.len() + 1 == width) {
+                return Some(name.into_iter().chain(cells).collect());
+            } else if dashes > 0 && cells.len() + dashes == width {
+                return Some(spread(&|k| !dashed[k]));
+            } else if separator == Separator::Blanks && cells.len() + 1 == width && indexed {
+                return Some(spread(&|k| k > 0));
+            } else if dashes > 0 && cells.len() + dashes + 1 == width && indexed {
+                return Some(spread(&|k| k > 0 && !dashed[k]));
+            }
+        }
+        let tokens = head.cells(Separator::Blanks);
+        if separator == Separator::Blanks && dashes > 0 && tokens.len() > width - dashes {
+            return super::spans::by_position(&tokens, head.before, head.text, dashed).or(one_each);
+        }
+        one_each
+    }
+}
+
 impl<'t> Grid<'t> {
     /// Finds separator, names and rows.
     pub(super) fn read(text: &'t str, file: &str) -> Result<Self, InputError> {
@@ -65,9 +128,14 @@ impl<'t> Grid<'t> {
         }
         // Names stand in the first row that has one for each column; a comment has them where no row does.
         heads.sort_by_key(|head| (head.is_comment, if head.is_comment { usize::MAX - head.line } else { head.line }));
+        let shape = Shape {
+            width,
+            indexed: grid.counts_rows(0),
+            dashed: (0..width).map(|column| grid.holds_rates(column)).collect(),
+        };
         for (k, head) in heads.iter().enumerate() {
             let below = heads.get(k + 1).filter(|below| !below.is_comment && !head.is_comment);
-            if let Some(names) = grid.names_of(head, below, separator, width) {
+            if let Some(names) = shape.names_of(head, below, separator) {
                 (grid.line, grid.names) = (head.line, names);
                 grid.rows_match(file)?;
                 // Below the names come numbers, or the name of the index alone.
@@ -101,70 +169,6 @@ impl<'t> Grid<'t> {
                 complaint(file, Some(place(row)), expected, &shown(row.cells.first().map_or("", |cell| cell.text)))
             }
         }
-    }
-
-    /// The names of a line, one for each of the `width` columns; `None` where it has too few or too many.
-    fn names_of(
-        &self,
-        head: &Head<'t>,
-        below: Option<&Head<'t>>,
-        separator: Separator,
-        width: usize,
-    ) -> Option<Vec<Cell<'t>>> {
-        // A comment may be separated in another way than the rows: `# h, L2` above columns of blanks.
-        let others: &[Separator] = match separator {
-            Separator::Blanks if head.is_comment => &[
-                Separator::Char(','),
-                Separator::Char(';'),
-                Separator::Char('\t'),
-                Separator::Blanks,
-                Separator::WideBlanks,
-            ],
-            Separator::Blanks => &[Separator::Blanks, Separator::WideBlanks],
-            _ if head.is_comment => &[separator, Separator::Blanks],
-            _ => std::slice::from_ref(&separator),
-        };
-        let indexed = self.first_counts_rows();
-        let dashed: Vec<bool> = (0..width).map(|column| self.holds_rates(column)).collect();
-        let dashes = dashed.iter().filter(|dash| **dash).count();
-        let mut one_each = None;
-        for cells in others.iter().map(|separator| head.cells(*separator)) {
-            if head.is_comment && cells.iter().any(|cell| number(cell.text, false).is_some()) {
-                continue;
-            }
-            let nameless = Cell { column: 1, text: "" };
-            let spread = |named: &dyn Fn(usize) -> bool| {
-                let mut cells = cells.iter().copied();
-                (0..width).map(|k| if named(k) { cells.next().unwrap_or(nameless) } else { nameless }).collect()
-            };
-            let index_name = below.map(|below| below.cells(separator)).filter(|below| below.len() == 1);
-            if cells.len() == width {
-                let is_rate = |(cell, dash): (&Cell<'_>, &bool)| !dash || meaning(cell.text) == Meaning::Rate;
-                if separator != Separator::Blanks || cells.iter().zip(&dashed).all(is_rate) {
-                    return Some(cells);
-                }
-                // A column with a dash may hold nameless rates.
-                one_each.get_or_insert(cells);
-            } else if let (Some(name), true) = (index_name, cells.len() + 1 == width) {
-                return Some(name.into_iter().chain(cells).collect());
-            } else if dashes > 0 && cells.len() + dashes == width {
-                return Some(spread(&|k| !dashed[k]));
-            } else if separator == Separator::Blanks && cells.len() + 1 == width && indexed {
-                return Some(spread(&|k| k > 0));
-            } else if dashes > 0 && cells.len() + dashes + 1 == width && indexed {
-                return Some(spread(&|k| k > 0 && !dashed[k]));
-            }
-        }
-        let tokens = head.cells(Separator::Blanks);
-        if separator == Separator::Blanks && dashes > 0 && tokens.len() > width - dashes {
-            return super::spans::by_position(&tokens, head.before, head.text, &dashed).or(one_each);
-        }
-        one_each
-    }
-
-    /// Whether the first column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
-    pub(super) fn first_counts_rows(&self) -> bool {
-        self.counts_rows(0)
     }
 
     /// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.

@@ -20,10 +20,8 @@ mod spans;
 mod words;
 
 use std::collections::HashSet;
-use std::io::{self, Read};
-use std::panic::resume_unwind;
+use std::io;
 use std::path::Path;
-use std::thread;
 
 use crate::input::{self, Complaint, InputError, Place};
 use crate::judge::verdict::{Judge, Level, RateVerdict};
@@ -81,50 +79,17 @@ impl RateTable {
         columns::read(&grid, file_name, choice)
     }
 
-    /// Judges every column against its order. Tables of many columns are shared out among the processors; the result is the same.
+    /// Judges every column against its order.
     pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
-        let orders: Vec<f64> = self.columns.iter().map(|(name, _)| order(name)).collect();
-        let part = &|columns: &[(String, Vec<Level>)], orders: &[f64]| -> Vec<(String, RateVerdict)> {
-            let columns = columns.iter().zip(orders);
-            columns.map(|((name, levels), order)| (name.clone(), judge.judge(levels, *order))).collect()
-        };
-        if orders.len() < MANY {
-            return part(&self.columns, &orders);
-        }
-        let processors = thread::available_parallelism().map_or(1, usize::from);
-        let share = orders.len().div_ceil(processors);
-        thread::scope(|scope| {
-            let parts = self.columns.chunks(share).zip(orders.chunks(share));
-            let running: Vec<_> = parts.map(|(columns, orders)| scope.spawn(move || part(columns, orders))).collect();
-            running.into_iter().flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-        })
+        self.columns.iter().map(|(name, levels)| (name.clone(), judge.judge(levels, order(name)))).collect()
     }
 }
-
-/// Columns from which on a table is judged on all processors.
-const MANY: usize = 1000;
 
 /// Standard input as messages name it.
 const STANDARD_INPUT: &str = "standard input";
 
 fn standard_input() -> Result<String, InputError> {
-    let fail = |complaint| InputError {
-        file: STANDARD_INPUT.to_owned(),
-        place: None,
-        field: None,
-        complaint: Box::new(complaint),
-    };
-    let mut bytes = vec![];
-    let read = io::stdin().lock().take(input::FILE_BYTES + 1).read_to_end(&mut bytes);
-    read.map_err(|error| fail(Complaint::Unreadable { reason: error.to_string() }))?;
-    if bytes.len() as u64 > input::FILE_BYTES {
-        return Err(fail(Complaint::TooLarge { allowed: input::FILE_BYTES }));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let reason = format!("expected UTF-8 text, found the byte 0x{:02x}", error.as_bytes()[valid]);
-        fail(Complaint::Invalid { reason })
-    })
+    input::read_from(STANDARD_INPUT, io::stdin().lock())
 }
 
 fn complaint(file: &str, place: Option<Place>, expected: &str, found: &str) -> InputError {
@@ -137,7 +102,7 @@ fn shown(cell: &str) -> String {
     format!("`{}`", input::shorten(cell))
 }
 
-/// Refuses names that cannot be told apart or shown.
+/// Refuses names that are the same or cannot be shown.
 fn check_names(grid: &Grid<'_>, is_named: impl Fn(usize) -> bool, file: &str) -> Result<(), InputError> {
     let mut seen: HashSet<&str> = HashSet::new();
     for (k, cell) in grid.names.iter().enumerate() {

@@ -156,6 +156,8 @@ pub struct RateVerdict {
     /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
     /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
     pub fitted: Option<f64>,
+    /// The constant C of error = C step^rate for that rate, by least squares, in logarithms, over the levels `used`.
+    pub constant: Option<f64>,
     /// The interval of `fitted`, which is its middle. It is what was judged, unless the reason is another one.
     pub interval: Option<[f64; 2]>,
     /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
@@ -192,6 +194,7 @@ impl RateVerdict {
             tolerance,
             pairwise: reading.pairwise.clone(),
             fitted,
+            constant: reading.constant(),
             interval,
             extrapolated: reading.extrapolated,
             used,

@@ -25,6 +25,12 @@ pub(crate) struct Reading<'a> {
     unusable: Option<Reason>,
 }
 
+/// The constant C of error = C step^rate by least squares, in logarithms, for a given rate.
+fn constant(levels: &[Level], rate: f64) -> Option<f64> {
+    let logs = levels.iter().map(|level| level.error.ln() - rate * level.step.ln());
+    Some((logs.sum::<f64>() / levels.len() as f64).exp()).filter(|constant| constant.is_finite())
+}
+
 impl<'a> Reading<'a> {
     /// * `quantiles`: without them there is no rate.
     pub(super) fn new(sequence: &'a [Level], floor: f64, quantiles: Option<&Quantiles>) -> Self {
@@ -47,6 +53,11 @@ impl<'a> Reading<'a> {
             fit,
             unusable,
         }
+    }
+
+    /// The constant that belongs to the rate of the fit.
+    pub(super) fn constant(&self) -> Option<f64> {
+        constant(&self.sequence[self.used.clone()], self.fit?.rate)
     }
 
     /// The levels that the fit leaves out.

@@ -69,5 +69,8 @@ fn simulation(study: &AnyOrder, resolution: Resolution) -> Result<Simulation, Ca
     let load = |space: &Space| -> Box<dyn Load> {
         Box::new(ManufacturedLoad::new(&study.exact, &study.beam, study.obstacles, space))
     };
+    if !study.loaded {
+        return Ok(Simulation::new(problem, stepping)?);
+    }
     Ok(Simulation::with_load(problem, stepping, load)?)
 }

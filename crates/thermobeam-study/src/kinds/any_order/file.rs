@@ -10,6 +10,10 @@
 //! elements = 1          # for "time" and "degree"
 //! map = "0.8*s + 0.2*s^2"
 //!
+//! [vibration]           # instead of [beam], [obstacles] and [exact]: modes that no load keeps in place
+//! zeta = 0.1
+//! modes = [1, 3]        # from 1, the lowest
+//!
 //! [control]             # optional: coefficients in which the solver differs from the loads; then the study must fail
 //! zeta = 0.101
 //!
@@ -23,12 +27,14 @@ use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::Header;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
 
 use super::{AnyOrder, Over, Resolution, Series};
+use crate::error::free_vibration;
 use crate::expression::Variable;
-use crate::kinds::tables::{control, manufactured};
+use crate::kinds::tables::{Manufactured, control, manufactured};
 use crate::scene::functions::FunctionField;
-use crate::scene::tables;
+use crate::scene::{limits, tables};
 
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
@@ -36,9 +42,9 @@ const MOST_STEPS: usize = 100_000;
 const POSITIVE: &str = "a finite number > 0";
 
 pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, InputError> {
-    root.allow(&["study", "beam", "obstacles", "exact", "run", "control", "series"])?;
-    let beam = tables::beam(root)?;
-    let obstacles = tables::obstacles(root)?;
+    let vibration = root.section("vibration")?;
+    let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
+    root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
     let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
     let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&[
         ("space", Over::Space),
@@ -52,7 +58,14 @@ pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, Input
     };
     run.allow(keys)?;
     let t_end = run.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)?;
-    let exact = manufactured(root, &beam, t_end)?;
+    let (beam, obstacles, exact) = match &vibration {
+        Some(section) => free(section)?,
+        None => {
+            let beam = tables::beam(root)?;
+            (beam, tables::obstacles(root)?, manufactured(root, &beam, t_end)?)
+        }
+    };
+    let loaded = vibration.is_none();
     let map = run.get("map").map(|field| field.expression(Variable::S)).transpose()?;
     let allowed = "at least one table [[series]]";
     let series = root.require("series", allowed)?;
@@ -62,13 +75,29 @@ pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, Input
     }
     let series = items.iter().map(|item| one(&run, over, &item.section()?)).collect::<Result<Vec<_>, _>>()?;
     let control = control(root, beam, obstacles)?;
-    let study = AnyOrder { header, beam, obstacles, exact, control, map, t_end, over, series };
+    let study = AnyOrder { header, beam, obstacles, exact, loaded, control, map, t_end, over, series };
     for resolution in study.resolutions() {
         if let (Err(error), Some(field)) = (study.mesh(resolution.elements), run.get("map")) {
             return Err(field.refuse(error.to_string(), "a map that increases from 0 to 1"));
         }
     }
     Ok(study)
+}
+
+/// Free vibrations: the beam whose modes are exact, and the modes, each released from a tip displacement of 0.1.
+fn free(section: &Section<'_>) -> Result<(Beam, Option<Obstacles>, Manufactured), InputError> {
+    const AMPLITUDE: f64 = 0.1;
+    section.allow(&["zeta", "modes"])?;
+    let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
+    let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
+    let field = section.require("modes", &allowed)?;
+    let items = field.items(&allowed)?;
+    let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
+    let modes = items.iter().map(mode).collect::<Result<Vec<_>, InputError>>()?;
+    match free_vibration::vibration(&modes, zeta) {
+        Ok(exact) if !modes.is_empty() => Ok((free_vibration::beam(zeta), None, exact)),
+        _ => Err(field.refuse_as_written(allowed)),
+    }
 }
 
 fn one(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<Series, InputError> {

@@ -6,6 +6,7 @@ use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{self, Axis as PlotAxis};
 use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
 use convergence_study::study::{Axis, Check, Figure, Outcome, Quantity, Ran, Table};
+use convergence_study::text::number::counted;
 
 use super::{AnyOrder, Errors, Over, Resolution, Series};
 
@@ -125,7 +126,7 @@ fn over_degrees(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: C
             tolerance: 1e-4,
         }));
         let n = series.runs[0].elements;
-        let name = if n == 1 { "1 element".to_owned() } else { format!("{n} elements") };
+        let name = counted(n, "element");
         rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
         let listed = plots::Series { label: name, points };
         curves.push(Curve { look: look(k), marks: Marks::Filled, ..Curve::line(k, &listed) });

@@ -1,6 +1,6 @@
 //! Orders of the scheme of any order: elements of degree p in space, dG(q) in time.
 //!
-//! Against a manufactured solution, contact included: the error at the end falls like h^(p+1) in the fields and h^p in
+//! Against a manufactured solution, contact included, or a free vibration without any load: the error at the end falls like h^(p+1) in the fields and h^p in
 //! their slopes; like dt^(2q+1) at the ends of steps and, inside steps, dt^(q+2) in u and dt^(q+1) in its velocity; and
 //! exponentially in p.
 
@@ -84,6 +84,8 @@ pub struct AnyOrder {
     beam: Beam,
     obstacles: Option<Obstacles>,
     exact: Manufactured,
+    /// Whether loads keep the exact solution in place; a free vibration needs none.
+    loaded: bool,
     /// The solver's own coefficients, where they differ: then the study must fail.
     control: Option<Control>,
     map: Option<Expression>,

@@ -1,5 +1,6 @@
 //! How a run ends.
 
+use thermobeam::dg;
 use thermobeam::error::StepFailure;
 
 /// How a run ends.
@@ -30,6 +31,16 @@ impl End {
             StepFailure::Indefinite { .. } => End::Indefinite,
             StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => End::IterationLimit,
             StepFailure::NonFinite { .. } => End::NotFinite,
+        }
+    }
+
+    /// The same by the scheme of any order; `None` for failures to find a contact event, which one-step schemes do not have.
+    pub fn of_any_order(failure: &dg::StepFailure) -> Option<Self> {
+        match failure {
+            dg::StepFailure::Indefinite { .. } => Some(End::Indefinite),
+            dg::StepFailure::Diverged { .. } | dg::StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
+            dg::StepFailure::NonFinite { .. } => Some(End::NotFinite),
+            _ => None,
         }
     }
 

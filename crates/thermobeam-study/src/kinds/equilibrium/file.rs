@@ -6,12 +6,13 @@ use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
 use convergence_study::study::Header;
 
-use super::EndStates;
+use super::{AnyOrder, EndStates};
 use crate::kinds::steady::{listed_scenes, positive};
+use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::scene::{limits, tables};
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<EndStates, InputError> {
-    root.allow(&["study", "run", "expect"])?;
+    root.allow(&["study", "run", "any-order", "expect"])?;
     let run = root.require("run", "a table with scenes, elements, dt, speed and t_max")?.section()?;
     run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
     let expect = root.require("expect", "a table with tolerance and error")?.section()?;
@@ -27,6 +28,16 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
         t_max,
         tolerance: tolerance(&expect)?,
         error: positive(&expect, "error")?,
+        any_order: root.section("any-order")?.map(|section| any_order(&section)).transpose()?,
+    })
+}
+
+fn any_order(section: &Section<'_>) -> Result<AnyOrder, InputError> {
+    section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
+    Ok(AnyOrder {
+        how: Discretisation::read(section)?,
+        t_end: positive(section, "t_end")?,
+        error: positive(section, "error")?,
     })
 }
 

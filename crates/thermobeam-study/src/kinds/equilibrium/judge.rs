@@ -5,7 +5,7 @@ use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinem
 use convergence_study::study::{Axis, Check, Outcome, Quantity, Ran, Table};
 use convergence_study::text::number::{decimals, max_or_nan};
 
-use super::{End, EndStates, Fields, OnMesh};
+use super::{AnyOrder, End, EndStates, Fields, OnMesh};
 use crate::kinds::steady::name_of;
 use crate::scene::Scene;
 use convergence_study::judge::richardson;
@@ -30,6 +30,7 @@ pub(super) fn judge(study: &EndStates, ran: &[Ran<OnMesh, End>]) -> Outcome {
     let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
     let mut checks = vec![levels::completion(ran, not_finite)];
     checks.extend(scenes.iter().map(Ends::check));
+    checks.extend(scenes.iter().filter_map(Ends::check_any_order));
     let figure = bent.figure(
         format!("{}-errors.svg", study.header.id),
         None,
@@ -88,15 +89,17 @@ struct Ends<'a> {
     study: &'a EndStates,
     scene: &'a Scene,
     ends: Vec<Option<&'a End>>,
+    any_order: Option<&'a End>,
 }
 
 impl<'a> Ends<'a> {
     fn of(study: &'a EndStates, ran: &'a [Ran<OnMesh, End>], scene: usize) -> Self {
-        let end = |&elements: &usize| {
+        let end = |elements: Option<usize>| {
             let place = OnMesh { scene, elements };
             ran.iter().find(|ran| ran.case.data == place).and_then(Ran::ok)
         };
-        Self { study, scene: &study.scenes[scene], ends: study.elements.iter().map(end).collect() }
+        let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
+        Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
     }
 
     fn finest(&self) -> Option<&End> {
@@ -144,6 +147,17 @@ impl<'a> Ends<'a> {
                 decimals(exact, 10)
             ),
         )
+    }
+
+    /// The run of any order ends in the exact state, whichever stable one that is.
+    fn check_any_order(&self) -> Option<Check> {
+        let AnyOrder { how, error: allowed, .. } = self.study.any_order.as_ref()?;
+        let Fields { u, phi } = self.any_order.map_or(Fields { u: f64::NAN, phi: f64::NAN }, |end| end.error);
+        Some(Check::that(
+            max_or_nan(u, phi) <= *allowed,
+            format!("{} by {} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name, how.label()),
+            format!("largest error: u {u:.1e}, φ {phi:.1e}"),
+        ))
     }
 
     /// Tips on the finest mesh and of the exact state.

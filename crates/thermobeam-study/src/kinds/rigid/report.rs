@@ -109,7 +109,7 @@ fn penetrations(results: &Results<'_>) -> String {
     })
 }
 
-/// The first decades, so that the curves can be told apart.
+/// The first decades, so that the curves stay distinct.
 fn tip(study: &RigidStudy, results: &Results<'_>) -> String {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
     let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);

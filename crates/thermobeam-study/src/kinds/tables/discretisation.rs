@@ -1,6 +1,6 @@
 //! Two discretisations of any order, tables with elements, degrees and steps: what one says is checked by the other.
 
-use convergence_study::input::{InputError, Section};
+use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::CaseFailure;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
@@ -9,6 +9,9 @@ use crate::scene::any_order::AnyOrderScene;
 use crate::scene::{Scene, tables};
 
 const POSITIVE: &str = "a finite number > 0";
+
+/// The keys of a discretisation.
+pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
 
 /// What a solve costs beside a step of a one-step scheme, for each unknown.
 const COST: f64 = 30.0;
@@ -52,8 +55,8 @@ impl Discretisation {
         COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end / self.stepping.dt
     }
 
-    fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&["elements", "degree", "time_degree", "dt", "restart_dt", "growth"])?;
+    /// From a table that has [`DISCRETISATION_KEYS`], and may have others.
+    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let dt = section.require("dt", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
         let restart = format!("a number > 0 and at most dt = {dt:?}");
         let growth = "a finite number >= 1";
@@ -90,7 +93,12 @@ pub(crate) fn discretisations(
     };
     let field = root.require(key, &allowed)?;
     let items = field.items(&allowed)?;
-    let list = items.iter().map(|item| Discretisation::read(&item.section()?)).collect::<Result<Vec<_>, _>>()?;
+    let one = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&DISCRETISATION_KEYS)?;
+        Discretisation::read(&section)
+    };
+    let list = items.iter().map(one).collect::<Result<Vec<_>, InputError>>()?;
     let [one, other]: [Discretisation; 2] = list.try_into().map_err(|_| field.refuse_as_written(&allowed))?;
     let steps_differ = one.stepping.degree != other.stepping.degree && one.stepping.dt != other.stepping.dt;
     let space_fits = match elements {

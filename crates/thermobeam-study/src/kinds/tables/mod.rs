@@ -13,7 +13,7 @@ pub use crate::exact::solution::{Manufactured, Product};
 pub use control::Control;
 pub(crate) use control::control;
 pub use discretisation::Discretisation;
-pub(crate) use discretisation::discretisations;
+pub(crate) use discretisation::{DISCRETISATION_KEYS, discretisations};
 pub use expectation::Expectation;
 pub(crate) use expectation::expectations;
 pub(crate) use levels::{norm_levels, not_finite};

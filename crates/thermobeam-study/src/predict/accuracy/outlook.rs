@@ -49,7 +49,7 @@ impl<'a> Outlook<'a> {
     pub(super) fn verdict(&self, target: f64, total: f64) -> Option<[f64; 2]> {
         let share = match self.forecast.trust {
             Trust::Firm => PILOT_SHARE,
-            // Nothing is foretold of the impacts of a finer run: the pilot has to have made the accuracy itself.
+            // The impacts of a finer run cannot be predicted: the pilot itself must have reached the accuracy.
             Trust::Loose if self.forecast.touched() => {
                 return (self.own <= AIM[1] * target).then_some(self.best.at);
             }

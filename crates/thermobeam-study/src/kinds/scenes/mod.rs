@@ -1,0 +1,175 @@
+//! Whole scenes, read and run as `run` does it, against the answers of an independent implementation.
+//!
+//! Studies of orders take loads and initial data from an exact solution; what a scene says beside them, from its initial rotation
+//! to its stopping criterion, is tested here. The work of a run is guarded too: a factorisation in every step changes no result.
+
+mod file;
+mod judge;
+
+use std::path::Path;
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+
+use super::energy::End;
+use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
+use crate::run::driver::RunError;
+use crate::run::simulate::{Recording, Run, Simulator};
+use crate::scene::any_order::SceneFile;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "scenes",
+    read: reader::<Scenes>,
+    why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
+          the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
+          order those of a converged solution.",
+    judged: "Each number of an answer must be met within the bound of its case, and each run must end as the case says. The \
+             baseline guards all numbers of a run and its counts: steps, iterations, factorisations.",
+    failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
+              not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
+};
+
+/// Times of a curve of the scheme of any order.
+const TIMES: usize = 200;
+
+/// A study of whole scenes.
+#[derive(Debug, Clone)]
+pub struct Scenes {
+    header: Header,
+    scenes: Vec<Whole>,
+}
+
+/// Numbers by their names, some of [`NUMBERS`].
+type Answer = Vec<(&'static str, f64)>;
+
+/// A scene and what is known of it.
+#[derive(Debug, Clone)]
+pub(super) struct Whole {
+    name: String,
+    claim: String,
+    scene: SceneFile,
+    end: End,
+    answer: Answer,
+    /// Bound on the distance to each number of the answer.
+    within: f64,
+}
+
+/// What a run shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    /// How it ended.
+    pub end: End,
+    /// The last level, the free end's range and the energy's largest change, in the order of [`NUMBERS`].
+    pub numbers: [f64; NUMBERS.len()],
+    /// Counts, in the order of [`COUNTS`].
+    pub counts: [usize; COUNTS.len()],
+    /// `(t, u(1, t))`, for the figure.
+    pub tip: Vec<(f64, f64)>,
+}
+
+/// Names of numbers, as in the object of `run --format json`.
+pub const NUMBERS: [&str; 9] =
+    ["u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "energy", "u_tip_min", "u_tip_max", "largest_increase"];
+
+/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any order.
+pub const COUNTS: [&str; 6] = ["steps", "iterations", "most iterations", "passes", "factorizations", "contact"];
+
+impl Shown {
+    fn one_step(run: &Run) -> Result<Self, CaseFailure> {
+        let end = match &run.failure {
+            None => End::Answer,
+            Some(RunError::Step(error)) => End::of(&error.failure),
+            Some(other) => return Err(other.clone().into()),
+        };
+        let Run { last, extremes, energy, iterations, work, .. } = run;
+        Ok(Self {
+            end,
+            numbers: [
+                last.u_tip,
+                last.phi_tip,
+                last.u_t_tip,
+                last.phi_t_tip,
+                last.theta_mid,
+                last.energy,
+                extremes.u_tip_min,
+                extremes.u_tip_max,
+                energy.largest_increase,
+            ],
+            counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, run.contact_steps],
+            tip: run
+                .history
+                .iter()
+                .flat_map(|history| &history.rows)
+                .map(|row| (row.sample.t, row.sample.u_tip))
+                .collect(),
+        })
+    }
+
+    fn any_order(run: &AnyOrderRun) -> Result<Self, CaseFailure> {
+        let end = match &run.failure {
+            None => End::Answer,
+            Some(failure @ AnyOrderFailure::Step(error)) => match End::of_any_order(&error.failure) {
+                Some(end) => end,
+                None => return Err(failure.clone().into()),
+            },
+            Some(other) => return Err(other.clone().into()),
+        };
+        let AnyOrderRun { ends: [_, last], extremes, energy, iterations, work, .. } = run;
+        Ok(Self {
+            end,
+            numbers: [
+                last.u_tip,
+                last.phi_tip,
+                last.u_t_tip,
+                last.phi_t_tip,
+                last.theta_mid,
+                last.energy,
+                extremes.u_tip_min,
+                extremes.u_tip_max,
+                energy.largest_increase,
+            ],
+            counts: [run.steps, iterations.total, iterations.max, work.solves, work.factorizations, run.events.len()],
+            tip: run.history.iter().map(|state| (state.t, state.u_tip)).collect(),
+        })
+    }
+}
+
+impl FromFile for Scenes {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        file::read(header, root)
+    }
+}
+
+impl Kind for Scenes {
+    /// Number of the scene.
+    type Data = usize;
+    type Found = Shown;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        let cost = |scene: &SceneFile| match scene {
+            SceneFile::OneStep(scene) => scene.steps as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
+            SceneFile::AnyOrder(scene) => {
+                let unknowns = scene.mesh.elements() * scene.degree * (scene.stepping.degree + 1);
+                30.0 * unknowns as f64 * scene.t_end / scene.stepping.dt
+            }
+        };
+        let case = |(data, whole): (usize, &Whole)| Case { label: whole.name.clone(), cost: cost(&whole.scene), data };
+        self.scenes.iter().enumerate().map(case).collect()
+    }
+
+    fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
+        match &self.scenes[*index].scene {
+            SceneFile::OneStep(scene) => Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ())),
+            SceneFile::AnyOrder(scene) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
+        }
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
+        judge::judge(self, ran)
+    }
+}

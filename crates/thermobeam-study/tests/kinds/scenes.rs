@@ -1,0 +1,121 @@
+//! Laws of whole scenes: planted differences fail, and every key that a scene can have is at work in some case.
+
+use convergence_study::input::Complaint;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::{FromFile, Outcome, Quantity, run_here};
+use thermobeam_study::kinds::energy::End;
+use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes};
+use thermobeam_study::scene::any_order::SceneFile;
+
+use crate::planted::verdict_with;
+use crate::refused::refusal;
+use crate::typed::passes_but_not_without_each_case;
+use crate::{file, text};
+
+const STUDY: &str = "whole-scenes.toml";
+
+fn parsed(text: &str) -> Result<Scenes, String> {
+    Scenes::parse(text, &file(STUDY)).map_err(|error| error.to_string())
+}
+
+#[test]
+fn scenes_meet_their_answers_and_every_planted_difference_fails() {
+    let study = parsed(&text(STUDY)).unwrap_or_else(|error| panic!("{error}"));
+    let sound = passes_but_not_without_each_case(&study);
+    let answered = |index: usize| sound[index].found.as_ref().is_ok_and(|found| found.end == End::Answer);
+    for index in 0..sound.len() {
+        if answered(index) {
+            for number in 0..6 {
+                for by in [2e-4, -2e-4, f64::NAN] {
+                    let verdict = verdict_with(&study, &sound, index, |found| found.numbers[number] += by);
+                    assert_eq!(verdict, Verdict::Fail, "{} by {by} in case {index}", NUMBERS[number]);
+                }
+            }
+        }
+        let other = |end: End| if end == End::Answer { End::IterationLimit } else { End::Answer };
+        let verdict = verdict_with(&study, &sound, index, |found| found.end = other(found.end));
+        assert_eq!(verdict, Verdict::Fail, "another end in case {index}");
+    }
+    assert_eq!((0..sound.len()).filter(|&index| answered(index)).count(), 7);
+}
+
+/// The keys that the readers of scenes know, table by table: they say so themselves, to whoever writes another.
+fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
+    let allowed = |text: &str| match SceneFile::parse(text, "s.toml").map_err(|error| *error.complaint) {
+        Err(Complaint::UnknownKey { allowed, .. }) => allowed.split(", ").map(str::to_owned).collect::<Vec<_>>(),
+        other => panic!("{other:?}"),
+    };
+    let time = format!("dt = 0.1\nt_end = 1.0\nscheme = \"{scheme}\"\n");
+    let of = |table: &str| {
+        let probe = match table {
+            "time" => format!("[time]\n{time}nosuchkey = 1\n"),
+            other => format!("[time]\n{time}[{other}]\nnosuchkey = 1\n"),
+        };
+        allowed(&probe).into_iter().map(|key| (table.to_owned(), key)).collect::<Vec<_>>()
+    };
+    allowed("nosuchkey = 1\n").iter().flat_map(|table| of(table)).collect()
+}
+
+/// The study with one key of a case left out; `None` where the case does not have it.
+fn without(cases: &[&str], index: usize, table: &str, key: &str) -> Option<String> {
+    let head = format!("[case.{table}]\n");
+    let (before, rest) = cases[index].split_once(&head)?;
+    let (inside, after) =
+        rest.split_once("\n[").map_or((rest, String::new()), |(inside, after)| (inside, format!("\n[{after}")));
+    let kept: Vec<&str> = inside.lines().filter(|line| !line.starts_with(&format!("{key} = "))).collect();
+    if kept.len() == inside.lines().count() {
+        return None;
+    }
+    let mut cases = cases.to_vec();
+    let changed = format!("{before}{head}{}\n{after}", kept.join("\n"));
+    cases[index] = &changed;
+    Some(cases.join("[[case]]"))
+}
+
+/// Whether a guarded number moves, or a check fails.
+fn differs(sound: &Outcome, found: &Outcome) -> bool {
+    let moved = |one: &Quantity, other: &Quantity| (one.value - other.value).abs() > one.tolerance * one.value.abs();
+    found.verdict != Verdict::Pass
+        || found.quantities.len() != sound.quantities.len()
+        || sound
+            .quantities
+            .iter()
+            .zip(&found.quantities)
+            .any(|(one, other)| one.name != other.name || moved(one, other))
+}
+
+#[test]
+fn every_key_of_a_scene_is_at_work_in_some_case() {
+    let whole = text(STUDY);
+    let cases: Vec<&str> = whole.split("[[case]]").collect();
+    let sound = run_here(&parsed(&whole).expect("a study"));
+    for scheme in ["midpoint", "dg"] {
+        let keys = keys_of_the_reader(scheme);
+        assert!(keys.len() > 20, "{keys:?}");
+        let of_scheme: Vec<usize> =
+            (1..cases.len()).filter(|&k| cases[k].contains("scheme = \"dg\"") == (scheme == "dg")).collect();
+        for (table, key) in keys {
+            let left_out: Vec<String> = of_scheme.iter().filter_map(|&k| without(&cases, k, &table, &key)).collect();
+            assert!(!left_out.is_empty(), "no case by {scheme} sets {table}.{key}");
+            // One-step schemes have elements of degree 1, and no others.
+            let only_value = scheme != "dg" && (table.as_str(), key.as_str()) == ("mesh", "degree");
+            let notices = |text: &String| parsed(text).map_or(true, |study| differs(&sound, &run_here(&study)));
+            assert!(only_value || left_out.iter().any(notices), "{table}.{key} by {scheme} changes nothing");
+        }
+    }
+}
+
+#[test]
+fn what_a_case_cannot_claim_is_refused() {
+    for (from, to, words) in [
+        ("[case.answer]\nwithin", "[case.other]\nwithin", "case[0].other: unknown key"),
+        ("within = 1e-9\n", "", "case[0].answer.within: missing"),
+        ("u_tip = ", "utip = ", "case[0].answer.utip: unknown key"),
+        ("ends = \"answer\"", "ends = \"indefinite\"", "case[0].answer: found an answer"),
+        ("name = \"midpoint\"", "name = \"listed-nodes\"", "a second \"listed-nodes\""),
+        ("t_end = 1.0", "t_end = -1.0", "case[0].time.t_end: found -1.0"),
+    ] {
+        let message = refusal(&ROW, STUDY, from, to);
+        assert!(message.contains(words), "{message}");
+    }
+}

@@ -1,0 +1,105 @@
+//! The list of mistakes.
+
+use std::fs;
+use std::path::Path;
+
+use convergence_study::cli::exit::Unusable;
+use serde::Deserialize;
+
+/// The list.
+pub(super) const FILE: &str = ".cargo/regressions.toml";
+
+/// A mistake of meaning that somebody could make.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Regression {
+    /// In a few words.
+    pub(super) name: String,
+    /// The source file, from the workspace's folder.
+    pub(super) file: String,
+    /// What is changed.
+    edits: Vec<Edit>,
+    /// The study of the quick tier that must notice.
+    pub(super) study: String,
+    /// What `verify` must print about that study: words that lead to the cause.
+    pub(super) says: String,
+}
+
+/// A text in place of another.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Edit {
+    /// A text of the file; it must be there exactly once.
+    old: String,
+    /// What stands there instead.
+    new: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct List {
+    regression: Vec<Regression>,
+}
+
+/// Reads the list.
+///
+/// # Errors
+/// A list that is not there, that cannot be read, or in which two have one name.
+pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
+    let path = root.join(FILE);
+    let text = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;
+    let List { regression: all } = toml::from_str(&text).map_err(|error| Unusable::file(&path, &error))?;
+    let second = all.iter().enumerate().find(|(k, one)| all[..*k].iter().any(|earlier| earlier.name == one.name));
+    match second {
+        Some((_, one)) => Err(Unusable::because(&format!("{FILE}: found a second \"{}\"", one.name))),
+        None => Ok(all),
+    }
+}
+
+impl Regression {
+    /// The text of its file with the mistake in it.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and an old text that is not in it exactly once or that is not changed.
+    pub(super) fn planted(&self, root: &Path) -> Result<String, Unusable> {
+        let path = root.join(&self.file);
+        let honest = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;
+        let mut text = honest.clone();
+        for Edit { old, new } in &self.edits {
+            let count = honest.matches(old).count();
+            if count != 1 || old == new {
+                return Err(Unusable::because(&format!(
+                    "{FILE}: \"{}\": found {count} times in {}; expected once, and another text in its place: {old}",
+                    self.name, self.file
+                )));
+            }
+            text = text.replacen(old, new, 1);
+        }
+        Ok(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use convergence_study::cli::workspace;
+    use convergence_study::study::Tier;
+
+    #[test]
+    fn every_regression_can_be_planted_and_names_a_study_of_the_quick_tier() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let all = read(&root).unwrap_or_else(|error| panic!("{}", error.message()));
+        assert!(all.len() >= 25, "{}", all.len());
+        let studies = workspace::studies(&crate::PROJECT, &root).unwrap_or_else(|error| panic!("{}", error.message()));
+        let quick = |id: &str| {
+            studies.iter().map(|file| file.study.header()).any(|header| header.id == id && header.tier == Tier::Quick)
+        };
+        for regression in &all {
+            let planted = regression.planted(&root).unwrap_or_else(|error| panic!("{}", error.message()));
+            let is_there = |edit: &Edit| planted.contains(&edit.new);
+            assert!(!regression.edits.is_empty() && regression.edits.iter().all(is_there), "{}", regression.name);
+            assert!(quick(&regression.study), "{}: {}", regression.name, regression.study);
+            assert!(!regression.says.is_empty(), "{}", regression.name);
+        }
+    }
+}

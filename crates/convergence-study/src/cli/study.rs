@@ -7,7 +7,7 @@ use crate::report::{tables, text_of_failures};
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile};
-use crate::text::visible::visible;
+use crate::text::visible::{self, visible};
 use crate::verify::{findings, publish, quoted};
 
 use super::exit::Outcome;
@@ -51,7 +51,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let findings = findings(project, &finished, &command);
     let verdict = findings.verdict;
     arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
-    let text = match flags.format {
+    let mut text = match flags.format {
         Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
         Format::Text if flags.quiet => {
             format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
@@ -60,6 +60,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     };
     if let Some(folder) = &flags.out {
         publish(&findings, effort.jobs.get(), folder)?;
+        if flags.format == Format::Text && !flags.quiet {
+            let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
+            text += &format!("\nreport: {page}, {readme}\n");
+        }
     }
     output::print(&text)?;
     github::announce(&findings, flags.format);

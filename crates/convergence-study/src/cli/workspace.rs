@@ -14,7 +14,11 @@ use crate::study::StudyFile;
 pub fn root() -> Result<PathBuf, Unusable> {
     let here = env::current_dir()?;
     let root = here.ancestors().find(|folder| folder.join("studies").is_dir());
-    root.map(Path::to_owned).ok_or_else(|| Unusable::because("expected a folder studies/, here or above; found none"))
+    root.map(Path::to_owned).ok_or_else(|| {
+        Unusable::because(
+            "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
+        )
+    })
 }
 
 /// All studies of the workspace, by id.

@@ -6,6 +6,9 @@ use super::page::badge;
 use crate::input::visible;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
+use crate::study::case::by_reason;
+use crate::study::levels::COMPLETION;
+use crate::study::outcome::Check;
 use crate::text::number::{plain_text, rate_text};
 
 /// Reasons listed of one study; its section has all of them.
@@ -37,10 +40,14 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
         };
         format!("{name}: rate {}{claimed}: {}", rate_text(rate.fitted), rate.reason)
     });
-    let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass);
+    // That cases are missing is said with their reasons.
+    let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
+    let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass && !is_said(check));
     let checks = checks.map(|check| format!("{}: {}", check.claim, check.evidence));
-    let cases = failed_cases.iter().map(|failed| format!("case {}: {}", failed.label, failed.reason));
-    let mut reasons: Vec<String> = rates.chain(checks).chain(cases).collect();
+    // What is missing first: rates and checks fail for it.
+    let cases = by_reason(failed_cases.iter().map(|failed| (&*failed.label, &*failed.reason)));
+    let cases = cases.into_iter().map(|line| format!("case {line}"));
+    let mut reasons: Vec<String> = cases.chain(rates).chain(checks).collect();
     if reasons.is_empty() {
         reasons.push(outcome.summary.clone());
     }

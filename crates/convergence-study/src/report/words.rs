@@ -40,13 +40,16 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
-    let claims = changes.iter().filter(|change| change.movement.is_of_claims()).count();
+    let is_new = |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { .. });
+    let new = changes.iter().filter(is_new).count();
+    let claims = changes.iter().filter(|change| change.movement.is_of_claims() && !is_new(change)).count();
     let count = |n: usize, what: &str| match n {
         0 => None,
         1 => Some(format!("1 {what} changed")),
         n => Some(format!("{n} {what}s changed")),
     };
-    let changed = [count(claims, "claim"), count(changes.len() - claims, "baseline value")];
+    let new_ones = (new > 0).then(|| format!("{new} not yet in the baseline"));
+    let changed = [count(claims, "claim"), count(changes.len() - claims - new, "baseline value"), new_ones];
     match (changes.len(), guarded) {
         (0, 0) => "no baseline values".to_owned(),
         (0, n) => format!("all {n} baseline values unchanged"),

@@ -39,3 +39,33 @@ impl<E: std::error::Error> From<E> for CaseFailure {
         Self { reason: error.to_string() }
     }
 }
+
+/// Cases without a result in words, `label: reason`; those with the same reason on one line, which counts them.
+///
+/// * `failed`: label and reason of each.
+pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
+    let mut reasons: Vec<(&str, Vec<&str>)> = vec![];
+    for (label, reason) in failed {
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, labels)) => labels.push(label),
+            None => reasons.push((reason, vec![label])),
+        }
+    }
+    let line = |(reason, labels): (&str, Vec<&str>)| {
+        let more = if labels.len() > 1 { format!(" and {} more", labels.len() - 1) } else { String::new() };
+        format!("{}{more}: {reason}", labels[0])
+    };
+    reasons.into_iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::by_reason;
+
+    #[test]
+    fn a_reason_is_told_once_and_its_cases_are_counted() {
+        let told = by_reason([("a", "lost"), ("b", "NaN"), ("c", "lost"), ("d", "lost")]);
+        assert_eq!(told, ["a and 2 more: lost", "b: NaN"]);
+        assert!(by_reason([]).is_empty());
+    }
+}

@@ -1,7 +1,7 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in one way for all kinds of study.
 
 use super::axis::Axis;
-use super::case::Ran;
+use super::case::{Ran, by_reason};
 use super::outcome::{Check, Figure, LevelErrors, Quantity, Table};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
@@ -231,23 +231,22 @@ pub fn summary(rates: &Rates) -> String {
     shown.map(one).collect::<Vec<_>>().join("; ")
 }
 
+/// What the check of [`completion`] claims.
+pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
+
 /// Fails unless every case has a result, and one without a number that is not finite.
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
 pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
-    let mut complaints = Vec::new();
-    for Ran { case, found } in ran {
-        match found {
-            Ok(found) => {
-                complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
-            }
-            Err(failure) => complaints.push(format!("{}: {}", case.label, failure.reason)),
-        }
+    let failed = ran.iter().filter_map(|Ran { case, found }| Some((&*case.label, &*found.as_ref().err()?.reason)));
+    let mut complaints = by_reason(failed);
+    for (case, found) in ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?))) {
+        complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
     }
     let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
     let mut evidence = format!("{completed} of {} cases completed", ran.len());
     complaints.iter().for_each(|complaint| evidence += &format!("; {complaint}"));
-    Check::that(complaints.is_empty() && !ran.is_empty(), "every case completes, with finite numbers", evidence)
+    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence)
 }
 
 #[cfg(test)]

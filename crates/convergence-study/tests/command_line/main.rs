@@ -123,6 +123,9 @@ fn verify_ends_with_0_1_or_2() {
     assert!(out.contains("pass: all 1 studies pass") || out.contains("pass: the study passes"), "{out}");
     fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
     assert_eq!(run(&root, &["verify"]).0, Some(1));
+    fs::write(root.path().join("studies/two.toml"), study("two", "c", 1.0).replace("kind = \"power\"", "")).unwrap();
+    let (status, _, err) = run(&root, &["verify"]);
+    assert!(status == Some(2) && err.contains("two.toml:2:1: study.kind: missing; expected \"power\""), "{err}");
     fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
     let (status, _, err) = run(&root, &["verify"]);
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
@@ -400,6 +403,8 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     for (name, piece) in [("index.html", "<svg"), ("junit.xml", "<failure"), ("results.json", "\"fail\"")] {
         assert!(read(name).contains(piece), "{name}");
     }
+    let (_, out, _) = run(&root, &["study", "studies/one.toml", "--out", "out"]);
+    assert!(out.ends_with("\nreport: out/index.html, out/README.md\n"), "{out}");
     // A report of `verify` goes where it is wanted, and each of its studies can be run by its id.
     assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
     let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();

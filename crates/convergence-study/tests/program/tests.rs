@@ -255,7 +255,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     let (_, tail) = tail.split_once(']').unwrap();
     place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("n = 4: ./nowhere cannot be started: No such file"), "{out}");
+    assert!(status == Some(1) && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"), "{out}");
     // Children that outlive their program, in its group and out of it, harm neither the case nor the others.
     for mode in ["fork", "leave"] {
         let place = Place::new(mode, "");

@@ -54,7 +54,7 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
     assert_eq!(
         lines[2],
         "**fail**: 2 of 5 fail (study-1.0, study-4.0), 2 of 5 inconclusive (study-2.0, study-3.0); \
-         3 baseline values changed"
+         3 not yet in the baseline"
     );
     for part in [
         "| [study-0.0](#study-00) | errors \\| fall < with \\*h\\* | pass ",

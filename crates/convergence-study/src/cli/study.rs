@@ -7,7 +7,7 @@ use crate::project::Project;
 use crate::report::tables;
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
-use crate::study::{Study, StudyFile};
+use crate::study::{Study, StudyFile, Untested};
 use crate::text::visible::visible;
 
 use super::exit::Outcome;
@@ -40,11 +40,29 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     watched.clear();
     let finished = finished?;
     let verdict = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
+    let passes = |finished: &Finished| finished.outcome.verdict == Verdict::Pass;
+    let both = studies.iter().zip(&finished);
+    let untested: Vec<Vec<Untested>> =
+        both.map(|(study, finished)| if passes(finished) { study.untested() } else { vec![] }).collect();
     output::print(&match arguments.format {
-        Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
-        Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Json => {
+            let mut record = Record::new("files", verdict, vec![], &finished, Precision::Full);
+            record.studies.iter_mut().zip(untested).for_each(|(study, untested)| study.untested = untested);
+            record::json(&record)?
+        }
+        Format::Text => {
+            let texts =
+                finished.iter().zip(&untested).map(|(finished, untested)| text(finished) + &no_test_of(untested));
+            texts.collect::<Vec<_>>().join("\n")
+        }
     })?;
     Ok(verdict.into())
+}
+
+/// What a study is no test of although it passes; empty where there is nothing.
+fn no_test_of(untested: &[Untested]) -> String {
+    let rows: Vec<Vec<String>> = untested.iter().map(|one| vec![one.what.clone(), one.why.clone()]).collect();
+    if rows.is_empty() { String::new() } else { format!("\n{}", screen::table(&["no test of", "because"], &rows)) }
 }
 
 fn text(finished: &Finished) -> String {

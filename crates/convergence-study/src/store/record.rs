@@ -10,6 +10,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
+use crate::study::Untested;
 use crate::study::outcome::{Check, LevelErrors, Outcome, Quantity};
 use crate::text::number::{committed, committed_rate};
 
@@ -69,6 +70,9 @@ pub struct StudyRecord {
     pub failed_cases: Vec<FailedCaseRecord>,
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
+    /// What the study is no test of although it passes; only `study` looks for it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub untested: Vec<Untested>,
 }
 
 /// Errors at one level.
@@ -191,6 +195,7 @@ impl StudyRecord {
                 .map(|failed| FailedCaseRecord { case: failed.label.clone(), reason: failed.reason.clone() })
                 .collect(),
             not_finite: not_finite(outcome),
+            untested: vec![],
         }
     }
 }

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use convergence_study::project::Project;
 use convergence_study::store::atomic;
-use convergence_study::store::provenance::Provenance;
-use convergence_study::study::{FromFile, Kind, StudyFile, Table, Tier};
+use convergence_study::store::provenance::{self, Provenance};
+use convergence_study::study::{FromFile, Kind, Study, StudyFile, Table, Tier};
 use convergence_study::{report, run as runner};
 use thermobeam_study::error::evaluator::ErrorMeasure;
 use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
@@ -160,24 +160,37 @@ fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
 fn threads(files: Vec<StudyFile>, tier: Tier, all: NonZeroUsize, page: &mut Page) -> Result<(), Unusable> {
     let studies: Vec<_> =
         files.into_iter().map(|file| file.study).filter(|study| study.header().tier <= tier).collect();
-    let (mut rows, mut one, mut costs) = (vec![], f64::NAN, vec![]);
+    let (mut rows, mut one) = (vec![], f64::NAN);
+    // Seconds of each study, and its place among them.
+    let mut costs: Vec<(f64, usize)> = vec![];
     for jobs in [NonZeroUsize::MIN, all] {
         let start = Instant::now();
         let finished = runner::run(&studies, jobs, &|_| ())?;
         let seconds = start.elapsed().as_secs_f64();
         if jobs == NonZeroUsize::MIN {
             one = seconds;
-            costs = finished.iter().map(|study| (study.spent.busy.as_secs_f64(), study.header.id.clone())).collect();
+            costs = finished.iter().map(|study| study.spent.busy.as_secs_f64()).zip(0..).collect();
         }
         rows.push(vec![jobs.to_string(), format!("{seconds:.2}"), format!("{:.2}", one / seconds)]);
     }
     let table = |title: String, head: [&str; 3], rows| Table { title, head: head.map(str::to_owned).to_vec(), rows };
     page.add(table(format!("The {} tier of verify", tier.name()), ["threads", "seconds", "speed-up"], rows))?;
     costs.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let row = |(seconds, id): &(f64, String)| {
-        vec![id.clone(), format!("{seconds:.2}"), format!("{:.0} %", 100.0 * seconds / one)]
-    };
-    let rows = costs.iter().take(COSTLIEST).map(row).collect();
-    page.add(table("Its costliest studies, on one thread".to_owned(), ["study", "seconds", "share"], rows))?;
+    let mut rows = vec![];
+    for &(seconds, place) in costs.iter().take(COSTLIEST) {
+        let study = &studies[place..=place];
+        let megabytes = memory(study)?.map_or("?".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1e6));
+        let share = format!("{:.0} %", 100.0 * seconds / one);
+        rows.push(vec![study[0].header().id.clone(), format!("{seconds:.2}"), share, megabytes]);
+    }
+    let head = ["study", "seconds", "share", "peak memory of the process (MB)"].map(str::to_owned).to_vec();
+    page.add(Table { title: "Its costliest studies, on one thread".to_owned(), head, rows })?;
     Ok(())
+}
+
+/// The most memory that the process uses during one study on one thread, in bytes; `None` where that is not known.
+fn memory(study: &[Box<dyn Study>]) -> Result<Option<u64>, Unusable> {
+    let known = provenance::forget_peak_memory();
+    runner::run(study, NonZeroUsize::MIN, &|_| ())?;
+    Ok(provenance::peak_memory().filter(|_| known))
 }

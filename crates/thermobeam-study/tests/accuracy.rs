@@ -164,6 +164,12 @@ fn what_cannot_be_reached_is_refused_with_what_can() {
         matches!(error, Unreachable::RoundOff { reachable, .. } if reachable > 1e-13 && reachable < 1e-9),
         "{error}"
     );
+    // Too costly and below round-off: what is called reachable is neither.
+    let error = choose(&family, &Request::new(ErrorMeasure::Tip, 1e-14)).unwrap_err();
+    let Unreachable::Cost { reachable, .. } = error else { panic!("{error}") };
+    assert!(choose(&family, &Request::new(ErrorMeasure::Tip, reachable)).is_ok(), "{error}");
+    let endless = choose(&family, &Request::new(ErrorMeasure::Tip, 1e-40)).unwrap_err().to_string();
+    assert!(endless.contains("would take more than 1e12 steps"), "{endless}");
     for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(choose(&family, &Request::new(ErrorMeasure::Tip, target)), Err(Unreachable::Target { .. })));
     }

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{tables, text_of_failures};
 use crate::run::{self, Finished};
 use crate::store::record::{self, Precision, Record};
-use crate::study::{Study, StudyFile};
+use crate::study::{Study, StudyFile, Untested};
 use crate::text::visible::{self, visible};
 use crate::verify::{findings, publish, quoted};
 
@@ -51,12 +52,24 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let findings = findings(project, &finished, &command);
     let verdict = findings.verdict;
     arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
+    let passes = |finished: &Finished| finished.outcome.verdict == Verdict::Pass;
+    let both = studies.iter().zip(&finished);
+    let untested: Vec<Vec<Untested>> =
+        both.map(|(study, finished)| if passes(finished) { study.untested() } else { vec![] }).collect();
     let mut text = match flags.format {
-        Format::Json => record::json(&Record::new("files", verdict, vec![], &finished, Precision::Full))?,
+        Format::Json => {
+            let mut record = Record::new("files", verdict, vec![], &finished, Precision::Full);
+            record.studies.iter_mut().zip(untested).for_each(|(study, untested)| study.untested = untested);
+            record::json(&record)?
+        }
         Format::Text if flags.quiet => {
             format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
         }
-        Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Text => {
+            let texts =
+                finished.iter().zip(&untested).map(|(finished, untested)| text(finished) + &no_test_of(untested));
+            texts.collect::<Vec<_>>().join("\n")
+        }
     };
     if let Some(folder) = &flags.out {
         publish(&findings, effort.jobs.get(), folder)?;
@@ -68,6 +81,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     output::print(&text)?;
     github::announce(&findings, flags.format);
     Ok(verdict.into())
+}
+
+/// What a study is no test of although it passes; empty where there is nothing.
+fn no_test_of(untested: &[Untested]) -> String {
+    let rows: Vec<Vec<String>> = untested.iter().map(|one| vec![one.what.clone(), one.why.clone()]).collect();
+    if rows.is_empty() { String::new() } else { format!("\n{}", screen::table(&["no test of", "because"], &rows)) }
 }
 
 fn text(finished: &Finished) -> String {

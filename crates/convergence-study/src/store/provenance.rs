@@ -37,6 +37,8 @@ pub struct Provenance {
     pub jobs: usize,
     /// End of the run, in seconds since 1970.
     pub finished_at: Option<u64>,
+    /// The most memory that the process has used, in bytes: see [`peak_memory`].
+    pub peak_memory_bytes: Option<u64>,
     /// Time of each study.
     pub studies: Vec<StudyTime>,
 }
@@ -72,6 +74,7 @@ impl Provenance {
             threads_available: thread::available_parallelism().ok().map(usize::from),
             jobs,
             finished_at: SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
+            peak_memory_bytes: peak_memory(),
             studies: finished.iter().map(time).collect(),
         }
     }
@@ -104,6 +107,20 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
     StudyTime { id: header.id.clone(), busy_seconds: spent.busy.as_secs_f64(), wall_seconds: spent.wall.as_secs_f64() }
 }
 
+/// The most memory that this process has used so far, in bytes, since its start or since [`forget_peak_memory`].
+///
+/// Known on Linux only.
+pub fn peak_memory() -> Option<u64> {
+    let text = fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
+}
+
+/// Counts the peak of [`peak_memory`] from now on; whether the operating system can do that.
+pub fn forget_peak_memory() -> bool {
+    fs::write("/proc/self/clear_refs", "5").is_ok()
+}
+
 /// Standard output of a command that succeeds, without blanks around it.
 fn output_of(command: &mut Command) -> Option<String> {
     let output = command.output().ok().filter(|output| output.status.success())?;
@@ -115,4 +132,23 @@ fn cpu_model() -> Option<String> {
     let text = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     line.split_once(':').map(|(_, model)| model.trim().to_owned())
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_of_memory_grows_with_what_is_used_and_is_forgotten() {
+        const SIZE: usize = 64 << 20;
+        let before = peak_memory().expect("a number");
+        let used = vec![1_u8; SIZE];
+        let during = peak_memory().expect("a number");
+        assert!(during >= before + (SIZE as u64) / 2, "{before} {during}");
+        assert_eq!(used.iter().map(|byte| usize::from(*byte)).sum::<usize>(), SIZE);
+        drop(used);
+        if forget_peak_memory() {
+            assert!(peak_memory().expect("a number") < during);
+        }
+    }
 }

@@ -17,6 +17,7 @@ use thiserror::Error;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::regular;
+use crate::study::Untested;
 use crate::study::outcome::{Check, LevelErrors, Outcome, Quantity};
 use crate::text::number::{committed, committed_rate};
 use crate::text::visible;
@@ -80,6 +81,9 @@ pub struct StudyRecord {
     pub failed_cases: Vec<FailedCaseRecord>,
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
+    /// What the study is no test of although it passes; only `study` looks for it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub untested: Vec<Untested>,
 }
 
 /// Errors at one level.
@@ -273,6 +277,7 @@ impl StudyRecord {
                 .map(|failed| FailedCaseRecord { case: failed.label.clone(), reason: failed.reason.clone() })
                 .collect(),
             not_finite: not_finite(outcome),
+            untested: vec![],
         }
     }
 }

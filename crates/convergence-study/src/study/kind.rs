@@ -36,6 +36,20 @@ pub trait Kind: Send + Sync {
     fn details(&self) -> Vec<(String, String)> {
         vec![]
     }
+
+    /// What a passing study is no test of, found by trying: asked for by `study` alone, for it may take longer than the study.
+    fn untested(&self) -> Vec<Untested> {
+        vec![]
+    }
+}
+
+/// Something that a study seems to test and does not.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Untested {
+    /// Its name, such as that of a coefficient.
+    pub what: String,
+    /// Why an error in it would not be seen.
+    pub why: String,
 }
 
 /// A kind of study that a file describes.
@@ -88,6 +102,9 @@ pub trait Study: Send + Sync {
 
     /// What this study does, for `explain`: paragraphs, each with its title.
     fn details(&self) -> Vec<(String, String)>;
+
+    /// What it is no test of although it passes.
+    fn untested(&self) -> Vec<Untested>;
 }
 
 /// The cases of a study while they are run.
@@ -128,6 +145,10 @@ impl<K: Kind> Study for Erased<K> {
 
     fn details(&self) -> Vec<(String, String)> {
         self.0.details()
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        self.0.untested()
     }
 }
 

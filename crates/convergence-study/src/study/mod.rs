@@ -19,7 +19,7 @@ pub use axis::Axis;
 pub use case::{Case, CaseFailure, Ran};
 pub use errors_over_levels::{ErrorsOverLevels, NamedErrors};
 pub use header::{Header, Tier};
-pub use kind::{FromFile, Kind, Plan, Study, erased, run_cases_here, run_here};
+pub use kind::{FromFile, Kind, Plan, Study, Untested, erased, run_cases_here, run_here};
 pub use levels::{Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 pub use registry::{KindRow, Kinds, Reader, StudyFile, reader};

@@ -122,8 +122,8 @@ pub enum Unreachable {
     },
     /// It would cost too much.
     #[error(
-        "an error of {target:.3e} in {quantity} would take about {cost:.1e} node-steps, more than the {limit:.1e} allowed: \
-         within them about {reachable:.1e} can be reached"
+        "an error of {target:.3e} in {quantity} would take {}, more than the {limit:.1e} allowed: \
+         within them about {reachable:.1e} can be reached", node_steps(*.cost)
     )]
     Cost {
         /// As asked for.
@@ -153,6 +153,11 @@ pub enum Unreachable {
     /// A pilot did not come to its end.
     #[error("a pilot run failed: {0}")]
     Pilot(String),
+}
+
+/// A cost in words; without end where not even 1e12 steps would do.
+fn node_steps(cost: f64) -> String {
+    if cost.is_finite() { format!("about {cost:.1e} node-steps") } else { "more than 1e12 steps".to_owned() }
 }
 
 impl From<CaseFailure> for Unreachable {
@@ -237,13 +242,17 @@ fn finish(forecast: &Forecast<'_>, request: &Request, at: [f64; 2], pilots: Spen
     let at = at.map(f64::ceil);
     let cost = at[0] * at[1];
     let limit = request.max_node_steps;
+    // What costs too much may be lost in round-off as well, and the other way round.
+    let reachable = || {
+        reachable(forecast, target, |error, at| {
+            (1.0 + 2.0 * PILOT_SHARE) * at[0] * at[1] <= limit && round_off(at) <= ROUND_OFF_SHARE * error
+        })
+    };
     if !(cost + pilots.node_steps <= limit) {
-        let reachable = reachable(forecast, target, |_, [n, s]| (1.0 + 2.0 * PILOT_SHARE) * n * s <= limit);
-        return Err(Unreachable::Cost { target, quantity, cost, limit, reachable });
+        return Err(Unreachable::Cost { target, quantity, cost, limit, reachable: reachable() });
     }
     if !(round_off(at) <= ROUND_OFF_SHARE * target) {
-        let reachable = reachable(forecast, target, |error, at| round_off(at) <= ROUND_OFF_SHARE * error);
-        return Err(Unreachable::RoundOff { target, quantity, reachable });
+        return Err(Unreachable::RoundOff { target, quantity, reachable: reachable() });
     }
     let (believed, parts) = forecast.error(at);
     Ok(Choice {

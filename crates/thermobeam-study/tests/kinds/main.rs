@@ -18,6 +18,7 @@ mod scenes;
 mod self_convergence;
 mod solvers;
 mod typed;
+mod untested;
 mod vibration;
 mod work_precision;
 

@@ -12,6 +12,7 @@ pub mod any_order;
 mod fault;
 pub mod matrix;
 pub mod sensitivity;
+mod untested;
 
 use std::path::Path;
 
@@ -19,6 +20,7 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Header, KindRow, Study, reader};
 
 pub use fault::Fault;
+pub(in crate::kinds) use untested::untested;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

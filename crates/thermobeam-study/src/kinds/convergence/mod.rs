@@ -13,9 +13,12 @@ use std::path::Path;
 
 use convergence_study::input::{InputError, Section};
 use convergence_study::study::levels::Levels;
-use convergence_study::study::{Axis, Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{
+    Axis, Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Untested, reader,
+};
 use thermobeam::parameters::{Beam, Obstacles};
 
+use crate::kinds::controls::untested;
 use crate::kinds::tables::{Control, Expectation, Manufactured, Norms, Refine, norm_levels};
 
 /// The row of the table of kinds.
@@ -102,5 +105,9 @@ impl Kind for Convergence {
 
     fn details(&self) -> Vec<(String, String)> {
         details::details(self)
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        untested(self)
     }
 }

@@ -21,6 +21,14 @@ pub(super) fn judge(study: &Scenes, ran: &[Ran<usize, Shown>]) -> Outcome {
         ran.iter().filter_map(|ran| Some((&study.scenes[ran.case.data], ran.ok()?))).collect();
     let mut checks = vec![completion(ran, not_finite)];
     checks.extend(found.iter().map(|(whole, shown)| check(whole, shown)));
+    let apart = found.iter().filter(|(_, shown)| !shown.alike_in_lanes).map(|(whole, _)| whole.name.as_str());
+    let apart: Vec<&str> = apart.collect();
+    let evidence = format!("{} with other bits: {}", apart.len(), apart.join(", "));
+    checks.push(Check::that(
+        apart.is_empty(),
+        "in lanes, in a group that is not full, each scene has the same bits",
+        evidence,
+    ));
     let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
     let strain = answered.map(|(whole, shown)| farthest(whole, shown).1 / whole.within).fold(0.0, max_or_nan);
     let headline =

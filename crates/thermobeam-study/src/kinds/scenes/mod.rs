@@ -14,7 +14,7 @@ use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRo
 use super::energy::End;
 use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
 use crate::run::driver::RunError;
-use crate::run::simulate::{Recording, Run, Simulator};
+use crate::run::simulate::{Recording, Run, Simulator, run_together};
 use crate::scene::any_order::SceneFile;
 
 /// The row of the table of kinds.
@@ -64,6 +64,8 @@ pub struct Shown {
     pub numbers: [f64; NUMBERS.len()],
     /// Counts, in the order of [`COUNTS`].
     pub counts: [usize; COUNTS.len()],
+    /// Whether the scene has the same bits in a lane of a group that is not full; true where it can only run alone.
+    pub alike_in_lanes: bool,
     /// `(t, u(1, t))`, for the figure.
     pub tip: Vec<(f64, f64)>,
 }
@@ -76,6 +78,12 @@ pub const NUMBERS: [&str; 9] =
 pub const COUNTS: [&str; 6] = ["steps", "iterations", "most iterations", "passes", "factorizations", "contact"];
 
 impl Shown {
+    /// Whether end, numbers and counts are the same, to the bit.
+    fn has_the_bits_of(&self, other: &Self) -> bool {
+        let bits = |shown: &Self| shown.numbers.map(f64::to_bits);
+        (self.end, bits(self), self.counts) == (other.end, bits(other), other.counts)
+    }
+
     fn one_step(run: &Run) -> Result<Self, CaseFailure> {
         let end = match &run.failure {
             None => End::Answer,
@@ -97,6 +105,7 @@ impl Shown {
                 energy.largest_increase,
             ],
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, run.contact_steps],
+            alike_in_lanes: true,
             tip: run
                 .history
                 .iter()
@@ -130,6 +139,7 @@ impl Shown {
                 energy.largest_increase,
             ],
             counts: [run.steps, iterations.total, iterations.max, work.solves, work.factorizations, run.events.len()],
+            alike_in_lanes: true,
             tip: run.history.iter().map(|state| (state.t, state.u_tip)).collect(),
         })
     }
@@ -164,7 +174,11 @@ impl Kind for Scenes {
 
     fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
         match &self.scenes[*index].scene {
-            SceneFile::OneStep(scene) => Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ())),
+            SceneFile::OneStep(scene) => {
+                let shown = Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ()))?;
+                let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::one_step).transpose()?;
+                Ok(Shown { alike_in_lanes: lane.is_none_or(|lane| lane.has_the_bits_of(&shown)), ..shown })
+            }
             SceneFile::AnyOrder(scene) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
         }
     }

@@ -18,7 +18,9 @@ use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, Outcom
 
 use super::fault::{Fault, coefficients, named_studies};
 use crate::kinds::convergence::Convergence;
-use detector::{BISECTIONS, Detector};
+use detector::BISECTIONS;
+
+pub(super) use detector::Detector;
 
 /// A study of the smallest errors that are detected.
 pub struct Sensitivity {

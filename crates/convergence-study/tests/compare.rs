@@ -53,6 +53,7 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
         quantities: vec![],
         failed_cases: vec![],
         not_finite: vec![],
+        untested: vec![],
     }
 }
 

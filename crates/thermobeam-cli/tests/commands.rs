@@ -85,7 +85,12 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     let record = |path: &str, id: &str, verdict: &str| {
         let path = root.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, format!("{{\"studies\": [{{\"id\": \"{id}\", \"verdict\": \"{verdict}\"}}]}}")).unwrap();
+        let study = format!(
+            r#"{{"id": "{id}", "claim": "c", "tier": "quick", "kind": "frequencies", "verdict": "{verdict}", "summary": "s",
+            "levels": [], "rates": [], "checks": [], "quantities": [], "failed_cases": [], "not_finite": []}}"#
+        );
+        let head = r#""schema": 1, "crate_version": "0", "scope": "quick", "verdict": "pass", "baseline_changes": []"#;
+        fs::write(path, format!("{{{head}, \"studies\": [{study}]}}")).unwrap();
     };
     record("reports/results.json", "a", "pass");
     assert_eq!((verdict("a"), verdict("b")), ("pass".to_owned(), "never run".to_owned()));

@@ -17,7 +17,6 @@ use serde::Serialize;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
-use thermobeam_study::run::tally::Unsound;
 use thermobeam_study::scene::any_order::SceneFile;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
@@ -118,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let wanted = arguments.estimate_error && run.failure.is_none();
     let budget = wanted.then(|| estimate(&scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let complaint = complaint(run.energy.sound(run.steps), run.failure.as_ref(), budget.as_ref().err());
+    let complaint = complaint(run.energy.complaint(run.steps, run.failure.as_ref()), budget.as_ref().err());
     let object = Object::new(&scene, &run).with_budget(known);
     let object = Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) };
     let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps, run.last.t);
@@ -128,14 +127,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     })
 }
 
-/// Why the numbers of a run mean nothing, or less than was asked for; none where all is well.
-fn complaint(
-    sound: Result<(), Unsound>,
-    failure: Option<&impl Display>,
-    no_budget: Option<&impl Display>,
-) -> Option<String> {
-    let no_budget = no_budget.map(|reason| format!("error budget: {reason}"));
-    no_budget.or(sound.err().map(|unsound| unsound.to_string())).or(failure.map(ToString::to_string))
+/// Why a run has not done what was asked for: there is no error budget, or the `complaint` about its numbers.
+fn complaint(complaint: Option<String>, no_budget: Option<&impl Display>) -> Option<String> {
+    no_budget.map(|reason| format!("error budget: {reason}")).or(complaint)
 }
 
 /// Writes files into a folder; returns their paths.

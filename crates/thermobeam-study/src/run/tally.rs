@@ -1,5 +1,7 @@
 //! What is observed of a run at one time, and summed up over its steps, by whatever scheme.
 
+use std::fmt::Display;
+
 use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
 use thiserror::Error;
@@ -92,6 +94,12 @@ impl EnergySummary {
             (_, residual) if !(residual <= most) => Err(Unsound::Imbalance(residual)),
             _ => Ok(()),
         }
+    }
+
+    /// Why the numbers of a run cannot be used, in words: they mean nothing, or it failed.
+    pub fn complaint(&self, steps: usize, failure: Option<&impl Display>) -> Option<String> {
+        let unsound = self.sound(steps).err().map(|unsound| unsound.to_string());
+        unsound.or_else(|| failure.map(ToString::to_string))
     }
 }
 

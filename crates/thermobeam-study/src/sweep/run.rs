@@ -108,7 +108,7 @@ fn one_step(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
 fn any_order(sweep: &Sweep, index: usize, scene: &AnyOrderScene) -> Line {
     match any_order::run(scene, 0, &mut |_| ()) {
         Ok(run) => {
-            let reason = run.failure.as_ref().map(ToString::to_string);
+            let reason = run.energy.complaint(run.steps, run.failure.as_ref());
             ended(sweep, index, reason, Found::AnyOrder(AnyOrderObject::reproducible(scene, &run)))
         }
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
@@ -116,7 +116,7 @@ fn any_order(sweep: &Sweep, index: usize, scene: &AnyOrderScene) -> Line {
 }
 
 fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
-    let reason = run.failure.as_ref().map(ToString::to_string);
+    let reason = run.energy.complaint(run.steps, run.failure.as_ref());
     ended(sweep, index, reason, Found::OneStep(Object::reproducible(scene, run)))
 }
 

@@ -92,6 +92,8 @@ fn files_with_errors_are_refused_with_the_field() {
         ("degree = 28", "degree = 0", "degree"),
         ("restart_dt = 1e-4", "restart_dt = 0.01", "at most dt = 0.003"),
         ("growth = 1.3\n", "growth = 0.9\n", "growth"),
+        ("times = [1.0, 10.0]", "times = [1.0, 9.99995]\ncompare = true", "whose dt is 0.0001"),
+        ("times = [1.0, 10.0]", "times = [1.0, 9.9999]\ncompare = true", "a multiple of 1000 steps"),
         ("[experiments]", "[experiment]", "experiment"),
     ] {
         let error = refusal(&ROW, "experiments-exact.toml", from, to);

@@ -22,6 +22,7 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::Header;
 
 use super::ExactExperiments;
+use super::cases::TIP_TIMES;
 use crate::kinds::tables::discretisations;
 use crate::scene::Scene;
 
@@ -35,6 +36,9 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let times = times(&section, &scenes)?;
     let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
     let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
+    if compare {
+        comparable(&section, &scenes, &times)?;
+    }
     let discretisations = discretisations(root, "discretisations", None)?;
     Ok(ExactExperiments { header, scenes, times, discretisations, agreement, compare })
 }
@@ -47,6 +51,25 @@ fn scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError
         return Err(field.refuse_as_written(allowed));
     }
     items.iter().map(|item| Scene::read(item.file(folder)?)).collect()
+}
+
+/// Refuses scenes of which the times of comparison are no time levels: a difference in time would pass for an error.
+fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
+    let level = |scene: &Scene, t: f64| {
+        let steps = t / scene.dt;
+        ((steps - steps.round()).abs() <= 1e-9 * steps).then_some(steps.round() as usize)
+    };
+    for scene in scenes {
+        let levels: Option<Vec<usize>> = times.iter().map(|&t| level(scene, t)).collect();
+        if !levels.is_some_and(|levels| levels.last().is_some_and(|last| last.is_multiple_of(TIP_TIMES))) {
+            let found = format!("{}, whose dt is {:?}", scene.name, scene.dt);
+            let expected = format!(
+                "scenes whose time levels include all `times`, the last after a multiple of {TIP_TIMES} steps, where compare = true"
+            );
+            return Err(section.refuse("scenes", found, expected));
+        }
+    }
+    Ok(())
 }
 
 fn times(section: &Section<'_>, scenes: &[Scene]) -> Result<Vec<f64>, InputError> {

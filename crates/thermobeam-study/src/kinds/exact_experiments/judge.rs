@@ -78,7 +78,7 @@ fn of_scene<'r>(study: &'r ExactExperiments, ran: &'r [Ran<Run, Shown>], scene: 
 fn not_finite(shown: &Shown) -> Vec<String> {
     let states = shown.states.iter().flat_map(|state| numbers(state));
     let names = states.filter(|(_, value)| !value.is_finite()).map(|(name, _)| name.to_owned());
-    let tip = shown.tip.iter().any(|(_, u)| !u.is_finite()).then(|| "u(1, t)".to_owned());
+    let tip = (shown.tip.is_empty() || shown.tip.iter().any(|(_, u)| !u.is_finite())).then(|| "u(1, t)".to_owned());
     names.chain(tip).collect()
 }
 

@@ -56,7 +56,7 @@ pub struct Shown {
     pub events: Vec<ContactEvent>,
     /// `(t, u(1, t))` at equally spaced times.
     pub tip: Vec<(f64, f64)>,
-    /// Steps, and node-solves: passes times unknowns.
+    /// Steps.
     pub steps: usize,
     /// Largest residual of the balance over E0, and largest change of the energy in a step; NaN by the scene's own scheme.
     pub balance: [f64; 2],

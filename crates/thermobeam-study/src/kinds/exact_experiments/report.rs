@@ -15,7 +15,7 @@ pub(super) fn headline(study: &ExactExperiments, scenes: &[OfScene<'_>], worst: 
         return agreement;
     }
     let largest = scenes.iter().map(own_error).fold(0.0, max_or_nan);
-    format!("{agreement}; the paper's scheme at its resolution is off by up to {largest:.1e} in u(1, t)")
+    format!("{agreement}; the scenes' own schemes at their resolution are off by up to {largest:.1e} in u(1, t)")
 }
 
 pub(super) fn tables(study: &ExactExperiments, scenes: &[OfScene<'_>]) -> Vec<Table> {
@@ -128,7 +128,7 @@ pub(super) fn figures(study: &ExactExperiments, scenes: &[OfScene<'_>]) -> Vec<F
         figures.push(Figure {
             file: format!("{id}-error.svg"),
             caption:
-                "Error of the paper's scheme at the paper's resolution over time, in the displacement of the free end."
+                "Error of the scenes' own schemes at their own resolution over time, in the displacement of the free end."
                     .into(),
             svg: plots::history(&History {
                 title: Some("Error of the scenes' own scheme at their own resolution".into()),

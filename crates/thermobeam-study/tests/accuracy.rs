@@ -70,7 +70,7 @@ fn check(family: &Family, quantity: ErrorMeasure, target: f64) {
     let error = made(family, quantity, choice.scheme, choice.settings, [choice.elements, choice.steps]);
     let context = format!("{} {target:e}: {error:e} made by {choice:?}", quantity.name());
     assert!((0.2 * target..=target).contains(&error), "{context}");
-    assert!((0.7..=1.4).contains(&(error / choice.believed)), "{context}");
+    assert!((0.7..=1.4).contains(&(error / choice.expected_error)), "{context}");
     assert_eq!((choice.scheme.name, choice.trust), ("midpoint", Trust::Firm), "{context}");
     let best = searched(family, quantity, target, &choice);
     let cost = choice.node_steps() + choice.pilots.node_steps;

@@ -50,9 +50,12 @@ fn the_error_asked_for_is_made_inside_steps_too_and_the_checks_cost_a_few_runs()
             let choice = chosen(&scene, target);
             let made = largest_difference(&run(&choice.scene, TIMES, &mut |_| ()).expect("a run"), &exact);
             assert!(made <= target, "{beam}, {target:e}: {made:e} with {choice:?}");
-            assert!(choice.believed() <= target);
+            assert!(choice.expected_error() <= target);
             // The belief is no flattery: it is the error within a factor of two.
-            assert!(made <= 2.0 * choice.believed() && choice.believed() <= 10.0 * made, "{made:e} with {choice:?}");
+            assert!(
+                made <= 2.0 * choice.expected_error() && choice.expected_error() <= 10.0 * made,
+                "{made:e} with {choice:?}"
+            );
             let ratio = choice.checks.unknown_solves / choice.run.unknown_solves;
             assert!(ratio <= 8.0, "{beam}, {target:e}: the checks cost {ratio:.1} runs");
         }

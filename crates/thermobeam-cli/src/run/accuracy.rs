@@ -68,7 +68,7 @@ impl Planned {
         Object {
             quantity: self.quantity.name(),
             target_error: self.target,
-            believed_error: choice.believed,
+            believed_error: choice.expected_error,
             space_error: choice.parts[0],
             time_error: choice.parts[1],
             confidence: match choice.trust {
@@ -100,7 +100,7 @@ impl Planned {
             format!("{:.3} s for the pilots, {:.3} s for the run", choice.pilots.seconds, run.wall.as_secs_f64());
         vec![
             ("asked for", format!("{:.3e}", self.target), what),
-            ("expected", format!("{:.3e}", choice.believed), parts),
+            ("expected", format!("{:.3e}", choice.expected_error), parts),
             ("node-steps", format!("{:.3e}", pilots + node_steps), format!("of which {pilots:.3e} for pilot runs")),
             ("time", format!("{:.3} s", choice.pilots.seconds + run.wall.as_secs_f64()), seconds),
         ]

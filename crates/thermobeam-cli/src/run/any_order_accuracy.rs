@@ -64,7 +64,7 @@ impl PlannedAnyOrder {
         Object {
             quantity: "tip",
             target_error: self.target,
-            believed_error: choice.believed(),
+            believed_error: choice.expected_error(),
             space_error: choice.space,
             time_error: choice.time,
             nodes: choice.scene.mesh.nodes().to_vec(),
@@ -86,7 +86,11 @@ impl PlannedAnyOrder {
                 format!("{:.3e}", self.target),
                 "maximum over [0, T] of the error of u(1, t), inside steps included".to_owned(),
             ),
-            ("expected", format!("{:.3e}", self.choice.believed()), "the sum of the two differences below".to_owned()),
+            (
+                "expected",
+                format!("{:.3e}", self.choice.expected_error()),
+                "the sum of the two differences below".to_owned(),
+            ),
             ("space", format!("{space:.3e}"), format!("largest difference to {finer_space}")),
             ("time", format!("{time:.3e}"), "largest difference to steps half as long, growth included".to_owned()),
             ("growth", format!("{:.4}", scene.stepping.growth), "of the steps after a contact event".to_owned()),

@@ -17,7 +17,7 @@
 //! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
 //! let family = Family::of_scene(&Scene::parse(text, "swing.toml")?);
 //! let choice = choose(&family, &Request::new(ErrorMeasure::Tip, 1e-4))?;
-//! assert!(choice.believed <= 1e-4 && choice.scheme.name == "midpoint");
+//! assert!(choice.expected_error <= 1e-4 && choice.scheme.name == "midpoint");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -95,7 +95,7 @@ pub struct Choice {
     /// How each step is solved.
     pub settings: Settings,
     /// The predicted error.
-    pub believed: f64,
+    pub expected_error: f64,
     /// The parts of space and of time in it.
     pub parts: [f64; 2],
     /// How far the forecast can be trusted.
@@ -254,13 +254,13 @@ fn finish(forecast: &Forecast<'_>, request: &Request, at: [f64; 2], pilots: Spen
     if !(round_off(at) <= ROUND_OFF_SHARE * target) {
         return Err(Unreachable::RoundOff { target, quantity, reachable: reachable() });
     }
-    let (believed, parts) = forecast.error(at);
+    let (expected_error, parts) = forecast.error(at);
     Ok(Choice {
         scheme: forecast.scheme(),
         elements: at[0] as usize,
         steps: at[1] as usize,
         settings: Settings { tolerance: request.tolerance(), ..Settings::default() },
-        believed,
+        expected_error,
         parts,
         trust: forecast.trust,
         pilots,

@@ -17,7 +17,7 @@
 //! let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 1.0";
 //! let SceneFile::AnyOrder(scene) = SceneFile::parse(text, "swing.toml")? else { panic!("a one-step scheme") };
 //! let choice = choose(&scene, 1e-7)?;
-//! assert!(choice.believed() <= 1e-7);
+//! assert!(choice.expected_error() <= 1e-7);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -112,7 +112,7 @@ pub struct Choice {
 
 impl Choice {
     /// The error that the run is estimated to make.
-    pub fn believed(&self) -> f64 {
+    pub fn expected_error(&self) -> f64 {
         self.space + self.time
     }
 }

@@ -15,6 +15,7 @@ use super::energy::End;
 use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
 use crate::run::driver::RunError;
 use crate::run::simulate::{Recording, Run, Simulator, run_together};
+use crate::run::tally::{EnergySummary, Extremes, Sample};
 use crate::scene::any_order::SceneFile;
 
 /// The row of the table of kinds.
@@ -93,17 +94,7 @@ impl Shown {
         let Run { last, extremes, energy, iterations, work, .. } = run;
         Ok(Self {
             end,
-            numbers: [
-                last.u_tip,
-                last.phi_tip,
-                last.u_t_tip,
-                last.phi_t_tip,
-                last.theta_mid,
-                last.energy,
-                extremes.u_tip_min,
-                extremes.u_tip_max,
-                energy.largest_increase,
-            ],
+            numbers: numbers(last, extremes, energy),
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, run.contact_steps],
             alike_in_lanes: true,
             tip: run
@@ -127,22 +118,28 @@ impl Shown {
         let AnyOrderRun { ends: [_, last], extremes, energy, iterations, work, .. } = run;
         Ok(Self {
             end,
-            numbers: [
-                last.u_tip,
-                last.phi_tip,
-                last.u_t_tip,
-                last.phi_t_tip,
-                last.theta_mid,
-                last.energy,
-                extremes.u_tip_min,
-                extremes.u_tip_max,
-                energy.largest_increase,
-            ],
+            numbers: numbers(last, extremes, energy),
             counts: [run.steps, iterations.total, iterations.max, work.solves, work.factorizations, run.events.len()],
             alike_in_lanes: true,
             tip: run.history.iter().map(|state| (state.t, state.u_tip)).collect(),
         })
     }
+}
+
+/// What a run of any scheme shows, in the order of [`NUMBERS`].
+fn numbers(last: &Sample, extremes: &Extremes, energy: &EnergySummary) -> [f64; NUMBERS.len()] {
+    let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy: end, .. } = *last;
+    [
+        u_tip,
+        phi_tip,
+        u_t_tip,
+        phi_t_tip,
+        theta_mid,
+        end,
+        extremes.u_tip_min,
+        extremes.u_tip_max,
+        energy.largest_increase,
+    ]
 }
 
 impl FromFile for Scenes {

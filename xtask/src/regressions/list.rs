@@ -99,7 +99,8 @@ mod tests {
             let is_there = |edit: &Edit| planted.contains(&edit.new);
             assert!(!regression.edits.is_empty() && regression.edits.iter().all(is_there), "{}", regression.name);
             assert!(quick(&regression.study), "{}: {}", regression.name, regression.study);
-            assert!(!regression.says.is_empty(), "{}", regression.name);
+            // Each line about the study begins with its name.
+            assert!(!format!("{}: ", regression.study).contains(&regression.says), "{}", regression.name);
         }
     }
 }

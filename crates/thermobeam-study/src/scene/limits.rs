@@ -5,7 +5,6 @@
 //! a slip of the pen is a complaint with its line, and not a process that the operating system ends after an hour.
 
 use convergence_study::input::{Field, InputError};
-use thermobeam::mesh::Mesh;
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a slip of the pen.
 pub(crate) const STEPS: usize = 10_000_000_000;
@@ -70,13 +69,19 @@ pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
 ///
 /// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²: three for each node, and
 /// 14 + 3p for each length of elements, of at least two factorisations.
-pub(crate) fn any_order_memory(field: &Field<'_>, mesh: &Mesh, p: usize, q: usize) -> Result<(), InputError> {
-    let (elements, stages) = (mesh.elements() as f64, (q + 1) as f64);
-    let shortest = mesh.nodes().windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
-    let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest { 1.0 } else { elements };
+///
+/// * `lengths`: how many different lengths the elements have.
+pub(crate) fn any_order_memory(
+    field: &Field<'_>,
+    elements: usize,
+    lengths: usize,
+    p: usize,
+    q: usize,
+) -> Result<(), InputError> {
+    let (elements, stages) = (elements as f64, (q + 1) as f64);
     let blocks = elements * (1 + 2 * (p / 2)) as f64;
-    let numbers =
-        blocks * (29.0 * stages + 20.0) + 18.0 * stages * stages * (3.0 * elements + (14 + 3 * p) as f64 * lengths);
+    let numbers = blocks * (29.0 * stages + 20.0)
+        + 18.0 * stages * stages * (3.0 * elements + (14 + 3 * p) as f64 * lengths as f64);
     if 8.0 * numbers <= RUN_BYTES as f64 {
         return Ok(());
     }

@@ -30,6 +30,16 @@ fn elements_of_higher_degree_have_twice_their_degree_as_order_and_no_other() {
 }
 
 #[test]
+fn a_frequency_below_the_first_that_is_judged_can_fail() {
+    let study = Frequencies::read(file("frequencies-4.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let sound = run_cases_here(&study);
+    for by in [1e-6, -1e-6, f64::NAN] {
+        let planted = changed::<Frequencies>(&sound, |_, found| found[0] *= 1.0 + by);
+        assert_eq!(study.judge(&planted).verdict, Verdict::Fail, "{by}");
+    }
+}
+
+#[test]
 fn each_frequency_can_fail() {
     let study = study();
     let sound = run_cases_here(&study);

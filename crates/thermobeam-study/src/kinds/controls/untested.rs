@@ -34,7 +34,9 @@ pub(in crate::kinds) fn untested(study: &Convergence) -> Vec<Untested> {
         let why = match Fault::Coefficient(key).plant(study, OFF) {
             None => Some(absent(study, key)),
             Some(_) if detector.detects(key, OFF) => None,
-            Some(_) => Some(contact(study, key).unwrap_or_else(|| format!("an error of {OFF:e} of its value passes"))),
+            Some(_) => {
+                Some(contact(study, key).unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")))
+            }
         };
         found.extend(why.map(|why| Untested { what: key.to_owned(), why }));
     }

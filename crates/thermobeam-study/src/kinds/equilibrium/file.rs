@@ -34,11 +34,8 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
 
 fn any_order(section: &Section<'_>) -> Result<AnyOrder, InputError> {
     section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
-    Ok(AnyOrder {
-        how: Discretisation::read(section)?,
-        t_end: positive(section, "t_end")?,
-        error: positive(section, "error")?,
-    })
+    let t_end = positive(section, "t_end")?;
+    Ok(AnyOrder { how: Discretisation::read(section, t_end)?, t_end, error: positive(section, "error")? })
 }
 
 fn tolerance(expect: &Section<'_>) -> Result<f64, InputError> {

@@ -39,7 +39,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     if compare {
         comparable(&section, &scenes, &times)?;
     }
-    let discretisations = discretisations(root, "discretisations", None)?;
+    let discretisations = discretisations(root, "discretisations", None, times.last().copied().unwrap_or_default())?;
     Ok(ExactExperiments { header, scenes, times, discretisations, agreement, compare })
 }
 

@@ -13,6 +13,9 @@ use super::Frequencies;
 /// Between neighbours the determinant is of order 1, near a frequency its slope is of order 1 too: 16 of them mean 14 digits.
 const ROUNDING_ERRORS: f64 = 16.0;
 
+/// Relative error of frequencies that are not judged by their rates.
+const MET: f64 = 1e-8;
+
 pub(super) fn judge(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Outcome {
     let levels = errors(study, ran);
     let rates = levels.judge();
@@ -20,7 +23,11 @@ pub(super) fn judge(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Outcom
         let complete = found.len() == study.count && found.iter().all(|omega| omega.is_finite());
         if complete { vec![] } else { vec!["a frequency".to_owned()] }
     };
-    let checks = vec![levels::completion(ran, not_finite), check_equation(study.count), check_above(&levels)];
+    let mut checks =
+        vec![levels::completion(ran, not_finite), check_equation(study.count), check_above(study, &levels)];
+    if study.first > 1 {
+        checks.push(check_below_first(study, ran));
+    }
     let figure = levels.figure(
         format!("{}-errors.svg", study.header.id),
         Some("Discrete frequencies, ω_h - ω".to_owned()),
@@ -107,14 +114,30 @@ fn check_equation(count: usize) -> Check {
     )
 }
 
-fn check_above(levels: &Levels) -> Check {
+/// Frequencies that are too near to round-off for a rate: they must be met on the finest mesh.
+fn check_below_first(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Check {
+    let exact = frequencies(study.first - 1);
+    let found = ran.last().and_then(|level| level.ok());
+    let error = |(mode, omega): (usize, &f64)| {
+        let found = found.and_then(|found| found.get(mode)).copied().unwrap_or(f64::NAN);
+        (found - omega).abs() / omega
+    };
+    let worst = exact.iter().enumerate().map(error).fold(0.0, max_or_nan);
+    Check::that(
+        worst <= MET,
+        format!("the frequencies below number {} are met to {MET:e} of their value on the finest mesh", study.first),
+        format!("largest relative error {worst:.1e}"),
+    )
+}
+
+fn check_above(study: &Frequencies, levels: &Levels) -> Check {
     let least = levels.columns.iter().flat_map(|column| &column.errors).fold(f64::INFINITY, |least, &error| {
         // A NaN must stay.
         if least.is_nan() || least <= error { least } else { error }
     });
     Check::that(
         least > 0.0,
-        "every discrete frequency lies above the exact one",
+        format!("discrete frequencies {} to {} lie above the exact ones", study.first, study.count),
         format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
     )
 }

@@ -20,7 +20,8 @@ pub const ROW: KindRow = KindRow {
     read: reader::<Frequencies>,
     why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
           a scalar equation.",
-    judged: "The rate of each of the first frequencies, and that all discrete ones lie above.",
+    judged: "The rate of each frequency from the first to the last one asked for, and that the discrete ones lie above. Frequencies \
+             below the first must be met on the finest mesh.",
     failure: "Mass, stiffness or coupling of the discretisation is wrong.",
 };
 

@@ -21,12 +21,14 @@ pub(super) fn judge(study: &Scenes, ran: &[Ran<usize, Shown>]) -> Outcome {
         ran.iter().filter_map(|ran| Some((&study.scenes[ran.case.data], ran.ok()?))).collect();
     let mut checks = vec![completion(ran, not_finite)];
     checks.extend(found.iter().map(|(whole, shown)| check(whole, shown)));
-    let apart = found.iter().filter(|(_, shown)| !shown.alike_in_lanes).map(|(whole, _)| whole.name.as_str());
+    let compared = found.iter().filter(|(_, shown)| shown.alike_in_lanes.is_some()).count();
+    let apart =
+        found.iter().filter(|(_, shown)| shown.alike_in_lanes == Some(false)).map(|(whole, _)| whole.name.as_str());
     let apart: Vec<&str> = apart.collect();
-    let evidence = format!("{} with other bits: {}", apart.len(), apart.join(", "));
+    let evidence = format!("{compared} compared, {} with other bits: {}", apart.len(), apart.join(", "));
     checks.push(Check::that(
-        apart.is_empty(),
-        "in lanes, in a group that is not full, each scene has the same bits",
+        compared > 0 && apart.is_empty(),
+        "in lanes, in a group that is not full, each scene that can run so has the same bits",
         evidence,
     ));
     let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());

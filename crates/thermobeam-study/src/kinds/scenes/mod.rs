@@ -12,11 +12,12 @@ use convergence_study::input::{InputError, Section};
 use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
 
 use super::energy::End;
+use super::tables::Discretisation;
 use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
 use crate::run::driver::RunError;
 use crate::run::simulate::{Recording, Run, Simulator, run_together};
 use crate::run::tally::{EnergySummary, Extremes, Sample};
-use crate::scene::any_order::SceneFile;
+use crate::scene::any_order::{AnyOrderScene, SceneFile};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -65,8 +66,8 @@ pub struct Shown {
     pub numbers: [f64; NUMBERS.len()],
     /// Counts, in the order of [`COUNTS`].
     pub counts: [usize; COUNTS.len()],
-    /// Whether the scene has the same bits in a lane of a group that is not full; true where it can only run alone.
-    pub alike_in_lanes: bool,
+    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it can only run alone.
+    pub alike_in_lanes: Option<bool>,
     /// `(t, u(1, t))`, for the figure.
     pub tip: Vec<(f64, f64)>,
 }
@@ -96,7 +97,7 @@ impl Shown {
             end,
             numbers: numbers(last, extremes, energy),
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, run.contact_steps],
-            alike_in_lanes: true,
+            alike_in_lanes: None,
             tip: run
                 .history
                 .iter()
@@ -120,7 +121,7 @@ impl Shown {
             end,
             numbers: numbers(last, extremes, energy),
             counts: [run.steps, iterations.total, iterations.max, work.solves, work.factorizations, run.events.len()],
-            alike_in_lanes: true,
+            alike_in_lanes: None,
             tip: run.history.iter().map(|state| (state.t, state.u_tip)).collect(),
         })
     }
@@ -161,8 +162,8 @@ impl Kind for Scenes {
         let cost = |scene: &SceneFile| match scene {
             SceneFile::OneStep(scene) => scene.steps as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
             SceneFile::AnyOrder(scene) => {
-                let unknowns = scene.mesh.elements() * scene.degree * (scene.stepping.degree + 1);
-                30.0 * unknowns as f64 * scene.t_end / scene.stepping.dt
+                let AnyOrderScene { degree, stepping, t_end, .. } = *scene;
+                Discretisation { elements: scene.mesh.elements(), degree, stepping }.cost(t_end)
             }
         };
         let case = |(data, whole): (usize, &Whole)| Case { label: whole.name.clone(), cost: cost(&whole.scene), data };
@@ -174,7 +175,7 @@ impl Kind for Scenes {
             SceneFile::OneStep(scene) => {
                 let shown = Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ()))?;
                 let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::one_step).transpose()?;
-                Ok(Shown { alike_in_lanes: lane.is_none_or(|lane| lane.has_the_bits_of(&shown)), ..shown })
+                Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
             }
             SceneFile::AnyOrder(scene) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
         }

@@ -33,7 +33,7 @@ use thermobeam::scheme::SCHEMES;
 
 use super::{Observable, Resolution, SelfConvergence};
 use crate::kinds::tables::discretisations;
-use crate::scene::{Scene, tables};
+use crate::scene::{Scene, limits, tables};
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<SelfConvergence, InputError> {
     root.allow(&["study", "scene", "refine", "reference", "expect"])?;
@@ -57,7 +57,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
         scheme,
         levels,
         power,
-        references: discretisations(root, "reference", of_mesh)?,
+        references: discretisations(root, "reference", of_mesh, t_end)?,
         t_end,
         samples,
         contact: contact(&section, &scene)?,
@@ -98,7 +98,8 @@ fn nested_list(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputErro
     let list = section.require(key, allowed)?;
     let mut levels = vec![];
     for item in list.items(allowed)? {
-        nested(&item, &mut levels)?;
+        let level = if key == "elements" { tables::elements(&item)? } else { item.count(1..=limits::STEPS)? };
+        nested(&item, level, &mut levels)?;
     }
     if levels.len() < 2 { Err(list.refuse_as_written(allowed)) } else { Ok(levels) }
 }
@@ -120,10 +121,9 @@ fn power(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<f
 }
 
 /// A level that the one before divides.
-fn nested(field: &Field<'_>, levels: &mut Vec<usize>) -> Result<(), InputError> {
-    let level = tables::elements(field)?;
+fn nested(field: &Field<'_>, level: usize, levels: &mut Vec<usize>) -> Result<(), InputError> {
     match levels.last() {
-        Some(&before) if level <= before || level % before != 0 => {
+        Some(&before) if level <= before || !level.is_multiple_of(before) => {
             Err(field.refuse_as_written(format!("a multiple of {before}, the level before")))
         }
         _ => {

@@ -6,7 +6,7 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
 use crate::run::rerun::resampled;
 use crate::scene::any_order::AnyOrderScene;
-use crate::scene::{Scene, tables};
+use crate::scene::{Scene, limits, tables};
 
 const POSITIVE: &str = "a finite number > 0";
 
@@ -55,16 +55,24 @@ impl Discretisation {
         COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end / self.stepping.dt
     }
 
-    /// From a table that has [`DISCRETISATION_KEYS`], and may have others.
-    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let dt = section.require("dt", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+    /// From a table that has [`DISCRETISATION_KEYS`], and may have others, for runs to `t_end`.
+    pub(crate) fn read(section: &Section<'_>, t_end: f64) -> Result<Self, InputError> {
+        let field = section.require("dt", POSITIVE)?;
+        let dt = field.number_where(POSITIVE, |value| value > 0.0)?;
+        limits::steps_until(&field, t_end, dt, limits::STEPS)?;
         let restart = format!("a number > 0 and at most dt = {dt:?}");
         let growth = "a finite number >= 1";
+        let field = section.require("elements", "a whole number >= 1")?;
+        let elements = tables::elements(&field)?;
+        let degree = section.require("degree", "a whole number >= 1")?.count(1..=MAX_DEGREE)?;
+        let time_degree = section.require("time_degree", "a whole number >= 0")?.count(0..=MAX_TIME_DEGREE)?;
+        // Elements of different lengths take more.
+        limits::any_order_memory(&field, elements, 1, degree, time_degree)?;
         Ok(Self {
-            elements: tables::elements(&section.require("elements", "a whole number >= 1")?)?,
-            degree: section.require("degree", "a whole number >= 1")?.count(1..=MAX_DEGREE)?,
+            elements,
+            degree,
             stepping: Stepping {
-                degree: section.require("time_degree", "a whole number >= 0")?.count(0..=MAX_TIME_DEGREE)?,
+                degree: time_degree,
                 dt,
                 restart_dt: section.require("restart_dt", &restart)?.number_where(&restart, |h| h > 0.0 && h <= dt)?,
                 growth: section.require("growth", growth)?.number_where(growth, |value| value >= 1.0)?,
@@ -78,10 +86,12 @@ impl Discretisation {
 ///
 /// * `elements`: where the semi-discrete system of a mesh is meant, its number of linear elements, which both must have;
 ///   else they must differ in elements and degree.
+/// * `t_end`: to which they run.
 pub(crate) fn discretisations(
     root: &Section<'_>,
     key: &str,
     elements: Option<usize>,
+    t_end: f64,
 ) -> Result<[Discretisation; 2], InputError> {
     let allowed = match elements {
         None => format!("two tables [[{key}]] that differ in elements, degree, time_degree and dt"),
@@ -96,14 +106,21 @@ pub(crate) fn discretisations(
     let one = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&DISCRETISATION_KEYS)?;
-        Discretisation::read(&section)
+        Discretisation::read(&section, t_end)
     };
     let list = items.iter().map(one).collect::<Result<Vec<_>, InputError>>()?;
     let [one, other]: [Discretisation; 2] = list.try_into().map_err(|_| field.refuse_as_written(&allowed))?;
-    let steps_differ = one.stepping.degree != other.stepping.degree && one.stepping.dt != other.stepping.dt;
-    let space_fits = match elements {
-        None => one.elements != other.elements && one.degree != other.degree,
-        Some(n) => [one, other].iter().all(|how| (how.elements, how.degree) == (n, 1)),
-    };
-    if steps_differ && space_fits { Ok([one, other]) } else { Err(field.refuse("two that are not", allowed)) }
+    let steps =
+        [("time_degree", one.stepping.degree == other.stepping.degree), ("dt", one.stepping.dt == other.stepping.dt)];
+    let space = [("elements", one.elements == other.elements), ("degree", one.degree == other.degree)];
+    let same = if elements.is_some() { steps.to_vec() } else { [space, steps].concat() };
+    if let Some((key, _)) = same.iter().find(|(_, is_same)| *is_same) {
+        return Err(field.refuse(format!("two with the same {key}"), allowed));
+    }
+    match elements.and_then(|n| [one, other].into_iter().find(|how| (how.elements, how.degree) != (n, 1))) {
+        Some(Discretisation { elements, degree, .. }) => {
+            Err(field.refuse(format!("{elements} elements of degree {degree}"), allowed))
+        }
+        None => Ok([one, other]),
+    }
 }

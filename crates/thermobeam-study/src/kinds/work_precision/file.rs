@@ -84,7 +84,7 @@ fn problem(root: &Section<'_>, section: &Section<'_>, folder: &Path) -> Result<(
         (None, Some(file), None) => {
             let mut scene = Scene::read(file.file(folder)?)?;
             scene.t_end = t_end(section)?;
-            let by = discretisations(root, "reference", None)?;
+            let by = discretisations(root, "reference", None, scene.t_end)?;
             let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
             Ok((Family::of_scene(&scene), Some(AnyOrder { scene, by, agreement })))
         }

@@ -35,6 +35,8 @@ const TESTS: &[Test] = &tests![
     a_killed_harness_leaves_nothing,
     an_interrupted_harness_leaves_nothing,
     kept_results_are_used_until_something_changes,
+    a_kept_result_depends_on_each_file_that_its_command_names,
+    a_kept_result_depends_on_the_directory,
     garbage_among_kept_results_is_computed_anew,
     a_killed_harness_leaves_whole_results,
     what_a_study_file_may_get_wrong_is_named,
@@ -356,6 +358,32 @@ fn kept_results_are_used_until_something_changes() {
     // A failed case is not kept.
     let failing = cached("status");
     assert_eq!((failing.study(&[]).0, failing.kept().len()), (Some(1), 4));
+}
+
+/// The word `{n}` of the command is the name of a file.
+fn a_kept_result_depends_on_each_file_that_its_command_names() {
+    let place = cached("count");
+    let mesh = place.folder.path().join("8");
+    fs::write(&mesh, "coarse").unwrap();
+    for (content, runs) in [("coarse", 5), ("coarse", 5), ("fine", 6), ("fine", 6)] {
+        fs::write(&mesh, content).unwrap();
+        assert_eq!((place.study(&[]).0, place.runs()), (Some(0), runs), "{content}");
+    }
+}
+
+/// Of two directories whose `files` are the same, other files may differ.
+fn a_kept_result_depends_on_the_directory() {
+    let mut place = cached("count");
+    for directory in ["a", "b"] {
+        let path = place.folder.path().join(directory);
+        fs::create_dir(&path).unwrap();
+        fs::write(path.join("data"), "1").unwrap();
+        place.more = format!("directory = \"{directory}\"\n{CACHED}");
+        place.write("count");
+        assert_eq!(place.study(&[]).0, Some(0));
+        let runs = fs::read_to_string(path.join("runs")).unwrap_or_default();
+        assert_eq!(runs.lines().count(), 5, "{directory}");
+    }
 }
 
 fn garbage_among_kept_results_is_computed_anew() {

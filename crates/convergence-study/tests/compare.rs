@@ -162,7 +162,38 @@ fn an_error_that_is_a_number_no_more_is_worse() {
     new.levels[1].errors.0[0].1 = f64::NAN;
     let comparison = compared(sound("a"), new);
     assert_eq!(found(&comparison), [("L2", Change::Worse)]);
-    assert_eq!(comparison.studies[0].norms[0].reason, "no longer a finite number at n = 16");
+    assert_eq!(comparison.studies[0].norms[0].reason, "no longer a finite number >= 0 at n = 16");
+}
+
+#[test]
+fn an_error_that_becomes_negative_is_worse() {
+    let mut new = sound("a");
+    new.levels[1].errors.0[0].1 *= -1.0;
+    let comparison = compared(sound("a"), new.clone());
+    assert_eq!(found(&comparison), [("L2", Change::Worse)]);
+    assert_eq!(comparison.studies[0].norms[0].reason, "no longer a finite number >= 0 at n = 16");
+    assert_eq!(found(&compared(new.clone(), new)), [], "it was no error before");
+}
+
+/// The levels scatter, so that the interval of their mean is wide.
+#[test]
+fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
+    let without_rates = |scales: [f64; 3]| {
+        let levels = [8, 16, 32].into_iter().zip(scales);
+        let levels = levels.map(|(n, scale)| level(n, &[("L2", scale / f64::from(n).powi(2))])).collect();
+        StudyRecord { levels, rates: vec![], verdict: Verdict::Pass, ..sound("a") }
+    };
+    for (scales, change, reason) in [
+        ([30.0, 2.0, 200.0], Change::Worse, "errors larger"),
+        ([1.0 / 30.0, 0.5, 0.005], Change::Better, "errors smaller"),
+        ([30.0, 0.5, 200.0], Change::Same, "no difference of errors is proven"),
+        ([1.001, 1.0, 0.999], Change::Same, "errors the same"),
+    ] {
+        let comparison = compared(without_rates([1.0; 3]), without_rates(scales));
+        let norm = &comparison.studies[0].norms[0];
+        assert_eq!(norm.change, change, "{norm:?}");
+        assert!(norm.reason.starts_with(reason), "{}", norm.reason);
+    }
 }
 
 /// Round-off differs from machine to machine; so does what scatters.

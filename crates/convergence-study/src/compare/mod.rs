@@ -8,12 +8,13 @@
 //! 2. *Constant.* `log(e_new / e_old)` at the same step has a mean and a Student interval over the levels that are asymptotic in both records. Where the levels
 //!    differ, the old error is interpolated between its neighbours, linearly in logarithms; with Δ the change of the pairwise rate there and x the distance of
 //!    the neighbours in log h, this is off by no more than Δ x / 8 for smooth data, and twice as much is added to the interval. The errors differ
-//!    where the whole interval lies beyond 1 ± [`WITHIN`].
+//!    where the whole interval, or the ratio of every level with its doubt, lies on one side of 1 ± [`WITHIN`]; the latter for ratios that scatter too much for
+//!    a narrow interval. They are the same where the whole interval lies within; else no difference is proven.
 //! 3. *Work.* The work that the smallest error takes that both have reached, interpolated likewise, with what the interval of the errors leaves of
 //!    doubt. It differs where its whole interval lies beyond 1 ± [`WORK_WITHIN`]: seconds are no counts.
 //!
-//! An error that was there and is not finite now is worse. So is a study that passed and fails although no error of it is worse. What only one record has is
-//! named, and changes nothing. Errors that are not above the floor have no say, as everywhere.
+//! An error that was there and is negative or not finite now is worse. So is a study that passed and fails although no error of it is worse. What only one record
+//! has is named, and changes nothing. Errors that are not above the floor have no say, as everywhere.
 
 mod norm;
 mod series;

@@ -48,6 +48,8 @@ pub struct Ratio {
     pub ratio: f64,
     /// Its interval.
     pub interval: [f64; 2],
+    /// The least and the largest ratio of a level, each with its doubt; of the work the interval.
+    pub extremes: [f64; 2],
     /// Levels that it rests on.
     pub levels: usize,
 }
@@ -128,18 +130,18 @@ impl<'a> Pair<'a> {
         Norm { norm: self.name.to_owned(), change: found.0, reason: found.1, lines, error, work }
     }
 
-    /// Levels whose error was a number and is none any more.
+    /// Levels whose error was a finite number that is not negative, and is none any more.
     fn lost(&self) -> Option<(Change, String)> {
         let [old, new] = self.levels;
         let value = |levels: &[LevelRecord], level: &LevelRecord| {
             error(levels.iter().find(|known| known.parameters == level.parameters)?, self.name)
         };
+        let is_error = |value: f64| value.is_finite() && value >= 0.0;
         let lost = |level: &&LevelRecord| {
-            let now = value(new, level).filter(|now| !now.is_finite());
-            now.is_some() && value(old, level).is_some_and(f64::is_finite)
+            value(old, level).is_some_and(is_error) && value(new, level).is_some_and(|now| !is_error(now))
         };
         let lost: Vec<String> = old.iter().filter(lost).map(|level| label(&level.parameters.0)).collect();
-        (!lost.is_empty()).then(|| (Change::Worse, format!("no longer a finite number at {}", lost.join("; "))))
+        (!lost.is_empty()).then(|| (Change::Worse, format!("no longer a finite number >= 0 at {}", lost.join("; "))))
     }
 
     fn order(&self, lines: &[Option<Line>; 2]) -> Option<(Change, String)> {
@@ -174,13 +176,14 @@ impl<'a> Pair<'a> {
             return (Change::Same, format!("order the same, as far as it is known; {why}"));
         };
         let words = |what: &str| {
-            let Ratio { ratio, interval: [low, high], levels } = error;
+            let Ratio { ratio, interval: [low, high], levels, .. } = error;
             format!("{what} at the same step: {ratio:.4} times, {low:.4} to {high:.4} from {}", counted(levels))
         };
-        if error.interval[0] > within {
+        let [least, most] = error.extremes;
+        if error.interval[0] > within || least > within {
             return (Change::Worse, words("errors larger"));
         }
-        if error.interval[1] < 1.0 / within {
+        if error.interval[1] < 1.0 / within || most < 1.0 / within {
             return (Change::Better, words("errors smaller"));
         }
         match work {
@@ -190,7 +193,10 @@ impl<'a> Pair<'a> {
             Some(Ratio { ratio, interval: [_, high], .. }) if high < 1.0 / (1.0 + WORK_WITHIN) => {
                 (Change::Better, format!("the same error takes {ratio:.3} times the work"))
             }
-            _ => (Change::Same, words("errors the same")),
+            _ if error.interval[0] >= 1.0 / within && error.interval[1] <= within => {
+                (Change::Same, words("errors the same"))
+            }
+            _ => (Change::Same, words("no difference of errors is proven")),
         }
     }
 
@@ -259,7 +265,8 @@ impl<'a> Pair<'a> {
         let growth = (fine.work? / coarse.work?).ln() / (coarse.level.error / fine.level.error).ln();
         let Ratio { interval: [low, high], levels, .. } = errors?;
         let half = 0.5 * (high / low).ln() * growth.abs() + before.doubt + after.doubt;
-        Some(Ratio { ratio: log.exp(), interval: [log - half, log + half].map(f64::exp), levels })
+        let interval = [log - half, log + half].map(f64::exp);
+        Some(Ratio { ratio: log.exp(), interval, extremes: interval, levels })
     }
 }
 
@@ -276,7 +283,10 @@ fn ratio(logs: &[Between]) -> Option<Ratio> {
     };
     let doubt = logs.iter().map(|log| log.doubt).fold(0.0, f64::max);
     let ends = [mean - half - doubt, mean + half + doubt];
-    mean.is_finite().then(|| Ratio { ratio: mean.exp(), interval: ends.map(f64::exp), levels })
+    let least = logs.iter().map(|log| log.log - log.doubt).fold(f64::INFINITY, f64::min);
+    let most = logs.iter().map(|log| log.log + log.doubt).fold(f64::NEG_INFINITY, f64::max);
+    let [interval, extremes] = [ends, [least, most]].map(|ends| ends.map(f64::exp));
+    mean.is_finite().then(|| Ratio { ratio: mean.exp(), interval, extremes, levels })
 }
 
 fn counted(levels: usize) -> String {

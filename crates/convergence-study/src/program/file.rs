@@ -58,7 +58,8 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
-    let store = store(&section, &words, &directory)?.map(|files| Store::new(folder, &header.id, files));
+    let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
+    let store = kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
     let expect = expectations(root, refine.grid)?;
     Ok(Program { header, words, directory, timeout, store, refine, expect })
 }
@@ -95,9 +96,7 @@ fn words(section: &Section<'_>, names: &[&'static str]) -> Result<Vec<Word>, Inp
 }
 
 /// The files that kept results depend on; `None` where none are kept.
-///
-/// A file that the command itself names is among them, whether or not `files` lists it.
-fn store(section: &Section<'_>, words: &[Word], directory: &Path) -> Result<Option<Vec<PathBuf>>, InputError> {
+fn kept_by(section: &Section<'_>, directory: &Path) -> Result<Option<Vec<PathBuf>>, InputError> {
     let allowed = "a list of names of files, relative to the directory in which the program runs";
     let mut files = vec![];
     let field = section.get("files");
@@ -115,9 +114,6 @@ fn store(section: &Section<'_>, words: &[Word], directory: &Path) -> Result<Opti
     if files.is_empty() {
         return Err(section.refuse("cache", "true without files", "the list `files` of what a result depends on"));
     }
-    let named = words.iter().filter(|word| !word.has_placeholder()).map(|word| directory.join(word.filled(&[])));
-    let named: Vec<PathBuf> = named.filter(|path| path.is_file() && !files.contains(path)).collect();
-    files.extend(named);
     Ok(Some(files))
 }
 

@@ -13,7 +13,7 @@ use super::command::Invocation;
 use crate::store::{atomic, content_hash, regular};
 
 /// Version of the form of the files: a result of another form is not a result.
-const FORM: u32 = 1;
+const FORM: u32 = 2;
 
 /// The folder of kept results, beside the study file.
 const FOLDER: &str = ".convergence-study";
@@ -24,6 +24,8 @@ pub(super) struct Key {
     form: u32,
     /// The version of this crate, which may read an answer otherwise.
     version: String,
+    /// The folder in which the program runs, as the study file has it.
+    directory: String,
     words: Vec<String>,
     input: String,
     /// Each file with the hash of its content.
@@ -40,18 +42,20 @@ struct Kept<K, A> {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Store {
     folder: PathBuf,
+    directory: String,
     files: Vec<PathBuf>,
 }
 
 impl Store {
     /// * `folder`: that of the study file.
     /// * `id`: the study's.
-    /// * `files`: what every result depends on beside its command.
-    pub(super) fn new(folder: &Path, id: &str, files: Vec<PathBuf>) -> Self {
-        Self { folder: folder.join(FOLDER).join(id), files }
+    /// * `directory`: where the program runs, as the study file has it.
+    /// * `files`: what every result depends on beside its command and the files that this names.
+    pub(super) fn new(folder: &Path, id: &str, directory: String, files: Vec<PathBuf>) -> Self {
+        Self { folder: folder.join(FOLDER).join(id), directory, files }
     }
 
-    /// The key of a case now.
+    /// The key of a case now. A file that a word of its command names is part of it, whether or not `files` lists it.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -61,12 +65,15 @@ impl Store {
             let name = path.strip_prefix(&invocation.directory).unwrap_or(path);
             Ok((name.display().to_string(), format!("{:016x}", content_hash(&bytes))))
         };
+        let named = invocation.words.iter().map(|word| invocation.directory.join(word));
+        let named: Vec<PathBuf> = named.filter(|path| path.is_file() && !self.files.contains(path)).collect();
         Ok(Key {
             form: FORM,
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            directory: self.directory.clone(),
             words: invocation.words.clone(),
             input: invocation.input.clone(),
-            files: self.files.iter().map(hashed).collect::<io::Result<_>>()?,
+            files: self.files.iter().chain(&named).map(hashed).collect::<io::Result<_>>()?,
         })
     }
 

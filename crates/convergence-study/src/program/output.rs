@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::answer;
 use crate::text::visible::visible;
 
-/// Longest line that is looked at, in bytes; of a longer one nothing is kept.
+/// Longest line that is read whole, in bytes; of a longer one the start is kept.
 const LONGEST_LINE: usize = 1 << 20;
 
 /// Lines of standard error that are told, and the characters of each.
@@ -30,11 +30,16 @@ pub(super) struct Printed {
 pub(super) fn read_output(stream: impl Read) -> Printed {
     let mut printed = Printed::default();
     let mut last = String::new();
-    for_each_line(stream, |line| {
-        match answer::object(line) {
-            Some(Ok(object)) => (printed.object, printed.near_miss) = (Some(object), None),
-            Some(Err(reason)) => printed.near_miss = Some(reason),
-            None => {}
+    for_each_line(stream, |line, is_whole| {
+        if is_whole {
+            match answer::object(line) {
+                Some(Ok(object)) => (printed.object, printed.near_miss) = (Some(object), None),
+                Some(Err(reason)) => printed.near_miss = Some(reason),
+                None => {}
+            }
+        } else if line.trim_start().starts_with('{') {
+            // It may be the answer, and then no earlier object is.
+            (printed.object, printed.near_miss) = (None, Some("longer than 1 MiB".to_owned()));
         }
         if !line.trim().is_empty() {
             line.clone_into(&mut last);
@@ -47,7 +52,7 @@ pub(super) fn read_output(stream: impl Read) -> Printed {
 /// Reads standard error to its end and keeps its last lines that are not blank, on one line.
 pub(super) fn read_last_words(stream: impl Read) -> String {
     let mut last: VecDeque<String> = VecDeque::new();
-    for_each_line(stream, |line| {
+    for_each_line(stream, |line, _| {
         if !line.trim().is_empty() {
             last.push_back(line.to_owned());
             if last.len() > LAST_LINES {
@@ -65,11 +70,11 @@ fn shown(line: &str) -> String {
     if cut.len() < line.len() { cut + "..." } else { cut }
 }
 
-/// Calls `each` for every line, and for what follows the last line end. A stream that fails has ended.
-fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str)) {
+/// Calls `each` for every line, and for what follows the last line end, with whether the line is whole. A stream that fails has ended.
+fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
     let mut buffer = [0; 1 << 16];
     let mut line = Vec::new();
-    let mut is_too_long = false;
+    let mut is_whole = true;
     loop {
         let count = match stream.read(&mut buffer) {
             Ok(0) => break,
@@ -78,20 +83,17 @@ fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str)) {
             Err(_) => break,
         };
         for piece in buffer[..count].split_inclusive(|byte| *byte == b'\n') {
-            is_too_long |= line.len() + piece.len() > LONGEST_LINE;
-            if is_too_long {
-                line.clear();
-            } else {
-                line.extend_from_slice(piece);
-            }
+            let room = LONGEST_LINE - line.len();
+            is_whole &= piece.len() <= room;
+            line.extend_from_slice(&piece[..piece.len().min(room)]);
             if piece.ends_with(b"\n") {
-                each(&String::from_utf8_lossy(&line));
+                each(&String::from_utf8_lossy(&line), is_whole);
                 line.clear();
-                is_too_long = false;
+                is_whole = true;
             }
         }
     }
-    each(&String::from_utf8_lossy(&line));
+    each(&String::from_utf8_lossy(&line), is_whole);
 }
 
 #[cfg(test)]
@@ -114,6 +116,18 @@ mod tests {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
         let printed = read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()));
         assert_eq!(printed.object.unwrap().len(), 1);
+    }
+
+    #[test]
+    fn an_object_that_is_too_long_is_not_replaced_by_an_earlier_one() {
+        let long = |start: &str| format!("{{\"early\": 1}}\n{start}{}\"}}\n", "x".repeat(LONGEST_LINE));
+        let printed = read_output(long(" {\"mesh\": \"").as_bytes());
+        assert_eq!((printed.object, printed.near_miss.as_deref()), (None, Some("longer than 1 MiB")));
+        assert!(printed.last.is_some_and(|last| last.starts_with("{\"mesh\": \"xxx")));
+        let talk = read_output(long("mesh: ").as_bytes());
+        assert!(talk.object.is_some_and(|object| object.contains_key("early")) && talk.near_miss.is_none());
+        let fits = format!("{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n", "x".repeat(LONGEST_LINE - 10));
+        assert!(read_output(fits.as_bytes()).object.is_some_and(|object| object.contains_key("m")));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Studies of programs: this executable is the harness where `AS_PROJECT` is set, the solver where it is called as one, else the tests.
 
 #[cfg(unix)]
+mod kept;
+#[cfg(unix)]
 mod solver;
 #[cfg(unix)]
 mod tests;

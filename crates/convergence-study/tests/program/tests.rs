@@ -11,6 +11,11 @@ use convergence_study::program;
 use convergence_study::project::Project;
 use tempfile::TempDir;
 
+use crate::kept::{
+    a_kept_result_depends_on_each_file_that_its_command_names, a_kept_result_depends_on_the_directory,
+    a_killed_harness_leaves_whole_results, garbage_among_kept_results_is_computed_anew,
+    kept_results_are_used_until_something_changes,
+};
 use crate::solver;
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -35,10 +40,13 @@ const TESTS: &[Test] = &tests![
     a_killed_harness_leaves_nothing,
     an_interrupted_harness_leaves_nothing,
     kept_results_are_used_until_something_changes,
+    a_kept_result_depends_on_each_file_that_its_command_names,
+    a_kept_result_depends_on_the_directory,
     garbage_among_kept_results_is_computed_anew,
     a_killed_harness_leaves_whole_results,
     what_a_study_file_may_get_wrong_is_named,
     a_study_of_a_program_is_guarded_and_explained,
+    an_error_that_only_some_answers_have_is_guarded_there,
 ];
 
 pub(crate) fn main() -> ExitCode {
@@ -62,19 +70,20 @@ pub(crate) fn main() -> ExitCode {
 }
 
 /// A folder with the study `s.toml` of the solver in this mode; its processes are marked by the path of the folder.
-struct Place {
-    folder: TempDir,
-    more: String,
+pub(crate) struct Place {
+    pub(crate) folder: TempDir,
+    /// More keys of `[program]`.
+    pub(crate) more: String,
 }
 
 impl Place {
-    fn new(mode: &str, more: &str) -> Self {
+    pub(crate) fn new(mode: &str, more: &str) -> Self {
         let place = Self { folder: tempfile::tempdir().unwrap(), more: more.to_owned() };
         place.write(mode);
         place
     }
 
-    fn write(&self, mode: &str) {
+    pub(crate) fn write(&self, mode: &str) {
         let exe = std::env::current_exe().unwrap();
         let command =
             [exe.to_str().unwrap(), solver::COMMAND, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
@@ -88,7 +97,7 @@ impl Place {
         ));
     }
 
-    fn write_text(&self, text: &str) {
+    pub(crate) fn write_text(&self, text: &str) {
         fs::write(self.folder.path().join("s.toml"), text).unwrap();
     }
 
@@ -105,11 +114,11 @@ impl Place {
     }
 
     /// Exit status, standard output and standard error of `study s.toml` with these arguments.
-    fn study(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
+    pub(crate) fn study(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
         texts(self.command(&[&["study", "s.toml"], arguments].concat()).output().unwrap())
     }
 
-    fn start(&self) -> Child {
+    pub(crate) fn start(&self) -> Child {
         self.command(&["study", "s.toml", "--jobs", "2"]).spawn().unwrap()
     }
 
@@ -124,7 +133,7 @@ impl Place {
     }
 
     /// Waits until `so_many` processes are running.
-    fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
+    pub(crate) fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
         let start = Instant::now();
         while !so_many(self.running().len()) {
             assert!(start.elapsed() < Duration::from_secs(20), "still running: {:#?}", self.running());
@@ -132,11 +141,11 @@ impl Place {
         }
     }
 
-    fn runs(&self) -> usize {
+    pub(crate) fn runs(&self) -> usize {
         fs::read_to_string(self.folder.path().join("runs")).map_or(0, |text| text.lines().count())
     }
 
-    fn kept(&self) -> Vec<std::path::PathBuf> {
+    pub(crate) fn kept(&self) -> Vec<std::path::PathBuf> {
         let folder = self.folder.path().join(".convergence-study/s");
         let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         files.filter(|path| path.extension().is_some_and(|extension| extension == "json")).collect()
@@ -327,73 +336,6 @@ fn an_interrupted_harness_leaves_nothing() {
     place.wait_for(|running| running == 0);
 }
 
-const CACHED: &str = "files = [\"data\"]\ncache = true";
-
-fn cached(mode: &str) -> Place {
-    let mut place = Place::new(mode, "");
-    fs::write(place.folder.path().join("data"), "1").unwrap();
-    place.more = CACHED.to_owned();
-    place.write(mode);
-    place
-}
-
-fn kept_results_are_used_until_something_changes() {
-    let place = cached("count");
-    assert_eq!(place.study(&[]).0, Some(0));
-    let first = place.study(&["--format", "json"]);
-    assert_eq!((first.0, place.runs(), place.kept().len()), (Some(0), 5, 5));
-    // Another level is computed, and no other.
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
-    place.write_text(&text.replace("32, 64", "32, 64, 128"));
-    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 6));
-    // A file on which they depend.
-    fs::write(place.folder.path().join("data"), "2").unwrap();
-    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 12));
-    // What was expected has changed: kept answers are judged by what is expected now.
-    place.write_text(&text.replace("\"L2\"", "\"max\""));
-    let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("its answer has no error `max`"), "{out}");
-    // A failed case is not kept.
-    let failing = cached("status");
-    assert_eq!((failing.study(&[]).0, failing.kept().len()), (Some(1), 4));
-}
-
-fn garbage_among_kept_results_is_computed_anew() {
-    let place = cached("count");
-    assert_eq!(place.study(&[]).0, Some(0));
-    let kept = place.kept();
-    let whole = fs::read_to_string(&kept[0]).unwrap();
-    // Of another case; cut off; empty; no number; a folder.
-    fs::copy(&kept[1], &kept[0]).unwrap();
-    fs::write(&kept[1], &whole[..whole.len() / 2]).unwrap();
-    fs::write(&kept[2], "").unwrap();
-    let nan = fs::read_to_string(&kept[3]).unwrap();
-    let at = nan.find("\"L2\",").unwrap() + 5;
-    let end = at + nan[at..].find(']').unwrap();
-    fs::write(&kept[3], format!("{}null{}", &nan[..at], &nan[end..])).unwrap();
-    let (status, out, _) = place.study(&[]);
-    assert_eq!((status, place.runs()), (Some(0), 9), "{out}");
-    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 9));
-}
-
-fn a_killed_harness_leaves_whole_results() {
-    let place = cached("count");
-    for moment in [20, 60, 90, 120] {
-        let mut harness = place.start();
-        sleep(Duration::from_millis(moment));
-        harness.kill().unwrap();
-        harness.wait().unwrap();
-        for path in place.kept() {
-            let text = fs::read_to_string(&path).unwrap();
-            assert!(serde_json::from_str::<serde_json::Value>(&text).is_ok(), "{}: {text}", path.display());
-        }
-    }
-    place.wait_for(|running| running == 0);
-    let before = (place.kept().len(), place.runs());
-    assert_eq!(place.study(&[]).0, Some(0));
-    assert_eq!((place.kept().len(), place.runs()), (5, before.1 + 5 - before.0));
-}
-
 fn what_a_study_file_may_get_wrong_is_named() {
     let place = Place::new("ok", "timeout = 9");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
@@ -422,12 +364,43 @@ fn what_a_study_file_may_get_wrong_is_named() {
     }
 }
 
-fn a_study_of_a_program_is_guarded_and_explained() {
-    let place = Place::new("ok", "");
+/// A project with the study `studies/s.toml`.
+fn project(mode: &str) -> Place {
+    let place = Place::new(mode, "");
     let root = place.folder.path();
     fs::write(root.join("Cargo.toml"), "").unwrap();
     fs::create_dir(root.join("studies")).unwrap();
     fs::rename(root.join("s.toml"), root.join("studies/s.toml")).unwrap();
+    place
+}
+
+fn an_error_that_only_some_answers_have_is_guarded_there() {
+    let place = project("optional");
+    let studies = place.folder.path().join("studies");
+    let verify = |arguments: &[&str]| texts(place.command(&[&["verify"], arguments].concat()).output().unwrap());
+    fs::write(studies.join("all"), "").unwrap();
+    let (status, out, err) = verify(&["--bless"]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert_eq!(verify(&[]).0, Some(0));
+    let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
+    for (name, is_guarded) in [
+        ("error max, n = 16", true),
+        ("value lift, n = 16", true),
+        ("error max, n = 8", false),
+        ("error H1, n = 16", false),
+        ("error H1, n = 8", true),
+    ] {
+        assert_eq!(baseline.contains(&format!("\"{name}\"")), is_guarded, "{name}: {baseline}");
+    }
+    // A guarded number that is there no more.
+    fs::remove_file(studies.join("all")).unwrap();
+    let (status, out, _) = verify(&[]);
+    assert!(status == Some(1) && out.contains("error max, n = 16"), "{out}");
+}
+
+fn a_study_of_a_program_is_guarded_and_explained() {
+    let place = project("ok");
+    let root = place.folder.path();
     let run = |arguments: &[&str]| texts(place.command(arguments).output().unwrap());
     assert_eq!(run(&["verify", "--bless"]).0, Some(0));
     assert_eq!(run(&["verify"]).0, Some(0));

@@ -256,7 +256,7 @@ fn tidy(request: &Request) -> io::Result<()> {
 }
 
 /// The worst verdict of all studies; fail where the baseline differs.
-fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+pub(crate) fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{is_harmless, run, study, workspace};
+use crate::{ORDER, command, is_harmless, run, study, texts, workspace};
 
 pub(crate) fn records_are_compared_with_0_1_or_2() {
     let root = workspace(true);
@@ -100,6 +100,19 @@ pub(crate) fn changes_are_accepted_one_some_or_all_with_a_reason() {
         "{err}"
     );
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
+}
+
+pub(crate) fn a_review_fails_where_a_study_does_and_nothing_differs() {
+    let root = workspace(false);
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    for (arguments, end) in [
+        (&["review"][..], "\n\nnothing differs from the baseline\n"),
+        (&["review", "--quiet"], "\n\nfail: nothing differs from the baseline\n"),
+    ] {
+        let (status, out, _) = texts(command(root.path(), arguments).env(ORDER, "2").output().unwrap());
+        assert_eq!(status, Some(1), "{out}");
+        assert!(out.starts_with("one: fail\n  error: rate 1.000: ") && out.ends_with(end), "{out}");
+    }
 }
 
 pub(crate) fn runs_are_journaled_and_shown_as_page_and_badge() {

@@ -13,29 +13,34 @@ use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refineme
 use tempfile::TempDir;
 
 use changes::{
-    a_damaged_line_of_a_journal_is_named, changes_are_accepted_one_some_or_all_with_a_reason,
-    records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
+    a_damaged_line_of_a_journal_is_named, a_review_fails_where_a_study_does_and_nothing_differs,
+    changes_are_accepted_one_some_or_all_with_a_reason, records_are_compared_with_0_1_or_2,
+    runs_are_journaled_and_shown_as_page_and_badge,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
+
+/// The order claimed instead of 1.
+const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
 
 const PROJECT: Project = Project {
     kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }],
     ..Project::new("powers", "powers")
 };
 
-/// Errors h^exponent, claimed to be of first order.
+/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which no baseline holds.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
     let levels = Refinement::counted("n", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
+    let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let error = move |&n: &usize| Ok(vec![("error", (n as f64).powf(-exponent))]);
-    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", 1.0, 0.05)))
+    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", order, 0.05)))
 }
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 20] = [
+const TESTS: [Test; 21] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -55,6 +60,7 @@ const TESTS: [Test; 20] = [
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
+    ("a_review_fails_where_a_study_does_and_nothing_differs", a_review_fails_where_a_study_does_and_nothing_differs),
     ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
     ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),

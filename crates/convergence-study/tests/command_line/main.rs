@@ -40,7 +40,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 21] = [
+const TESTS: [Test; 22] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -57,6 +57,10 @@ const TESTS: [Test; 21] = [
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
+    (
+        "a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result",
+        a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result,
+    ),
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
@@ -415,6 +419,20 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
     let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
     assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
+}
+
+fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() {
+    let root = workspace(false);
+    let study = |out: &str| run(&root, &["study", "studies/one.toml", "--out", out, "--journal", "runs.jsonl"]);
+    fs::write(root.path().join("file"), "").unwrap();
+    let (status, out, err) = study("file");
+    assert!(status == Some(2) && out.is_empty() && err.starts_with("error: file: "), "{err}");
+    assert!(!root.path().join("runs.jsonl").exists(), "the study was run");
+    fs::create_dir(root.path().join("out")).unwrap();
+    fs::write(root.path().join("out/local"), "").unwrap();
+    let (status, out, err) = study("out");
+    assert!(status == Some(2) && err.contains("out: the reports cannot be written"), "{err}");
+    assert!(out.starts_with("one: pass") && !out.contains("report:"), "{out}");
 }
 
 fn json_is_alone_on_standard_output() {

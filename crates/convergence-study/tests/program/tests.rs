@@ -36,6 +36,7 @@ const TESTS: &[Test] = &tests![
     an_interrupted_harness_leaves_nothing,
     kept_results_are_used_until_something_changes,
     garbage_among_kept_results_is_computed_anew,
+    results_that_cannot_be_kept_are_judged,
     a_killed_harness_leaves_whole_results,
     what_a_study_file_may_get_wrong_is_named,
     a_study_of_a_program_is_guarded_and_explained,
@@ -374,6 +375,14 @@ fn garbage_among_kept_results_is_computed_anew() {
     let (status, out, _) = place.study(&[]);
     assert_eq!((status, place.runs()), (Some(0), 9), "{out}");
     assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 9));
+}
+
+fn results_that_cannot_be_kept_are_judged() {
+    let place = cached("count");
+    fs::write(place.folder.path().join(".convergence-study"), "a file, not a folder").unwrap();
+    let (status, out, _) = place.study(&[]);
+    assert_eq!((status, place.runs()), (Some(0), 5), "{out}");
+    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 10));
 }
 
 fn a_killed_harness_leaves_whole_results() {

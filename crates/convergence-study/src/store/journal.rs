@@ -201,18 +201,11 @@ mod tests {
     #[test]
     fn a_journal_that_cannot_be_made_is_refused_and_nothing_is_left() {
         let folder = tempfile::tempdir().unwrap();
-        let names = |folder: &Path| fs::read_dir(folder).unwrap().count();
         check(&folder.path().join("runs.jsonl")).unwrap();
         for name in ["none/runs.jsonl".to_owned(), "x".repeat(300)] {
             let message = check(&folder.path().join(&name)).unwrap_err().to_string();
             assert!(message.contains(&name), "{message}");
         }
-        assert_eq!(names(folder.path()), 0);
-        #[cfg(unix)]
-        {
-            let link = folder.path().join("link");
-            std::os::unix::fs::symlink(folder.path().join("none/runs.jsonl"), &link).unwrap();
-            assert!(check(&link).unwrap_err().to_string().contains("link: No such file"));
-        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

@@ -147,6 +147,13 @@ pub(crate) fn runs_are_journaled_and_shown_as_page_and_badge() {
     assert_eq!((studies.len(), pictures(0), pictures(1)), (2, 3, 3));
     assert!(page.contains("pass since run 2, in 2 runs") && page.contains("order 1"), "{page}");
     assert!(roxmltree::Document::parse(&read("out/badge.svg")).is_ok() && read("out/badge.svg").contains(">pass<"));
+    // A journal that cannot be made is refused before anything is read or run.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("none/runs.jsonl", root.path().join("link")).unwrap();
+        let (status, _, err) = run(&root, &["study", "none.toml", "--journal", "link"]);
+        assert!(status == Some(2) && err.starts_with("error: link: No such file"), "{err}");
+    }
     // The badge is that of the last run, whatever came before.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
     assert_eq!(run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0, Some(1));

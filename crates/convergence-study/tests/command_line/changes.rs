@@ -1,6 +1,7 @@
 //! What has changed since: `compare`, `review` and `history`.
 
 use std::fs;
+use std::process::Stdio;
 
 use crate::{ORDER, command, is_harmless, run, study, texts, workspace};
 
@@ -112,6 +113,32 @@ pub(crate) fn a_review_fails_where_a_study_does_and_nothing_differs() {
         let (status, out, _) = texts(command(root.path(), arguments).env(ORDER, "2").output().unwrap());
         assert_eq!(status, Some(1), "{out}");
         assert!(out.starts_with("one: fail\n  error: rate 1.000: ") && out.ends_with(end), "{out}");
+    }
+}
+
+/// Wherever their reports go, they write one baseline.
+pub(crate) fn blessings_at_once_are_all_kept() {
+    let root = workspace(false);
+    let ids: Vec<String> = (0..8).map(|k| format!("s{k}")).collect();
+    for id in &ids {
+        fs::write(root.path().join(format!("studies/{id}.toml")), study(id, "c", 1.0)).unwrap();
+    }
+    let bless = |id: &String| {
+        let mut command = command(root.path(), &["verify", "--bless", "--quiet", "--out", id, id]);
+        command.stdout(Stdio::null()).spawn().unwrap()
+    };
+    for mut run in ids.iter().map(bless).collect::<Vec<_>>() {
+        assert_eq!(run.wait().unwrap().code(), Some(0));
+    }
+    let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let missing: Vec<&String> = ids.iter().filter(|id| baseline["studies"].get(id.as_str()).is_none()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    // Another name of the folder of the project's own reports: the lock is the same, and taken once.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();
+        assert_eq!(run(&root, &["verify", "--bless", "--out", "link"]).0, Some(0));
     }
 }
 

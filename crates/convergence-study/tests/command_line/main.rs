@@ -14,8 +14,8 @@ use tempfile::TempDir;
 
 use changes::{
     a_damaged_line_of_a_journal_is_named, a_review_fails_where_a_study_does_and_nothing_differs,
-    changes_are_accepted_one_some_or_all_with_a_reason, records_are_compared_with_0_1_or_2,
-    runs_are_journaled_and_shown_as_page_and_badge,
+    blessings_at_once_are_all_kept, changes_are_accepted_one_some_or_all_with_a_reason,
+    records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -40,7 +40,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 22] = [
+const TESTS: [Test; 23] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -65,6 +65,7 @@ const TESTS: [Test; 22] = [
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
     ("a_review_fails_where_a_study_does_and_nothing_differs", a_review_fails_where_a_study_does_and_nothing_differs),
+    ("blessings_at_once_are_all_kept", blessings_at_once_are_all_kept),
     ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
     ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),

@@ -65,7 +65,7 @@ pub fn pending(
 /// # Errors
 /// [`ReviewError`].
 pub fn accept(pending: &Pending, request: &Request, accepted: &[(usize, String)]) -> Result<Vec<Change>, ReviewError> {
-    let _lock = request.lock()?;
+    let _lock = request.lock_baseline()?;
     let _writing = writing::begin();
     let mut baseline = Baseline::read(&request.baseline())?;
     let known = request.scope.known();

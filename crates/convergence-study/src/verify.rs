@@ -111,13 +111,27 @@ impl Request {
         self.root.join("studies").join("baseline.json")
     }
 
-    /// Waits for other processes that write here, and keeps them waiting.
+    /// Waits for other processes that write the baseline, and keeps them waiting. The lock is in the project, wherever the reports go.
     ///
     /// # Errors
     /// [`VerificationError::Reports`].
-    pub(crate) fn lock(&self) -> Result<File, VerificationError> {
-        let fail = |error| VerificationError::Reports { folder: self.reports.clone(), error };
-        lock(&self.reports.join("local").join("lock")).map_err(fail)
+    pub(crate) fn lock_baseline(&self) -> Result<File, VerificationError> {
+        lock_reports(&self.root.join("reports"))
+    }
+
+    /// The same for the reports, and for the baseline before them where this is a blessing.
+    fn lock(&self) -> Result<[Option<File>; 2], VerificationError> {
+        let baseline = self.bless.then(|| self.lock_baseline()).transpose()?;
+        // A second lock on the same file would wait for the first.
+        let is_held = baseline.is_some() && self.is_one_lock();
+        Ok([baseline, if is_held { None } else { Some(lock_reports(&self.reports)?) }])
+    }
+
+    /// Whether baseline and reports have the same lock. Call it with one of them held: its file is then there.
+    fn is_one_lock(&self) -> bool {
+        let [baseline, reports] =
+            [&self.root.join("reports"), &self.reports].map(|folder| lock_file(folder).canonicalize().ok());
+        baseline.is_some() && baseline == reports
     }
 }
 
@@ -169,7 +183,7 @@ pub fn verify(
     Baseline::read(&baseline_file)?;
     let folder = &request.reports;
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
-    tidy(request).map_err(fail)?;
+    tidy(request)?;
     let finished = run::run(studies, request.effort, progress)?;
 
     let _lock = request.lock()?;
@@ -230,7 +244,7 @@ pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f
 pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
     let local = folder.join("local");
     let publish = || {
-        let _lock = lock(&local.join("lock"))?;
+        let _lock = lock(&lock_file(folder))?;
         let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
         let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs, found.finished);
         target.publish(&Findings { provenance: Some(&here), ..*found }.files()?)
@@ -239,24 +253,38 @@ pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), V
 }
 
 /// Completes or removes what killed runs have left, of any scope.
-fn tidy(request: &Request) -> io::Result<()> {
+fn tidy(request: &Request) -> Result<(), VerificationError> {
     let reports = &request.reports;
     let local = reports.join("local");
     if !local.is_dir() {
         return Ok(());
     }
-    let _lock = lock(&local.join("lock"))?;
+    let _lock = request.lock()?;
     let _writing = writing::begin();
-    atomic::remove_leftovers(&request.baseline())?;
-    atomic::remove_leftovers(&local.join("provenance.json"))?;
-    let whole = |tier| Scope::Tier(tier, vec![]);
-    [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])]
-        .iter()
-        .try_for_each(|scope| scope.report_folder(reports).tidy())
+    let tidy = || {
+        // Another process may be writing the baseline where its lock is not held.
+        if request.bless || request.is_one_lock() {
+            atomic::remove_leftovers(&request.baseline())?;
+        }
+        atomic::remove_leftovers(&local.join("provenance.json"))?;
+        let whole = |tier| Scope::Tier(tier, vec![]);
+        let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
+        scopes.iter().try_for_each(|scope| scope.report_folder(reports).tidy())
+    };
+    tidy().map_err(|error| VerificationError::Reports { folder: reports.clone(), error })
+}
+
+/// Waits for other processes that write to a folder of reports, and keeps them waiting.
+fn lock_reports(folder: &Path) -> Result<File, VerificationError> {
+    lock(&lock_file(folder)).map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
+}
+
+fn lock_file(reports: &Path) -> PathBuf {
+    reports.join("local").join("lock")
 }
 
 /// The worst verdict of all studies; fail where the baseline differs.
-fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+pub(crate) fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
 }

@@ -10,8 +10,8 @@ use super::flags::Flags;
 use super::verify::{reason, scope};
 use crate::cli::running::{Limits, Watched};
 use crate::cli::{selection, workspace};
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
+use crate::report::text_of_failures;
 use crate::review::{self, Pending, describe, id};
 use crate::store::baseline::Change;
 use crate::study::{Study, Tier};
@@ -21,8 +21,8 @@ use crate::verify::Request;
 /// Run the studies and accept what differs from the baseline, one by one, with a reason
 ///
 /// Shows of each number that has moved the old value, the new one, the tolerance, the interval of a rate, and what the study claims. On a terminal each is
-/// asked for; elsewhere they are listed, and --accept takes some. The baseline keeps the reasons. Exit status 1 where something still differs. Reports are not
-/// written: that does `verify`.
+/// asked for; elsewhere they are listed, and --accept takes some. The baseline keeps the reasons. Exit status 1 where something still differs or a study
+/// does not pass. Reports are not written: that does `verify`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Tier of studies; full holds quick
@@ -83,7 +83,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         None => vec![],
     };
     let left = review::accept(&pending, &request, &accepted)?;
-    let verdict = if left.is_empty() { Verdict::Pass } else { Verdict::Fail };
+    let verdict = crate::verify::verdict(&pending.finished, &left);
     let accepted = accepted.into_iter().map(|(index, reason)| Accepted { id: id(&pending.changes[index]), reason });
     let object =
         Object { accepted: accepted.collect(), differs: left.iter().map(|change| change.to_string()).collect() };
@@ -96,12 +96,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         taken.chain(left.iter().map(|change| describe(&pending, change))).chain([format!("{sentence}\n")]).collect()
     };
     // What went wrong is said in any case.
+    let failed = text_of_failures(&pending.finished);
     let differs: String = if flags.quiet {
         left.iter().map(|change| visible(&change.to_string()) + "\n").collect()
     } else {
         String::new()
     };
-    flags.show("review", verdict, &object, &(differs + &flags.words(verdict, &sentence, whole)))?;
+    flags.show("review", verdict, &object, &(failed + &differs + &flags.words(verdict, &sentence, whole)))?;
     Ok(verdict.into())
 }
 

@@ -6,6 +6,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{tables, text_of_failures};
 use crate::run::{self, Finished};
+use crate::store::atomic;
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::visible::{self, visible};
@@ -42,6 +43,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let flags = &arguments.flags;
+    // A folder that cannot be written is found before the run.
+    flags.out.as_deref().map_or(Ok(()), atomic::prepare_folder)?;
     let watched = Watched::new(&studies, !flags.quiet);
     let effort = flags.effort(arguments.limits.case_limit);
     let finished = run::run(&studies, effort, &|progress| watched.show(progress));
@@ -51,12 +54,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
     let findings = findings(project, &finished, &command);
     let verdict = findings.verdict;
-    arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
     let passes = |finished: &Finished| finished.outcome.verdict == Verdict::Pass;
     let both = studies.iter().zip(&finished);
     let untested: Vec<Vec<Untested>> =
         both.map(|(study, finished)| if passes(finished) { study.untested() } else { vec![] }).collect();
-    let mut text = match flags.format {
+    let text = match flags.format {
         Format::Json => {
             let mut record = Record::new("files", verdict, vec![], &finished, Precision::Full);
             record.studies.iter_mut().zip(untested).for_each(|(study, untested)| study.untested = untested);
@@ -71,15 +73,17 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             texts.collect::<Vec<_>>().join("\n")
         }
     };
+    // What was found is shown first: no file that cannot be written takes it away.
+    output::print(&text)?;
+    github::announce(&findings, flags.format);
     if let Some(folder) = &flags.out {
         publish(&findings, effort.jobs.get(), folder)?;
         if flags.format == Format::Text && !flags.quiet {
             let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
-            text += &format!("\nreport: {page}, {readme}\n");
+            output::print(&format!("\nreport: {page}, {readme}\n"))?;
         }
     }
-    output::print(&text)?;
-    github::announce(&findings, flags.format);
+    arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
     Ok(verdict.into())
 }
 

@@ -45,8 +45,13 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     let naming = |error: io::Error| naming(folder, &error);
     fs::create_dir_all(folder).map_err(naming)?;
-    let probe = name_beside(&folder.join("probe"))?;
-    fs::write(&probe, "").and_then(|()| fs::remove_file(&probe)).map_err(naming)
+    probe(&folder.join("probe")).map_err(naming)
+}
+
+/// Proves that a file of this name can be made. It makes one beside it: another process may be writing the file itself.
+pub(super) fn probe(path: &Path) -> io::Result<()> {
+    let beside = name_beside(path)?;
+    fs::write(&beside, "").and_then(|()| fs::remove_file(&beside))
 }
 
 /// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use super::record::Errors;
 use super::record::form::{self, null_is_nan};
-use super::{regular, writing};
+use super::{atomic, regular, writing};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::provenance::Provenance;
@@ -142,9 +142,9 @@ impl StudyRun {
 /// # Errors
 /// [`JournalError::File`].
 pub fn check(path: &Path) -> Result<(), JournalError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let tried = match regular::open(path, OpenOptions::new().append(true)) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound && folder.is_dir() => Ok(()),
+        // A link that leads nowhere is no missing file: nothing can be made beside what it leads to.
+        Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => atomic::probe(path),
         tried => tried.map(drop),
     };
     tried.map_err(|error| JournalError::File { path: path.to_owned(), error })
@@ -190,4 +190,22 @@ pub fn read(path: &Path) -> Result<Vec<Run>, JournalError> {
         runs.push(run);
     }
     if runs.is_empty() { Err(JournalError::Empty { path: path.to_owned() }) } else { Ok(runs) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_journal_that_cannot_be_made_is_refused_and_nothing_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        check(&folder.path().join("runs.jsonl")).unwrap();
+        for name in ["none/runs.jsonl".to_owned(), "x".repeat(300)] {
+            let message = check(&folder.path().join(&name)).unwrap_err().to_string();
+            assert!(message.contains(&name), "{message}");
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
 }

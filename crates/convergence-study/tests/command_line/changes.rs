@@ -1,8 +1,9 @@
 //! What has changed since: `compare`, `review` and `history`.
 
 use std::fs;
+use std::process::Stdio;
 
-use crate::{is_harmless, run, study, workspace};
+use crate::{ORDER, command, is_harmless, run, study, texts, workspace};
 
 pub(crate) fn records_are_compared_with_0_1_or_2() {
     let root = workspace(true);
@@ -102,6 +103,45 @@ pub(crate) fn changes_are_accepted_one_some_or_all_with_a_reason() {
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
 }
 
+pub(crate) fn a_review_fails_where_a_study_does_and_nothing_differs() {
+    let root = workspace(false);
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    for (arguments, end) in [
+        (&["review"][..], "\n\nnothing differs from the baseline\n"),
+        (&["review", "--quiet"], "\n\nfail: nothing differs from the baseline\n"),
+    ] {
+        let (status, out, _) = texts(command(root.path(), arguments).env(ORDER, "2").output().unwrap());
+        assert_eq!(status, Some(1), "{out}");
+        assert!(out.starts_with("one: fail\n  error: rate 1.000: ") && out.ends_with(end), "{out}");
+    }
+}
+
+/// Wherever their reports go, they write one baseline.
+pub(crate) fn blessings_at_once_are_all_kept() {
+    let root = workspace(false);
+    let ids: Vec<String> = (0..8).map(|k| format!("s{k}")).collect();
+    for id in &ids {
+        fs::write(root.path().join(format!("studies/{id}.toml")), study(id, "c", 1.0)).unwrap();
+    }
+    let bless = |id: &String| {
+        let mut command = command(root.path(), &["verify", "--bless", "--quiet", "--out", id, id]);
+        command.stdout(Stdio::null()).spawn().unwrap()
+    };
+    for mut run in ids.iter().map(bless).collect::<Vec<_>>() {
+        assert_eq!(run.wait().unwrap().code(), Some(0));
+    }
+    let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let missing: Vec<&String> = ids.iter().filter(|id| baseline["studies"].get(id.as_str()).is_none()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    // Another name of the folder of the project's own reports: the lock is the same, and taken once.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();
+        assert_eq!(run(&root, &["verify", "--bless", "--out", "link"]).0, Some(0));
+    }
+}
+
 pub(crate) fn runs_are_journaled_and_shown_as_page_and_badge() {
     let root = workspace(true);
     let read = |name: &str| fs::read_to_string(root.path().join(name)).unwrap();
@@ -134,6 +174,13 @@ pub(crate) fn runs_are_journaled_and_shown_as_page_and_badge() {
     assert_eq!((studies.len(), pictures(0), pictures(1)), (2, 3, 3));
     assert!(page.contains("pass since run 2, in 2 runs") && page.contains("order 1"), "{page}");
     assert!(roxmltree::Document::parse(&read("out/badge.svg")).is_ok() && read("out/badge.svg").contains(">pass<"));
+    // A journal that cannot be made is refused before anything is read or run.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("none/runs.jsonl", root.path().join("link")).unwrap();
+        let (status, _, err) = run(&root, &["study", "none.toml", "--journal", "link"]);
+        assert!(status == Some(2) && err.starts_with("error: link: No such file"), "{err}");
+    }
     // The badge is that of the last run, whatever came before.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
     assert_eq!(run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0, Some(1));

@@ -13,29 +13,34 @@ use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refineme
 use tempfile::TempDir;
 
 use changes::{
-    a_damaged_line_of_a_journal_is_named, changes_are_accepted_one_some_or_all_with_a_reason,
+    a_damaged_line_of_a_journal_is_named, a_review_fails_where_a_study_does_and_nothing_differs,
+    blessings_at_once_are_all_kept, changes_are_accepted_one_some_or_all_with_a_reason,
     records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
+
+/// The order claimed instead of 1.
+const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
 
 const PROJECT: Project = Project {
     kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }],
     ..Project::new("powers", "powers")
 };
 
-/// Errors h^exponent, claimed to be of first order.
+/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which no baseline holds.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
     let levels = Refinement::counted("n", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
+    let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let error = move |&n: &usize| Ok(vec![("error", (n as f64).powf(-exponent))]);
-    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", 1.0, 0.05)))
+    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", order, 0.05)))
 }
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 20] = [
+const TESTS: [Test; 23] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -52,9 +57,15 @@ const TESTS: [Test; 20] = [
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
     ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
+    (
+        "a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result",
+        a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result,
+    ),
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("changes_are_accepted_one_some_or_all_with_a_reason", changes_are_accepted_one_some_or_all_with_a_reason),
+    ("a_review_fails_where_a_study_does_and_nothing_differs", a_review_fails_where_a_study_does_and_nothing_differs),
+    ("blessings_at_once_are_all_kept", blessings_at_once_are_all_kept),
     ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
     ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
@@ -409,6 +420,20 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
     let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
     assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
+}
+
+fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() {
+    let root = workspace(false);
+    let study = |out: &str| run(&root, &["study", "studies/one.toml", "--out", out, "--journal", "runs.jsonl"]);
+    fs::write(root.path().join("file"), "").unwrap();
+    let (status, out, err) = study("file");
+    assert!(status == Some(2) && out.is_empty() && err.starts_with("error: file: "), "{err}");
+    assert!(!root.path().join("runs.jsonl").exists(), "the study was run");
+    fs::create_dir(root.path().join("out")).unwrap();
+    fs::write(root.path().join("out/local"), "").unwrap();
+    let (status, out, err) = study("out");
+    assert!(status == Some(2) && err.contains("out: the reports cannot be written"), "{err}");
+    assert!(out.starts_with("one: pass") && !out.contains("report:"), "{out}");
 }
 
 fn json_is_alone_on_standard_output() {

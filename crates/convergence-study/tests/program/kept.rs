@@ -98,3 +98,11 @@ pub(crate) fn a_killed_harness_leaves_whole_results() {
     assert_eq!(place.study(&[]).0, Some(0));
     assert_eq!((place.kept().len(), place.runs()), (5, before.1 + 5 - before.0));
 }
+
+pub(crate) fn results_that_cannot_be_kept_are_judged() {
+    let place = cached("count");
+    fs::write(place.folder.path().join(".convergence-study"), "a file, not a folder").unwrap();
+    let (status, out, _) = place.study(&[]);
+    assert_eq!((status, place.runs()), (Some(0), 5), "{out}");
+    assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 10));
+}

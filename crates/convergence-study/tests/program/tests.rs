@@ -14,7 +14,7 @@ use tempfile::TempDir;
 use crate::kept::{
     a_kept_result_depends_on_each_file_that_its_command_names, a_kept_result_depends_on_the_directory,
     a_killed_harness_leaves_whole_results, garbage_among_kept_results_is_computed_anew,
-    kept_results_are_used_until_something_changes,
+    kept_results_are_used_until_something_changes, results_that_cannot_be_kept_are_judged,
 };
 use crate::solver;
 
@@ -43,6 +43,7 @@ const TESTS: &[Test] = &tests![
     a_kept_result_depends_on_each_file_that_its_command_names,
     a_kept_result_depends_on_the_directory,
     garbage_among_kept_results_is_computed_anew,
+    results_that_cannot_be_kept_are_judged,
     a_killed_harness_leaves_whole_results,
     what_a_study_file_may_get_wrong_is_named,
     a_study_of_a_program_is_guarded_and_explained,

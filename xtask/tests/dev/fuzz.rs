@@ -1,4 +1,4 @@
-//! `fuzz`, with a cargo whose test says what it is told to.
+//! `fuzz`, with a cargo whose test prints what the case asks for.
 
 use std::fs;
 use std::path::{Path, PathBuf};

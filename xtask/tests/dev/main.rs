@@ -1,13 +1,17 @@
 //! The developers' tools as scripts use them, with programs that only pretend.
 #![cfg(unix)]
 
+#[path = "../../../crates/thermobeam-cli/tests/command/ended.rs"]
+mod ended;
 mod fuzz;
 mod mutants;
 mod regressions;
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
+
+use ended::{Ended, ended};
 
 /// Writes a program of the test's own.
 fn program(path: &Path, text: &str) {
@@ -18,19 +22,4 @@ fn program(path: &Path, text: &str) {
 /// The program, to be given arguments.
 fn xtask() -> Command {
     Command::new(env!("CARGO_BIN_EXE_xtask"))
-}
-
-/// What a command left behind.
-struct Ended {
-    status: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
-fn ended(command: &mut Command) -> Ended {
-    let Output { status, stdout, stderr } = command.output().expect("the program starts");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    let ended = Ended { status: status.code(), stdout: text(stdout), stderr: text(stderr) };
-    assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
-    ended
 }

@@ -1,4 +1,4 @@
-//! `mutants`, with a cargo-mutants that does as it is told.
+//! `mutants`, with a cargo-mutants whose answers the test sets.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -54,10 +54,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
     let findings = findings(project, &finished, &command);
     let verdict = findings.verdict;
-    let passes = |finished: &Finished| finished.outcome.verdict == Verdict::Pass;
-    let both = studies.iter().zip(&finished);
-    let untested: Vec<Vec<Untested>> =
-        both.map(|(study, finished)| if passes(finished) { study.untested() } else { vec![] }).collect();
+    // Looked for only where it is shown.
+    let untested = studies.iter().zip(&finished).map(|(study, finished)| -> Vec<Untested> {
+        if finished.outcome.verdict == Verdict::Pass { study.untested() } else { vec![] }
+    });
     let text = match flags.format {
         Format::Json => {
             let mut record = Record::new("files", verdict, vec![], &finished, Precision::Full);
@@ -68,9 +68,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
         }
         Format::Text => {
-            let texts =
-                finished.iter().zip(&untested).map(|(finished, untested)| text(finished) + &no_test_of(untested));
-            texts.collect::<Vec<_>>().join("\n")
+            let texts = finished.iter().zip(untested);
+            texts.map(|(finished, untested)| text(finished) + &no_test_of(&untested)).collect::<Vec<_>>().join("\n")
         }
     };
     // What was found is shown first: no file that cannot be written takes it away.

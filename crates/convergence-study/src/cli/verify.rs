@@ -70,12 +70,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     watched.clear();
     let verification = verification?;
     let command = request.scope.command(project);
-    arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
+    // What was found is shown first: a journal that cannot be written does not take it away.
     output::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments),
         Format::Json => record::json(&verification.record(&request.scope))?,
     })?;
-    github::announce(&verification.findings(project, &request.scope, &request.scope.command(project)), flags.format);
+    github::announce(&verification.findings(project, &request.scope, &command), flags.format);
+    arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
     Ok(verification.verdict.into())
 }
 

@@ -74,7 +74,7 @@ impl Change {
     }
 }
 
-/// How differences are told from none.
+/// When two numbers count as different.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     judge: Judge,
@@ -124,7 +124,7 @@ pub struct Study {
     pub notes: Vec<String>,
 }
 
-/// Compares two records; studies are told apart by their ids.
+/// Compares two records; studies are matched by their ids.
 pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
     let find = |record: &'_ Record, id: &str| record.studies.iter().position(|study| study.id == id);
     let both = new.studies.iter().filter_map(|study| Some((&old.studies[find(old, &study.id)?], study)));

@@ -49,7 +49,7 @@ pub(super) struct Refine {
     pub(super) grid: bool,
 }
 
-/// One case: what identifies it, and what it is told.
+/// One case: what identifies it, and what its program receives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
     /// As in `[refine]`, such as `n = 8`.
@@ -132,7 +132,7 @@ impl Resolution {
         Refinement { label: self.label.clone(), parameters, step }
     }
 
-    /// All that the case is told, as one JSON object on one line; whole numbers have no point.
+    /// All that the program receives, as one JSON object on one line; whole numbers have no point.
     pub(super) fn json(&self) -> String {
         let entries: Vec<String> = self.told.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
         format!("{{{}}}\n", entries.join(", "))

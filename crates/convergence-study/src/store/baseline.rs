@@ -32,6 +32,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
+use crate::store::record::form::null_is_nan;
 use crate::store::{atomic, regular};
 use crate::study::Header;
 use crate::text::visible;
@@ -73,10 +74,6 @@ pub struct Guarded {
 #[derive(Deserialize)]
 struct Version {
     schema: u32,
-}
-
-fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 /// A baseline that cannot be read or written.

@@ -47,15 +47,22 @@ pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(S
     Ok((scene, Planned { quantity, target, choice }))
 }
 
+/// What was asked for and what is expected, by whatever scheme.
+#[derive(Debug, Serialize)]
+pub(super) struct Expected {
+    pub(super) quantity: &'static str,
+    pub(super) target_error: f64,
+    /// The error that the run is estimated to have made.
+    pub(super) believed_error: f64,
+    pub(super) space_error: f64,
+    pub(super) time_error: f64,
+}
+
 /// The key `accuracy` of the JSON object.
 #[derive(Debug, Serialize)]
 pub(super) struct Object {
-    quantity: &'static str,
-    target_error: f64,
-    /// The error that the run is estimated to have made.
-    believed_error: f64,
-    space_error: f64,
-    time_error: f64,
+    #[serde(flatten)]
+    expected: Expected,
     confidence: &'static str,
     node_steps: f64,
     pilot_node_steps: f64,
@@ -66,11 +73,13 @@ impl Planned {
     pub(super) fn object(&self) -> Object {
         let choice = &self.choice;
         Object {
-            quantity: self.quantity.name(),
-            target_error: self.target,
-            believed_error: choice.expected_error,
-            space_error: choice.parts[0],
-            time_error: choice.parts[1],
+            expected: Expected {
+                quantity: self.quantity.name(),
+                target_error: self.target,
+                believed_error: choice.expected_error,
+                space_error: choice.parts[0],
+                time_error: choice.parts[1],
+            },
             confidence: match choice.trust {
                 Trust::Firm => "firm",
                 Trust::Loose => "loose",

@@ -5,7 +5,7 @@ use thermobeam_study::predict::any_order::{Choice, Unreachable, choose};
 use thermobeam_study::run::any_order::AnyOrderRun;
 use thermobeam_study::scene::any_order::AnyOrderScene;
 
-use super::accuracy::Quantity;
+use super::accuracy::{Expected, Quantity};
 
 /// Why no run was chosen.
 pub(super) enum NotChosen {
@@ -41,12 +41,9 @@ pub(super) fn choose_any_order(
 /// The key `accuracy` of the JSON object.
 #[derive(Debug, Serialize)]
 pub(super) struct Object {
-    quantity: &'static str,
-    target_error: f64,
-    /// The error that the run is estimated to have made: the sum of the two below.
-    believed_error: f64,
-    space_error: f64,
-    time_error: f64,
+    /// The error expected is the sum of its parts.
+    #[serde(flatten)]
+    expected: Expected,
     nodes: Vec<f64>,
     unknown_solves: f64,
     pilot_unknown_solves: f64,
@@ -62,11 +59,13 @@ impl PlannedAnyOrder {
     pub(super) fn object(&self) -> Object {
         let choice = &self.choice;
         Object {
-            quantity: "tip",
-            target_error: self.target,
-            believed_error: choice.expected_error(),
-            space_error: choice.space,
-            time_error: choice.time,
+            expected: Expected {
+                quantity: "tip",
+                target_error: self.target,
+                believed_error: choice.expected_error(),
+                space_error: choice.space,
+                time_error: choice.time,
+            },
             nodes: choice.scene.mesh.nodes().to_vec(),
             unknown_solves: choice.run.unknown_solves,
             pilot_unknown_solves: choice.checks.unknown_solves,

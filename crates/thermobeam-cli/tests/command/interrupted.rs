@@ -31,7 +31,7 @@ fn interrupted(command: &mut Command, after: Duration) -> Ended {
 }
 
 /// The command, in whose process an interruption is not ignored. Shells have the jobs that they put into the background
-/// ignore it, and processes inherit that; a program that is told to ignore it does, as it should.
+/// ignore it, and processes inherit that; a program that is to ignore it does, as it should.
 fn listening(command: &Command) -> Command {
     let mut listening = Command::new("env");
     if is_deaf() {

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod any_order;
+mod ended;
 mod equilibria;
 mod failure;
 mod first_steps;
@@ -16,8 +17,10 @@ mod sweep;
 mod workspace;
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+use ended::{Ended, ended};
 
 /// A folder of one test, removed at its end.
 struct Folder(PathBuf);
@@ -52,21 +55,6 @@ impl Drop for Folder {
 /// The program, to be given arguments.
 fn thermobeam() -> Command {
     Command::new(env!("CARGO_BIN_EXE_thermobeam"))
-}
-
-/// What a command left behind.
-struct Ended {
-    status: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
-fn ended(command: &mut Command) -> Ended {
-    let Output { status, stdout, stderr } = command.output().expect("the program starts");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    let ended = Ended { status: status.code(), stdout: text(stdout), stderr: text(stderr) };
-    assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
-    ended
 }
 
 /// `run SCENE --format json`, parsed.

@@ -24,11 +24,11 @@ use convergence_study::study::levels::completion;
 use convergence_study::study::{
     Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Table, reader,
 };
-use convergence_study::text::number::max_or_nan;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::scheme::MIDPOINT;
 use thermobeam::solve::Settings;
 
+use crate::error::curve::distance;
 use crate::run::any_order_time::{REFERENCE, by, finished};
 use crate::run::family::Family;
 use crate::scene::{Scene, limits};
@@ -130,7 +130,7 @@ impl AnyOrderCost {
         let stages = (scene.stepping.degree + 1) as f64;
         let blocks = (scene.mesh.elements() * (1 + 2 * (scene.degree / 2)) + 1) as f64;
         let solves = run.work.solves as f64 + 3.0 * stages * run.work.factorizations as f64;
-        Ok((run.history.iter().map(|state| state.u_tip).collect(), blocks * stages * stages * solves))
+        Ok((run.tip(), blocks * stages * stages * solves))
     }
 }
 
@@ -155,14 +155,10 @@ impl Kind for AnyOrderCost {
     fn run(&self, way: &Way) -> Result<Point, CaseFailure> {
         let exact =
             self.exact.get_or_init(|| self.tip(REFERENCE).map(|(tip, _)| tip)).as_ref().map_err(Clone::clone)?;
-        let against = |tip: &[f64]| {
-            let pairs = tip.iter().zip(exact);
-            pairs.map(|(a, b)| (a - b).abs()).fold(if tip.len() == exact.len() { 0.0 } else { f64::NAN }, max_or_nan)
-        };
         match *way {
             Way::AnyOrder(p, q, dt) => {
                 let (tip, work) = self.tip((p, q, dt))?;
-                Ok(Point { error: against(&tip), work })
+                Ok(Point { error: distance(&tip, exact), work })
             }
             Way::Midpoint(elements, steps) => {
                 let family = Family::of_scene(&self.scene);
@@ -173,7 +169,7 @@ impl Kind for AnyOrderCost {
                     run.advance(steps / OBSERVED)?;
                     tip.push(run.level().u[elements]);
                 }
-                Ok(Point { error: against(&tip), work: run.spent().node_solves })
+                Ok(Point { error: distance(&tip, exact), work: run.spent().node_solves })
             }
         }
     }

@@ -30,9 +30,10 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
 use thiserror::Error;
 
+use crate::error::curve::distance;
 use crate::scene::any_order::AnyOrderScene;
 pub use budget::{Budget, Estimate, Source, estimate};
-use sampled::{Curves, Sampled, distance, sample, times};
+use sampled::{Curves, Sampled, sample, times};
 
 /// Share of the target that each of the two differences may take.
 const SHARE: f64 = 0.5;

@@ -15,10 +15,10 @@
 mod report;
 mod runs;
 
+use crate::error::curve::distance;
 use crate::run::driver::RunError;
 use crate::scene::Scene;
 use convergence_study::judge::richardson::error_and_rate;
-use convergence_study::text::number::max_or_nan;
 use runs::{Reading, Runs};
 use thiserror::Error;
 
@@ -164,12 +164,4 @@ fn of((name, read): Observable, scene: &Scene, runs: &Runs) -> Estimate {
     // A NaN must stay a NaN.
     let round_off = if moved < summed { summed } else { moved };
     Estimate { name, value, errors: [space, time, distance(&own, &tight), round_off], rates: [space_rate, time_rate] }
-}
-
-/// Largest difference; NaN where there is one, or where the curves do not match.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    if a.len() != b.len() {
-        return f64::NAN;
-    }
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
 }

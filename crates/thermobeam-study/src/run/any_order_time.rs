@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use convergence_study::study::{CaseFailure, Table};
-use convergence_study::text::number::max_or_nan;
 use thermobeam::dg::Stepping;
 use thermobeam::mesh::Mesh;
 
 use super::any_order::{AnyOrderRun, run_at};
+use crate::error::curve::distance;
 use crate::scene::Scene;
 use crate::scene::any_order::AnyOrderScene;
 
@@ -47,12 +47,12 @@ const COARSE: f64 = 0.02;
 /// [`CaseFailure`] of a run that does not come to its end.
 pub fn times(scene: &Scene, t_end: f64) -> Result<Table, CaseFailure> {
     let exact = finished(&by(scene, REFERENCE, t_end)?, TIMES)?;
+    let exact_tip = exact.tip();
     let mut rows = vec![];
     for way in WAYS {
         let scene = by(scene, way, t_end)?;
         let found = finished(&scene, TIMES)?;
-        let pairs = found.history.iter().zip(&exact.history);
-        let over_time = pairs.map(|(a, b)| (a.u_tip - b.u_tip).abs()).fold(0.0, max_or_nan);
+        let over_time = distance(&found.tip(), &exact_tip);
         let at_end = (found.ends[1].u_tip - exact.ends[1].u_tip).abs();
         let mut best = Duration::MAX;
         for _ in 0..REPEATS {

@@ -7,7 +7,7 @@ use convergence_study::study::{CaseFailure, Kind, Outcome, Ran};
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
 
-/// The results with what every case found changed by `change`, which is told the number of the case.
+/// The results with what every case found changed by `change`, which receives the number of the case.
 pub(crate) fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
 where
     K::Data: Clone,

@@ -36,7 +36,7 @@ fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
 fn planted_defects_fail() {
     let study = quick();
     let honest = run_cases_here(&study);
-    // The defect is told the number of steps.
+    // The defect depends on the number of steps.
     let plant = |only: &str, defect: &dyn Fn(usize, &mut Measurement)| {
         let mut planted = honest.clone();
         for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with(only)) {

@@ -20,7 +20,7 @@ use convergence_study::study::{
     Case, CaseFailure, Check, FromFile, Header, Kind, KindRow, Outcome, Ran, Table, reader,
 };
 
-use super::percent;
+use super::{percent, seed, share};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -49,14 +49,11 @@ impl FromFile for BarCalibration {
         let allowed = "a table with samples, seed, coverage, coverage_each, refused and width";
         let section = root.require("bars", allowed)?.section()?;
         section.allow(&["samples", "seed", "coverage", "coverage_each", "refused", "width"])?;
-        let share = |key: &str| {
-            let allowed = "a number between 0 and 1";
-            section.require(key, allowed)?.number_where(allowed, |share| share > 0.0 && share < 1.0)
-        };
+        let share = |key: &str| share(&section, key);
         Ok(Self {
             header,
             samples: section.require("samples", "a number of samples of each law")?.count(20..=100_000)?,
-            seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
+            seed: seed(&section)?,
             coverage: share("coverage")?,
             coverage_each: share("coverage_each")?,
             refused: share("refused")?,

@@ -73,20 +73,27 @@ pub struct RuleCalibration {
     laws: Laws,
 }
 
+/// A bound of the calibrations: a share of their samples.
+fn share(section: &Section<'_>, key: &str) -> Result<f64, InputError> {
+    let allowed = "a number between 0 and 1";
+    section.require(key, allowed)?.number_where(allowed, |share| share > 0.0 && share < 1.0)
+}
+
+fn seed(section: &Section<'_>) -> Result<u64, InputError> {
+    Ok(section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64)
+}
+
 impl FromFile for RuleCalibration {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "calibration", "laws"])?;
         let allowed = "a table with samples, seed, false_pass, false_fail and coverage";
         let section = root.require("calibration", allowed)?.section()?;
         section.allow(&["samples", "seed", "false_pass", "false_fail", "coverage"])?;
-        let share = |key: &str| {
-            let allowed = "a number between 0 and 1";
-            section.require(key, allowed)?.number_where(allowed, |share| share > 0.0 && share < 1.0)
-        };
+        let share = |key: &str| share(&section, key);
         Ok(Self {
             header,
             samples: section.require("samples", "a number of samples")?.count(1000..=10_000_000)?,
-            seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
+            seed: seed(&section)?,
             false_pass: share("false_pass")?,
             false_fail: share("false_fail")?,
             coverage: share("coverage")?,

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{Curves, Sampled, distance, finer_space, finer_steps, impact, sample, times};
+use super::{Curves, Sampled, finer_space, finer_steps, impact, sample, times};
+use crate::error::curve::distance;
 use crate::scene::any_order::AnyOrderScene;
 
 /// Where an error comes from.

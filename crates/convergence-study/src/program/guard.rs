@@ -215,26 +215,90 @@ mod unix {
     pub(super) fn kill_marked(mark: &str) {
         let mark = format!("{MARK}={mark}");
         for _ in 0..MOST_ROUNDS {
-            let marked = marked(mark.as_bytes());
-            if marked.is_empty() {
+            let found: Vec<(Pid, Environment)> = processes_but_those_without(mark.as_bytes());
+            if found.is_empty() {
                 return;
             }
-            for process in marked {
-                let _ = nix::sys::signal::kill(process, Signal::SIGKILL);
+            for (process, _) in found.iter().filter(|(_, environment)| *environment == Environment::HasIt) {
+                let _ = nix::sys::signal::kill(*process, Signal::SIGKILL);
             }
             thread::sleep(Duration::from_millis(1));
         }
     }
 
-    /// The running processes with this variable in their environment; none where there is no `/proc`.
-    fn marked(variable: &[u8]) -> Vec<Pid> {
+    /// Whether a variable is in the environment of a process.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    enum Environment {
+        HasIt,
+        LacksIt,
+        /// The process is between two programs: it has left the old environment and does not have the new one yet.
+        NotKnownYet,
+    }
+
+    /// The running processes that have this variable in their environment, or may have it; none where there is no `/proc`.
+    fn processes_but_those_without(variable: &[u8]) -> Vec<(Pid, Environment)> {
         let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
         let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
-        // The environment of a process that has ended is empty, and that of another user's cannot be read.
-        let has_mark = |process: &i32| {
-            let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
-            environment.split(|byte| *byte == 0).any(|entry| entry == variable)
-        };
-        entries.filter_map(number).filter(has_mark).map(Pid::from_raw).collect()
+        let looked_at = entries.filter_map(number).map(|process: i32| (Pid::from_raw(process), look(process, variable)));
+        looked_at.filter(|(_, environment)| *environment != Environment::LacksIt).collect()
+    }
+
+    fn look(process: i32, variable: &[u8]) -> Environment {
+        // That of another user's process cannot be read.
+        let Ok(environment) = fs::read(format!("/proc/{process}/environ")) else { return Environment::LacksIt };
+        if environment.split(|byte| *byte == 0).any(|entry| entry == variable) {
+            return Environment::HasIt;
+        }
+        let stat = || fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+        let may_have_it = environment.is_empty() && !is_empty_for_good(&stat());
+        if may_have_it { Environment::NotKnownYet } else { Environment::LacksIt }
+    }
+
+    /// Whether a process whose environment was read as empty has none: it has ended or has no memory of its own, or its program was
+    /// started without. While a program is being started, the bounds of its environment are 0.
+    ///
+    /// * `stat`: the line of `/proc/PID/stat`; empty when the process is gone.
+    fn is_empty_for_good(stat: &str) -> bool {
+        // The name, in parentheses, may hold anything; the state after it is field 3 in proc(5).
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+        let field = |number: usize| fields.get(number - 3).and_then(|field| field.parse::<u64>().ok()).unwrap_or(0);
+        let [memory, start, end] = [23, 50, 51].map(field);
+        memory == 0 || (end != 0 && start == end)
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::super::{MARK, new_mark};
+        use super::{is_empty_for_good, kill_marked};
+        use std::os::unix::process::{CommandExt, ExitStatusExt};
+        use std::process::Command;
+
+        /// The moment between two programs is short: some of these are met in it.
+        #[test]
+        #[cfg(target_os = "linux")]
+        fn a_process_is_found_from_the_moment_that_it_is_started() {
+            for _ in 0..50 {
+                let mark = new_mark();
+                let mut child =
+                    Command::new("sleep").arg("5").env(MARK, &mark).process_group(0).spawn().expect("a process");
+                kill_marked(&mark);
+                let status = child.wait().expect("its end");
+                assert_eq!(status.signal(), Some(9), "{status}");
+            }
+        }
+
+        #[test]
+        fn an_environment_is_empty_for_good_where_a_program_has_none() {
+            let stat = |memory: u64, start: u64, end: u64| {
+                let zeros = |count: usize| vec!["0"; count].join(" ");
+                format!("7 (a) b) R {} {memory} {} {start} {end} 0\n", zeros(19), zeros(26))
+            };
+            for (memory, start, end, is_empty) in
+                [(4096, 0, 0, false), (4096, 70, 90, false), (4096, 70, 70, true), (0, 0, 0, true)]
+            {
+                assert_eq!(is_empty_for_good(&stat(memory, start, end)), is_empty, "{memory} {start} {end}");
+            }
+            assert!(is_empty_for_good(""));
+        }
     }
 }

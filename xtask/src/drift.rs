@@ -19,11 +19,12 @@ use convergence_study::study::outcome::Table;
 
 use crate::PROJECT;
 
+use convergence_study::cli::long::LongRun;
 use convergence_study::cli::{output, screen, selection, workspace};
 
 /// Compare the guarded numbers of other builds and thread counts with this one's
 ///
-/// Builds this project three times and runs the tier six times: some minutes.
+/// Builds this project three times and runs the tier six times, which takes minutes; says at the beginning how many the last one took.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Tier of the studies
@@ -146,14 +147,14 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let files: Vec<PathBuf> =
         files.into_iter().filter(|file| file.study.header().tier <= arguments.tier).map(|file| file.path).collect();
     let own = env::current_exe()?;
+    let reported = root.join("reports/drift.md");
+    let clock = LongRun::begin("three builds, and the tier by six programs", &reported, false);
     let ours = numbers_of(&own, SHIPPED.jobs, &files)?;
     let mut rows = vec![];
     let mut kept = ours.not_passing.is_empty();
     let variants: Vec<&Variant> =
         VARIANTS.iter().filter(|variant| variant.build.is_none() || cfg!(target_arch = "x86_64")).collect();
-    output::tell(&format!("{} variants, three of them built first: some minutes", variants.len()));
     for (k, variant) in variants.iter().enumerate() {
-        output::tell(&format!("{} of {}: {}", k + 1, variants.len(), variant.name));
         let program = match variant.build {
             None => own.clone(),
             Some(how) => build(&root, how, &root.join("target").join(variant.folder))?,
@@ -163,15 +164,15 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let good = distance.is_kept(variant.same_bits) && theirs.not_passing == ours.not_passing;
         kept &= good;
         rows.push(row(variant, &distance, &theirs.not_passing, good));
+        clock.done(&format!("{} of {}: {}", k + 1, variants.len(), variant.name));
     }
     let head = ["variant", "promised", "same bits", "median", "largest", "largest / tolerance", "of", "verdict"];
     let title = "Guarded numbers against those of the release on one thread".to_owned();
     let table = Table { title, head: head.map(str::to_owned).to_vec(), rows };
     output::print(&screen::table(&head, &table.rows))?;
     if arguments.write {
-        let file = root.join("reports/drift.md");
-        atomic::write(&file, page(&root, &table))?;
-        output::print(&format!("written to {}\n", file.display()))?;
+        atomic::write(&reported, page(&root, &table, &clock.took()))?;
+        output::print(&format!("written to {}\n", reported.display()))?;
     }
     Ok(if kept { Ended::Well } else { Ended::Badly })
 }
@@ -195,11 +196,11 @@ fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: boo
     ]
 }
 
-fn page(root: &Path, table: &Table) -> String {
+fn page(root: &Path, table: &Table, took: &str) -> String {
     let machine = provenance::Provenance::collect(root, "cargo xtask dev drift --write".to_owned(), 1, &[]);
     format!(
         "# Drift\n\nWritten by `cargo xtask dev drift --write` on {}, {}. Differences are relative; `median` is that of the numbers that \
-         differ.\n\n## {}\n\n{}",
+         differ. {took}\n\n## {}\n\n{}",
         machine.cpu.as_deref().unwrap_or("an unknown CPU"),
         machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
         table.title,

@@ -13,12 +13,13 @@ use convergence_study::store::atomic;
 use convergence_study::study::outcome::Table;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::long::LongRun;
 use convergence_study::cli::{output, screen, workspace};
 
 /// The test that damages files.
 const TEST: &str = "damaged_files_are_read_or_refused_with_their_place";
 
-/// Feed damaged files to every reader: does each refuse with a message, or panic or hang? Writes reports/fuzz.md
+/// Feed damaged files to every reader: does each refuse with a message, or panic or hang?
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Damaged files
@@ -27,6 +28,9 @@ pub(crate) struct Arguments {
     /// Number of the first; each is made from its number alone
     #[arg(long, value_name = "N", default_value_t = 0)]
     first: u64,
+    /// Write reports/fuzz.md
+    #[arg(long)]
+    write: bool,
 }
 
 /// What became of the inputs of one kind.
@@ -77,6 +81,8 @@ impl Tally {
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
+    let reported = root.join("reports/fuzz.md");
+    let clock = LongRun::begin(&format!("{} damaged files", arguments.inputs), &reported, false);
     let (tallies, passed) = damage(&root, arguments)?;
     let all = Tally::sum(&tallies);
     if all.inputs != arguments.inputs {
@@ -87,9 +93,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let rows: Vec<_> = tallies.iter().chain([&all]).map(Tally::row).collect();
     output::print(&screen::table(&head, &rows))?;
     let table = Table { title: String::new(), head: head.map(str::to_owned).to_vec(), rows };
-    let file = root.join("reports/fuzz.md");
-    atomic::write(&file, page(arguments, &all, &table))?;
-    output::print(&format!("{}\nreport: reports/fuzz.md\n", sentence(&all)))?;
+    output::print(&format!("{}\n", sentence(&all)))?;
+    if arguments.write {
+        atomic::write(&reported, page(arguments, &all, &table, &clock.took()))?;
+        output::print(&format!("written to {}\n", reported.display()))?;
+    }
     if !passed && all.failed == 0 {
         output::complain(&format!("no input failed, but the test {TEST} failed: see above"));
     }
@@ -118,9 +126,9 @@ fn sentence(all: &Tally) -> String {
     format!("{} damaged files: {} read, {} refused, {failed}", all.inputs, all.read, all.refused)
 }
 
-fn page(arguments: &Arguments, all: &Tally, table: &Table) -> String {
+fn page(arguments: &Arguments, all: &Tally, table: &Table, took: &str) -> String {
     format!(
-        "# Damaged files\n\nWritten by `cargo xtask dev fuzz --inputs {} --first {}`. Files of the project are damaged as \
+        "# Damaged files\n\nWritten by `cargo xtask dev fuzz --write --inputs {} --first {}`. {took} Files of the project are damaged as \
          programs, editors and people do it: bits flipped, the end lost, lines lost, doubled and mixed, pieces put in, ten \
          thousand brackets, words exchanged, numbers made huge, negative, infinite or NaN. Each goes to the reader that is \
          for it, and is read or refused by a message that begins with the file's name and says where.\n\n{}.\n\n{}",

@@ -8,6 +8,7 @@ mod list;
 mod planted;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::long::LongRun;
 use convergence_study::cli::{interrupt, output, screen, workspace};
 use convergence_study::report;
 use convergence_study::store::atomic;
@@ -24,9 +25,9 @@ pub(crate) struct Arguments {
     only: Vec<String>,
     /// Write reports/regressions.md
     #[arg(long)]
-    report: bool,
+    write: bool,
     /// List them and plant nothing
-    #[arg(long, conflicts_with = "report")]
+    #[arg(long, conflicts_with = "write")]
     list: bool,
 }
 
@@ -50,6 +51,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     // All of them are looked up before the first is compiled.
     let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
+    let reported = root.join("reports/regressions.md");
+    let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
     let copy = Copy::of(&root)?;
     copy.passes_as_it_is()?;
     let count = chosen.len();
@@ -61,14 +64,14 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let is_named = noticed.is_named_by(&regression.study, &regression.says);
         unnoticed += usize::from(!is_named);
         let said = if is_named { noticed.first().to_owned() } else { format!("not noticed:\n{}", noticed.text()) };
-        output::tell(&format!("{}: {said}", regression.name));
+        clock.done(&format!("{}: {said}", regression.name));
         rows.push(row(regression, &noticed, is_named));
     }
     let table = Table { title: String::new(), head: HEAD.map(str::to_owned).to_vec(), rows };
     let sentence = format!("{} of {count} mistakes are noticed by the study named for them", count - unnoticed);
     output::print(&format!("{}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
-    if arguments.report {
-        atomic::write(&root.join("reports/regressions.md"), page(&table, &sentence))?;
+    if arguments.write {
+        atomic::write(&reported, page(&table, &sentence, &clock.took()))?;
         output::print("report: reports/regressions.md\n")?;
     }
     Ok(if unnoticed == 0 { Ended::Well } else { Ended::Badly })
@@ -87,10 +90,10 @@ fn row(regression: &Regression, noticed: &Noticed, is_named: bool) -> Vec<String
     ]
 }
 
-fn page(table: &Table, sentence: &str) -> String {
+fn page(table: &Table, sentence: &str, took: &str) -> String {
     format!(
-        "# Mistakes of meaning\n\nWritten by `cargo xtask dev regressions --report`. Each mistake of `{}` is planted by itself; the \
-         quick tier of `verify` must notice it, and the study named for it must name what is wrong.\n\n{sentence}.\n\n{}",
+        "# Mistakes of meaning\n\nWritten by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
+         quick tier of `verify` must notice it, and the study named for it must name what is wrong. {took}\n\n{sentence}.\n\n{}",
         list::FILE,
         report::markdown(table)
     )

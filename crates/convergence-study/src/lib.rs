@@ -34,27 +34,42 @@
 //! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
+//! # Without reports
+//!
+//! With `default-features = false` there are [`text`], [`judge`], [`input`], [`study`] and [`run`]: verdicts, tables of errors, and
+//! studies on all threads, whose outcomes have no figures. The feature `reports` adds all but the command line, `command-line` that.
+//!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
 //! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
 //! for the time left.)
 
+#[cfg(feature = "command-line")]
 pub mod cli;
+#[cfg(feature = "reports")]
 pub mod compare;
+#[cfg(feature = "reports")]
 pub mod explain;
 pub mod input;
 pub mod judge;
+#[cfg(feature = "reports")]
 pub mod plots;
+#[cfg(feature = "reports")]
 pub mod program;
+#[cfg(feature = "reports")]
 pub mod project;
+#[cfg(feature = "reports")]
 pub mod report;
+#[cfg(feature = "reports")]
 pub mod review;
 pub mod run;
+#[cfg(feature = "reports")]
 pub mod store;
 pub mod study;
 pub mod text;
+#[cfg(feature = "reports")]
 pub mod verify;
 
 /// The programs of the README are tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "command-line"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

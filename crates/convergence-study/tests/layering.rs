@@ -198,6 +198,31 @@ fn a_use_against_the_order_is_found() {
     }
 }
 
+/// The modules of `lib.rs` that are there without any feature.
+fn always_there(lib: &str) -> BTreeSet<String> {
+    let lines: Vec<&str> = lib.lines().collect();
+    let ungated = |(number, line): (usize, &&str)| {
+        let name = line.strip_prefix("pub mod ")?.strip_suffix(';')?;
+        let before = number.checked_sub(1).map_or("", |above| lines[above]);
+        (!before.starts_with("#[cfg(feature")).then(|| name.to_owned())
+    };
+    lines.iter().enumerate().filter_map(ungated).collect()
+}
+
+#[test]
+fn a_library_that_the_rule_does_without_is_optional() {
+    let read = |file: &str| fs::read_to_string(here().join(file)).unwrap();
+    let (modules, manifest) = (always_there(&read("src/lib.rs")), read("Cargo.toml"));
+    assert_eq!(modules, ["input", "judge", "run", "study", "text"].map(str::to_owned).into());
+    for (library, users) in LIBRARIES {
+        let is_its_line = |line: &&str| line.split(['.', ' ']).next().unwrap_or("").replace('-', "_") == library;
+        let line = manifest.lines().find(is_its_line).unwrap_or_else(|| panic!("{library} in Cargo.toml"));
+        let is_needed = users.iter().any(|user| modules.contains(*user));
+        assert_eq!(line.contains("optional = true"), !is_needed, "{line}");
+    }
+    assert_eq!(always_there("#[cfg(feature = \"a\")]\npub mod a;\npub mod b;\n"), ["b".to_owned()].into());
+}
+
 /// The names of the crates in the tables of dependencies of a manifest; those for tests where asked for.
 fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
     let mut names = BTreeSet::new();

@@ -16,6 +16,7 @@ use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
+use convergence_study::cli::long::LongRun;
 use convergence_study::cli::output::Format;
 use convergence_study::cli::{output, screen, selection, workspace};
 use convergence_study::judge::verdict::Verdict;
@@ -29,9 +30,10 @@ const ANY_ORDER_END: f64 = 1.0;
 /// Studies in the table of the costliest.
 const COSTLIEST: usize = 12;
 
-/// Time per step, and run time against error, on this machine: some minutes
+/// Time per step, and run time against error, on this machine
 ///
-/// With --out it is also written as bench.md; the one of this project is in reports.
+/// Takes minutes; says at the beginning how many the last one took. With --out it is also written as bench.md; the one of this
+/// project is in reports.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The scene that is timed
@@ -59,14 +61,9 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Flags { quiet, format, out, jobs } = &arguments.flags;
     let shows = !quiet && *format == Format::Text;
     let accuracies = studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name).count();
-    if !quiet {
-        output::tell(&format!(
-            "times steps, {accuracies} studies of accuracy, and the tier {} on one thread and on all: some minutes",
-            arguments.tier.name()
-        ));
-    }
-    let mut page =
-        Page { text: heading(project, &root, &path), folder: out.clone(), tables: vec![], shows, quiet: *quiet };
+    let what = format!("{accuracies} studies of accuracy, the tier {} on one thread and on all", arguments.tier.name());
+    let clock = LongRun::begin(&format!("times of steps, {what}"), &root.join("reports/bench.md"), *quiet);
+    let mut page = Page { text: heading(project, &root, &path), folder: out.clone(), tables: vec![], shows, clock };
     page.add(step_time::ways(&scene, 100)?)?;
     page.add(step_time::ways(&scene, 1000)?)?;
     page.add(step_time::scenes(&scene, 100)?)?;
@@ -79,6 +76,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     threads(studies, arguments.tier, screen::jobs(*jobs), &mut page)?;
     let sentence = match page.folder.as_ref().map(|folder| folder.join("bench.md")) {
         Some(file) => {
+            page.text += &format!("{}\n", page.clock.took());
             atomic::write(&file, &page.text)?;
             format!("written to {}", file.display())
         }
@@ -97,8 +95,7 @@ struct Page {
     tables: Vec<Table>,
     /// Whether a table is shown as soon as it is there.
     shows: bool,
-    /// Whether nothing is said of what is done.
-    quiet: bool,
+    clock: LongRun,
 }
 
 impl Page {
@@ -108,9 +105,8 @@ impl Page {
         self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
         if self.shows {
             output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
-        } else if !self.quiet {
-            output::tell(&format!("done: {}", table.title));
         }
+        self.clock.done(&table.title);
         self.tables.push(table);
         Ok(())
     }

@@ -39,7 +39,7 @@ fn the_counts_of_the_test_become_a_report() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
     let prints = "running 1 test\nfuzz scene 150 20 130 0 2.5\nfuzz study 50 1 49 0 7.25\ntest fuzz ... ok\n";
-    let fuzzed = fuzz(&root, prints, 0, &["--inputs", "200", "--first", "7"]);
+    let fuzzed = fuzz(&root, prints, 0, &["--inputs", "200", "--first", "7", "--write"]);
     assert_eq!(fuzzed.status, Some(0), "{}", fuzzed.stderr);
     assert_eq!(fs::read_to_string(root.join("asked")).expect("a note"), "200 from 7\n");
     let page = page(&root).expect("a report");
@@ -49,14 +49,14 @@ fn the_counts_of_the_test_become_a_report() {
         assert!(text.contains(sentence), "{text}");
     }
     assert!(page.contains("| all   |    200 |   21 |     179 |      0 |          7.2 |"), "{page}");
-    assert!(page.contains("cargo xtask dev fuzz --inputs 200 --first 7"), "{page}");
+    assert!(page.contains("cargo xtask dev fuzz --write --inputs 200 --first 7"), "{page}");
 }
 
 #[test]
 fn an_input_that_fails_fails_the_command_and_is_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = workspace(&folder);
-    let fuzzed = fuzz(&root, "fuzz scene 200 20 178 2 2.5\n", 1, &["--inputs", "200"]);
+    let fuzzed = fuzz(&root, "fuzz scene 200 20 178 2 2.5\n", 1, &["--inputs", "200", "--write"]);
     assert_eq!(fuzzed.status, Some(1));
     let page = page(&root).expect("a report");
     assert!(page.contains("2 ended in a panic, a hang or a message without a place"), "{page}");
@@ -69,6 +69,7 @@ fn a_test_that_fails_for_another_reason_fails_the_command_and_says_so() {
     let fuzzed = fuzz(&root, "fuzz scene 200 20 180 0 2.5\n", 1, &["--inputs", "200"]);
     assert_eq!(fuzzed.status, Some(1));
     assert!(fuzzed.stderr.contains("damaged_files_are_read_or_refused_with_their_place failed"), "{}", fuzzed.stderr);
+    assert_eq!(page(&root), None, "nobody has asked for a report");
 }
 
 #[test]
@@ -80,7 +81,7 @@ fn counts_that_do_not_add_up_and_too_few_inputs_leave_the_report_as_it_was() {
         ("fuzz scene 199 20 179 0 2.5\n", "200", "199 of 200 inputs"),
         ("fuzz scene 5 5 0 0 2.5\n", "5", "5 is not in 200.."),
     ] {
-        let fuzzed = fuzz(&root, prints, 0, &["--inputs", inputs]);
+        let fuzzed = fuzz(&root, prints, 0, &["--inputs", inputs, "--write"]);
         assert_eq!(fuzzed.status, Some(2), "{}", fuzzed.stdout);
         assert!(fuzzed.stderr.contains(told), "{}", fuzzed.stderr);
         assert_eq!(page(&root), None);

@@ -52,7 +52,7 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
     let root = workspace(&folder);
     let noticed =
         entry("two for one", ["1", "2"], ["s", "velocity"]) + &entry("moved", ["1", "3"], ["t", "error moved"]);
-    let ended = regressions(&root, &noticed, &["--report"]);
+    let ended = regressions(&root, &noticed, &["--write"]);
     assert_eq!(ended.status, Some(0), "{}{}", ended.stdout, ended.stderr);
     assert!(ended.stdout.contains("2 of 2 mistakes are noticed"), "{}", ended.stdout);
     let page = fs::read_to_string(root.join("reports/regressions.md")).expect("a report");
@@ -89,7 +89,7 @@ fn a_list_that_cannot_be_planted_is_refused_by_name() {
     assert!(none.status == Some(2) && none.stderr.contains("no regression with three"), "{}", none.stderr);
     // Where `verify` fails by itself every mistake would seem to be noticed.
     fs::write(root.join("src/a.rs"), "one = 7;").expect("a file");
-    let failing = regressions(&root, &entry("seven", ["7", "1"], s), &["--report"]);
+    let failing = regressions(&root, &entry("seven", ["7", "1"], s), &["--write"]);
     assert!(failing.status == Some(2) && failing.stderr.contains("without a mistake"), "{}", failing.stderr);
     assert!(!root.join("reports").exists());
 }

@@ -16,6 +16,7 @@ mod help;
 mod history;
 pub mod interrupt;
 mod list;
+pub mod long;
 mod moved;
 pub mod output;
 pub mod progress;

@@ -8,16 +8,8 @@ use super::slopes::{Trend, triangles};
 use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Scale};
+use crate::judge::power_law::PowerLaw;
 use std::ops::Range;
-
-/// `error = constant · h^rate`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PowerLaw {
-    /// Observed exponent.
-    pub rate: f64,
-    /// Error at h = 1.
-    pub constant: f64,
-}
 
 /// The errors in one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -178,7 +170,7 @@ fn label(series: &ErrorSeries) -> String {
 fn fitted_line(points: &[(f64, f64)], fit: PowerLaw) -> Vec<(f64, f64)> {
     let xs = || points.iter().map(|p| p.0).filter(|x| x.is_finite() && *x > 0.0);
     let ends = [xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max)];
-    ends.map(|x| (x, fit.constant * x.powf(fit.rate))).to_vec()
+    ends.map(|x| (x, fit.error_at(x))).to_vec()
 }
 
 fn trends(series: &[ErrorSeries]) -> Vec<Trend> {

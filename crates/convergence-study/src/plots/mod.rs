@@ -53,7 +53,7 @@ mod surface;
 mod work_precision;
 pub mod xy;
 
-pub use convergence::{Convergence, ErrorSeries, PowerLaw, convergence};
+pub use convergence::{Convergence, ErrorSeries, convergence};
 pub use forest::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
 pub use history::{History, Iterations, history, iterations};
 pub use parameter_map::{ParameterMap, parameter_map};

@@ -27,19 +27,21 @@ const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
 /// Whether this executable has the command [`COMMAND`].
 static HAS_GUARDS: AtomicBool = AtomicBool::new(false);
 
-/// Says that this executable has the command [`COMMAND`]. The harness's command line does; without it, as in a program that uses this crate
-/// as a library, processes end with their case, but not where this process is killed.
-pub(crate) fn enable() {
+/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's command line does; without it, as in a
+/// program that uses this crate as a library, processes end with their case, but not where this process is killed.
+pub fn enable() {
     HAS_GUARDS.store(true, Ordering::Relaxed);
 }
 
 /// Whether this process was started as a guard.
-pub(crate) fn is_guard() -> bool {
+pub fn is_guard() -> bool {
     env::var_os(IS_GUARD).is_some()
 }
 
 /// The guard's own work: waits until its standard input ends, then ends its process group and all processes with that mark.
-pub(crate) fn serve(mark: &str) {
+///
+/// * `mark`: the argument that follows [`COMMAND`].
+pub fn serve(mark: &str) {
     #[cfg(unix)]
     {
         system::outlive_signals();
@@ -239,7 +241,8 @@ mod unix {
     fn processes_but_those_without(variable: &[u8]) -> Vec<(Pid, Environment)> {
         let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
         let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
-        let looked_at = entries.filter_map(number).map(|process: i32| (Pid::from_raw(process), look(process, variable)));
+        let looked_at =
+            entries.filter_map(number).map(|process: i32| (Pid::from_raw(process), look(process, variable)));
         looked_at.filter(|(_, environment)| *environment != Environment::LacksIt).collect()
     }
 

@@ -61,6 +61,13 @@ where
         self
     }
 
+    #[cfg(feature = "reports")]
+    fn figure(&self, levels: &Levels, rates: &levels::Rates) -> super::outcome::Figure {
+        let file = format!("{}-errors.svg", self.header.id);
+        let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
+        levels.figure(file, None, caption, rates)
+    }
+
     fn levels(&self, ran: &[Ran<D, NamedErrors>]) -> Levels {
         let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
         Levels {
@@ -115,11 +122,10 @@ where
             let (claim, evidence) = ("an order is claimed".to_owned(), "no order of any error is claimed".to_owned());
             checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence });
         }
-        let file = format!("{}-errors.svg", self.header.id);
-        let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
         Outcome {
             levels: levels.errors(),
-            figures: vec![levels.figure(file, None, caption, &rates)],
+            #[cfg(feature = "reports")]
+            figures: vec![self.figure(&levels, &rates)],
             quantities: levels.quantities(&rates),
             ..Outcome::new(levels::summary(&rates), rates, checks)
         }
@@ -158,7 +164,8 @@ mod tests {
         // A rate, and two errors on five levels.
         assert_eq!(right.quantities.len(), 1 + 2 * 5);
         assert_eq!(right.quantities[1].name, "error e, cells = 4");
-        assert_eq!(right.figures[0].file, "id-errors.svg");
+        let drawn: Vec<&str> = right.figures.iter().map(|figure| figure.file.as_str()).collect();
+        assert_eq!(drawn, ["id-errors.svg"][..usize::from(cfg!(feature = "reports"))]);
     }
 
     #[test]

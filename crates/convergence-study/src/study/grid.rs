@@ -1,9 +1,12 @@
 //! Errors over a grid of mesh widths and time steps: both orders are fitted at once, and judged, drawn and guarded in one way.
 
 use super::levels::Claim;
-use super::outcome::{Check, Figure, Quantity, Table};
+#[cfg(feature = "reports")]
+use super::outcome::Figure;
+use super::outcome::{Check, Quantity, Table};
 use crate::judge::fit::{Adding, Quantiles, SurfaceFit, SurfacePoint, fit_surface_by};
 use crate::judge::verdict::Verdict;
+#[cfg(feature = "reports")]
 use crate::plots;
 
 /// Confidence of intervals and of the joint region.
@@ -83,6 +86,7 @@ impl Grid {
         GridVerdict { checks, table: self.table(rows), quantities, headline: headline.join("; ") }
     }
 
+    #[cfg(feature = "reports")]
     /// Each error over the grid, as a picture.
     ///
     /// * `id`: of the study; a picture is called `<id>-surface-<name>.svg`.

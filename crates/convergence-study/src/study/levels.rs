@@ -2,10 +2,13 @@
 
 use super::axis::Axis;
 use super::case::{Ran, by_reason};
-use super::outcome::{Check, Figure, LevelErrors, Quantity, Table};
+#[cfg(feature = "reports")]
+use super::outcome::Figure;
+use super::outcome::{Check, LevelErrors, Quantity, Table};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
-use crate::plots::{self, Convergence, ErrorSeries, PowerLaw};
+#[cfg(feature = "reports")]
+use crate::plots::{self, Convergence, ErrorSeries};
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by 1e-8 at
 /// most, a change of the computation by more.
@@ -32,7 +35,7 @@ pub struct ErrorColumn {
     pub errors: Vec<f64>,
     /// What is claimed of it, if anything.
     pub claim: Option<Claim>,
-    /// Which [`look`](crate::plots::look::look) it has in figures: the same wherever this error is drawn.
+    /// Which look, of `plots::look`, it has in figures: the same wherever this error is drawn.
     pub look: usize,
 }
 
@@ -129,6 +132,7 @@ impl Levels {
         self.columns.iter().filter_map(verdict).collect()
     }
 
+    #[cfg(feature = "reports")]
     /// The errors that were judged, each with the line of its rate, and triangles for the orders claimed.
     pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
         let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
@@ -137,7 +141,7 @@ impl Levels {
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
                 label: column.name.clone(),
-                fit: rate.and_then(|(_, rate)| power_law(rate)),
+                fit: rate.and_then(|(_, rate)| rate.power_law()),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -187,11 +191,6 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
         let value = rate.fitted?;
         Some(Quantity { name: format!("rate {name}"), value, tolerance: RATE_TOLERANCE })
     })
-}
-
-/// The observed rate as a curve for a figure; `None` where there is no rate.
-pub fn power_law(rate: &RateVerdict) -> Option<PowerLaw> {
-    Some(PowerLaw { rate: rate.fitted?, constant: rate.constant? })
 }
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.

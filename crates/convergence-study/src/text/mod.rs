@@ -1,5 +1,6 @@
 //! Numbers, columns and names as text.
 
+#[cfg(feature = "reports")]
 pub(crate) mod columns;
 pub mod names;
 pub mod number;

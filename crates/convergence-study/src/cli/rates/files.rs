@@ -9,7 +9,6 @@ use crate::cli::github;
 use crate::judge::verdict::Aside;
 use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit};
-use crate::study::levels::power_law;
 use crate::text::number::{error_text, plain_text};
 use crate::text::visible::visible;
 
@@ -48,7 +47,7 @@ fn figure(findings: &Findings<'_>) -> String {
             label: judged.name.to_owned(),
             points: levels.iter().map(|level| (level.step, level.error)).collect(),
             order: Some(judged.rate.order).filter(|order| !order.is_nan()),
-            fit: power_law(judged.rate),
+            fit: judged.rate.power_law(),
             used: Some(judged.rate.used.clone()),
             ..ErrorSeries::default()
         }

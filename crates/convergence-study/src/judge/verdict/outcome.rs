@@ -3,6 +3,7 @@
 use std::{fmt, ops::Range};
 
 use super::reading::Reading;
+use crate::judge::power_law::PowerLaw;
 use crate::text::number::{RATE_PLACES, interval_text};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
@@ -180,6 +181,11 @@ pub struct RateVerdict {
 }
 
 impl RateVerdict {
+    /// The rate with its constant, as a curve; `None` where there is no rate.
+    pub fn power_law(&self) -> Option<PowerLaw> {
+        Some(PowerLaw { rate: self.fitted?, constant: self.constant? })
+    }
+
     /// Puts the verdict together, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
         let levels = reading.levels;

@@ -1,0 +1,77 @@
+//! Commands that take minutes: how long is said beforehand, and how far they are.
+
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use super::output;
+
+/// A command that takes minutes, and writes the page that says how many.
+#[derive(Debug)]
+pub struct LongRun {
+    started: Instant,
+    /// Seconds of the run whose page is there.
+    before: Option<f64>,
+    quiet: bool,
+}
+
+impl LongRun {
+    /// Starts the clock, and says how long the run took whose page is there.
+    ///
+    /// * `what`: what is done, in words.
+    /// * `page`: written by an earlier run, with [`took`](Self::took) in it.
+    pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
+        let before = fs::read_to_string(page).ok().and_then(|text| seconds(&text));
+        let run = Self { started: Instant::now(), before, quiet };
+        let known = match before {
+            Some(before) => format!("took {before:.0} s when {} was written", page.display()),
+            None => format!("minutes; how many is not known: {} does not say", page.display()),
+        };
+        run.tell(&format!("{what}: {known}"));
+        run
+    }
+
+    /// Says what is done, with the time that it took until now.
+    pub fn done(&self, what: &str) {
+        let of = self.before.map_or(String::new(), |before| format!(" of about {before:.0}"));
+        self.tell(&format!("{what}, at {:.0}{of} s", self.started.elapsed().as_secs_f64()));
+    }
+
+    /// The sentence for the page.
+    pub fn took(&self) -> String {
+        sentence(self.started.elapsed().as_secs_f64())
+    }
+
+    fn tell(&self, message: &str) {
+        if !self.quiet {
+            output::tell(message);
+        }
+    }
+}
+
+const BEFORE: &str = "It took ";
+const AFTER: &str = " s.";
+
+fn sentence(seconds: f64) -> String {
+    format!("{BEFORE}{seconds:.0}{AFTER}")
+}
+
+/// The seconds of [`sentence`] in a page.
+fn seconds(page: &str) -> Option<f64> {
+    let (number, _) = page.split_once(BEFORE)?.1.split_once(AFTER)?;
+    number.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{seconds, sentence};
+
+    #[test]
+    fn the_next_run_reads_what_the_page_says() {
+        let page = format!("# Drift\n\nWritten by a program. {}\n\n| a | b |\n", sentence(143.4));
+        assert_eq!(seconds(&page), Some(143.0));
+        for without in ["", "It took long.", "It took x s."] {
+            assert_eq!(seconds(without), None, "{without}");
+        }
+    }
+}

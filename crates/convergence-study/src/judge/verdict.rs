@@ -1,3 +1,7 @@
+//! [laws]: crate::judge::calibration::laws
+//! [comparison]: crate::judge::calibration::comparison
+//! [calibration]: crate::judge::calibration
+// The links above are for rustdoc, those at the end of RULE.md for readers of that file.
 #![doc = include_str!("verdict/RULE.md")]
 
 use thiserror::Error;

@@ -7,7 +7,11 @@ use convergence_study::program;
 use convergence_study::project::Project;
 
 /// Studies of any program.
-const PROJECT: Project = Project { kinds: &[program::ROW], ..Project::new("convergence-study", "convergence-study") };
+const PROJECT: Project = Project {
+    kinds: &[program::ROW],
+    templates: &[program::TEMPLATE],
+    ..Project::new("convergence-study", "convergence-study")
+};
 
 fn main() -> ExitCode {
     cli::main(&PROJECT)

@@ -17,16 +17,32 @@ pub struct Project {
     pub groups: &'static [&'static str],
     /// Its own words that `explain` knows beside kinds and reasons, such as norms.
     pub terms: &'static [Term],
+    /// Files that `new` begins with.
+    pub templates: &'static [Template],
     /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.
     pub front_pictures: &'static [(&'static str, &'static str)],
 }
 
 impl Project {
-    /// A project without kinds, terms and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
+    /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        Self { name, command, about, kinds: &[], groups: &[], terms: &[], front_pictures: &[] }
+        Self { name, command, about, kinds: &[], groups: &[], terms: &[], templates: &[], front_pictures: &[] }
     }
+}
+
+/// Files to begin with, commented, that run as they are.
+#[derive(Debug, Clone, Copy)]
+pub struct Template {
+    /// What they begin, such as `study`.
+    pub name: &'static str,
+    /// The same in a few words, for `--help`.
+    pub about: &'static str,
+    /// What follows the user's name in the name of each file, such as `.toml`, and its text, in which `NAME` stands for that name and
+    /// `PROGRAM` for the project's command.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Commands that take the first file, for the user to go on with: two at most.
+    pub next: &'static [&'static str],
 }
 
 /// A word of a project, for `explain`.

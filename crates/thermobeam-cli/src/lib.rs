@@ -6,7 +6,6 @@
 mod bench;
 mod equilibria;
 mod merge;
-mod new;
 mod project;
 mod run;
 mod sweep;
@@ -35,7 +34,6 @@ pub enum Command {
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
-    New(new::Arguments),
     Bench(bench::Arguments),
 }
 
@@ -61,7 +59,6 @@ impl Command {
             Self::Equilibria(arguments) => equilibria::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
             Self::Merge(arguments) => merge::run(arguments),
-            Self::New(arguments) => new::run(project, arguments),
             Self::Bench(arguments) => bench::run(project, arguments),
         }
     }

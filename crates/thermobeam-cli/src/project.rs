@@ -1,6 +1,7 @@
 //! The beam as a project of the harness.
 
-use convergence_study::project::Project;
+use convergence_study::program;
+use convergence_study::project::{Project, Template};
 use thermobeam_study::kinds::{KINDS, TERMS};
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
@@ -23,10 +24,33 @@ pub const fn project(command: &'static str) -> Project {
             "the harness",
         ],
         terms: &TERMS,
+        templates: &TEMPLATES,
         // Others show this picture, and need a name that studies do not change.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
     }
 }
+
+const TEMPLATES: [Template; 4] = [
+    Template {
+        name: "study",
+        about: "A convergence study with a manufactured solution",
+        files: &[(".toml", include_str!("begin/study.toml"))],
+        next: &["study", "explain"],
+    },
+    Template {
+        name: "scene",
+        about: "A scene: a beam, how it starts, a mesh, time steps",
+        files: &[(".toml", include_str!("begin/scene.toml"))],
+        next: &["run"],
+    },
+    Template {
+        name: "any-order-scene",
+        about: "The same by elements of high degree and dG(q), for many digits",
+        files: &[(".toml", include_str!("begin/any-order-scene.toml"))],
+        next: &["run"],
+    },
+    program::TEMPLATE,
+];
 
 #[cfg(test)]
 mod tests {

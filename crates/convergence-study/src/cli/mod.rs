@@ -1,4 +1,4 @@
-//! The command line: `verify`, `study`, `list`, `rates`, `compare`, `review`, `history`, `explain`, `completions`, for any project.
+//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `review`, `history`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -18,6 +18,7 @@ pub mod interrupt;
 mod list;
 pub mod long;
 mod moved;
+mod new;
 pub mod output;
 pub mod progress;
 mod rates;
@@ -49,13 +50,14 @@ pub enum Command {
     Compare(compare::Arguments),
     Review(review::Arguments),
     History(history::Arguments),
+    New(new::Arguments),
     Completions(completions::Arguments),
     Guard(guard::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 9] =
-    ["verify", "study", "list", "explain", "rates", "compare", "review", "history", "completions"];
+pub const COMMANDS: [&str; 10] =
+    ["new", "verify", "study", "list", "explain", "rates", "compare", "review", "history", "completions"];
 
 impl Command {
     /// Runs the command for a project; `whole` is the whole command line, for completions.
@@ -73,6 +75,7 @@ impl Command {
             Self::Compare(arguments) => compare::run(arguments),
             Self::Review(arguments) => review::run(project, arguments),
             Self::History(arguments) => history::run(project, arguments),
+            Self::New(arguments) => new::run(project, arguments),
             Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
             Self::Guard(arguments) => guard::run(arguments),
         }
@@ -89,7 +92,7 @@ fn program_name(project: &Project) -> String {
 /// * `groups`: heading, and names of commands. A command of no group is not listed by `--help`.
 pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
     let command = P::command().name(project.command).bin_name(project.command).about(project.about);
-    grouped(command.version(env!("CARGO_PKG_VERSION")), groups)
+    grouped(new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")), groups)
 }
 
 /// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.

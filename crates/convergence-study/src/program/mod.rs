@@ -6,12 +6,14 @@
 //!
 //! | file | holds |
 //! | --- | --- |
+//! | `begin.rs` | the files that `new` begins with |
 //! | `file.rs`, `refine.rs`, `template.rs` | the study file: tables, resolutions, placeholders |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: time limit, what it prints, its end |
 //! | `answer.rs`, `kept.rs` | what it answered; what is kept of that |
 //! | `judge.rs`, `values.rs` | from answers to an outcome: errors, and values without an exact solution |
 
 mod answer;
+mod begin;
 mod command;
 mod file;
 pub mod guard;
@@ -35,6 +37,7 @@ use refine::Refine;
 use template::Word;
 
 pub use answer::Answer;
+pub use begin::TEMPLATE;
 pub use refine::{Parameter, Resolution};
 
 /// The row of the table of kinds.

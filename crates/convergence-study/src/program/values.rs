@@ -141,9 +141,14 @@ fn digits(value: f64, width: f64) -> String {
     if (0.0..=15.0).contains(&places) { format!("{value:.*}", places as usize) } else { plain_text(value) }
 }
 
+/// The values, each with so many decimals that its last change is seen.
 fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
+    let last_change = |column: &ErrorColumn| match column.errors[..] {
+        [.., before, last] => (last - before).abs(),
+        _ => f64::NAN,
+    };
     let row = |(level, refinement): (usize, &Refinement)| {
-        let values = columns.iter().map(|column| plain_text(column.errors[level]));
+        let values = columns.iter().map(|column| digits(column.errors[level], last_change(column)));
         [refinement.label.clone()].into_iter().chain(values).collect()
     };
     Table {

@@ -103,17 +103,19 @@ impl Header {
     }
 }
 
-/// A name that can stand in a file's name and on a command line.
+/// What [`is_name`] asks of a name.
+pub const NAME: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
+
+/// Whether a text can be a study's id: it stands in file names and on command lines.
+pub fn is_name(text: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
+    text.len() <= LONGEST_NAME && text.starts_with(plain) && text.chars().all(|c| plain(c) || c == '.' || c == '-')
+}
+
 fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
-    let allowed = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
-    let field = study.require(key, allowed)?;
+    let field = study.require(key, NAME)?;
     let text = field.text()?;
-    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '.' || c == '-';
-    let begins = text.starts_with(|c: char| c.is_ascii_lowercase() || c.is_ascii_digit());
-    if !begins || text.len() > LONGEST_NAME || !text.chars().all(fits) {
-        return Err(field.refuse_as_written(allowed));
-    }
-    Ok(text.to_owned())
+    if is_name(text) { Ok(text.to_owned()) } else { Err(field.refuse_as_written(NAME)) }
 }
 
 /// One line of text, without control characters: it is printed to terminals and logs.

@@ -8,7 +8,7 @@ mod axis;
 pub mod case;
 mod errors_over_levels;
 pub mod grid;
-mod header;
+pub mod header;
 pub mod kind;
 pub mod levels;
 pub mod outcome;

@@ -8,6 +8,7 @@ use std::process::{Command, ExitCode, Output, Stdio};
 
 use convergence_study::cli;
 use convergence_study::input::{InputError, Section};
+use convergence_study::program;
 use convergence_study::project::Project;
 use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refinement, Study, erased};
 use tempfile::TempDir;
@@ -24,7 +25,8 @@ const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
 
 const PROJECT: Project = Project {
-    kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }],
+    kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }, program::ROW],
+    templates: &[program::TEMPLATE],
     ..Project::new("powers", "powers")
 };
 
@@ -40,7 +42,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 23] = [
+const TESTS: [Test; 24] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -69,6 +71,7 @@ const TESTS: [Test; 23] = [
     ("runs_are_journaled_and_shown_as_page_and_badge", runs_are_journaled_and_shown_as_page_and_badge),
     ("a_damaged_line_of_a_journal_is_named", a_damaged_line_of_a_journal_is_named),
     ("every_command_is_in_the_help", every_command_is_in_the_help),
+    ("a_new_study_of_a_program_passes_as_it_is", a_new_study_of_a_program_passes_as_it_is),
     ("wrong_claims_are_answered_as_the_page_says", wrong_claims_are_answered_as_the_page_says),
 ];
 
@@ -449,6 +452,28 @@ fn json_is_alone_on_standard_output() {
         assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
         fs::remove_file(summary).unwrap();
     }
+}
+
+fn a_new_study_of_a_program_passes_as_it_is() {
+    let root = tempfile::tempdir().unwrap();
+    let (status, out, err) = run(&root, &["new", "program", "mine"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""));
+    assert_eq!(out, "wrote mine.toml, mine.py\nnow  powers study mine.toml\nand  powers explain mine.toml\n");
+    let text = fs::read_to_string(root.path().join("mine.toml")).unwrap();
+    assert!(text.contains("powers study mine.toml") && !text.contains("NAME") && !text.contains("PROGRAM"), "{text}");
+    let (status, out, err) = run(&root, &["study", "mine.toml"]);
+    if Command::new("python3").arg("--version").output().is_ok() {
+        assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    } else {
+        assert!(status == Some(1) && out.contains("python3 cannot be started"), "{out}");
+    }
+    // The second file is there: the first is not written either.
+    fs::remove_file(root.path().join("mine.toml")).unwrap();
+    let (status, _, err) = run(&root, &["new", "program", "mine"]);
+    assert!(status == Some(2) && err.contains("mine.py: expected a new file"), "{err}");
+    assert!(!root.path().join("mine.toml").exists());
+    let (status, _, err) = run(&root, &["new", "scene", "mine"]);
+    assert!(status == Some(2) && err.contains("program"), "{err}");
 }
 
 fn every_command_is_in_the_help() {

@@ -11,6 +11,8 @@ fn a_new_study_passes_as_it_is() {
     let study = crate::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
     assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
+    let untested = study.stdout.split_once("\nno test of").map(|(_, untested)| untested);
+    assert!(untested.is_some_and(|untested| untested.contains("theta_a  ")), "{}", study.stdout);
     // Each table once.
     for title in ["\nRates\n", "\nErrors\n"] {
         assert_eq!(study.stdout.matches(title).count(), 1, "{}", study.stdout);

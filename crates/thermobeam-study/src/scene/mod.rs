@@ -23,7 +23,6 @@ pub mod any_order;
 pub(crate) mod functions;
 pub(crate) mod limits;
 pub(crate) mod tables;
-pub mod template;
 
 use crate::scene::functions::FunctionField;
 use std::path::Path;

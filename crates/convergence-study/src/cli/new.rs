@@ -1,0 +1,82 @@
+//! `new WHAT NAME`: files to begin with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::builder::{PossibleValue, PossibleValuesParser};
+
+use super::exit::{Ended, Outcome, Unusable};
+use super::flags::Flags;
+use crate::judge::verdict::Verdict;
+use crate::project::{Project, Template};
+use crate::store::atomic;
+use crate::study::header::{NAME, is_name};
+use crate::text::visible;
+
+/// Write a commented file that runs as it is
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// What to begin
+    #[arg(index = 1)]
+    what: String,
+    /// Its name: lowercase letters, digits, `.` and `-`
+    #[arg(index = 2, value_parser = name)]
+    name: String,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `new --format json` prints beside the verdict.
+#[derive(serde::Serialize)]
+struct Object {
+    wrote: Vec<String>,
+}
+
+fn name(text: &str) -> Result<String, String> {
+    if is_name(text) { Ok(text.to_owned()) } else { Err(format!("expected {NAME}")) }
+}
+
+/// The command line with the templates of a project as the values of `WHAT`; without any, the command is not shown.
+pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap::Command {
+    // An argument that is changed is put behind the others: hence the places, `index`, above.
+    let values = project.templates.iter().map(|template| PossibleValue::new(template.name).help(template.about));
+    let values = PossibleValuesParser::new(values);
+    let is_hidden = project.templates.is_empty();
+    command.mut_subcommand("new", |new| new.mut_arg("what", |what| what.value_parser(values)).hide(is_hidden))
+}
+
+/// Runs the command. No file that is there is written over.
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let Arguments { what, name, flags } = arguments;
+    let template = project.templates.iter().find(|template| template.name == what);
+    let template = template.ok_or_else(|| Unusable::because(&format!("found `{what}`; expected a template")))?;
+    let files = in_folder(template, flags.out.as_deref(), name);
+    if let Some((taken, _)) = files.iter().find(|(path, _)| fs::symlink_metadata(path).is_ok()) {
+        return Err(Unusable::because(&format!(
+            "{}: expected a new file, found one of that name; take another name, or remove the file first",
+            visible::path(taken)
+        )));
+    }
+    if let Some(folder) = &flags.out {
+        atomic::prepare_folder(folder)?;
+    }
+    for (path, text) in &files {
+        let text = text.replace("NAME", name).replace("PROGRAM", project.command);
+        atomic::write(path, text)?;
+    }
+    let wrote: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+    let written = format!("wrote {}", wrote.join(", "));
+    let next = template.next.iter().zip(["now", "and"]).map(|(command, then)| {
+        format!("{then}  {} {command} {}\n", project.command, wrote.first().map_or("", String::as_str))
+    });
+    let text = format!("{written}\n{}", next.collect::<String>());
+    let words = flags.words(Verdict::Pass, &written, || text);
+    flags.print(Verdict::Pass, &Object { wrote }, &words)?;
+    Ok(Ended::Well)
+}
+
+/// The files of a template in a folder, or in the current one, and their texts.
+fn in_folder<'t>(template: &'t Template, folder: Option<&Path>, name: &str) -> Vec<(PathBuf, &'t str)> {
+    let path = |ending: &str| folder.unwrap_or(Path::new("")).join(format!("{name}{ending}"));
+    template.files.iter().map(|(ending, text)| (path(ending), *text)).collect()
+}

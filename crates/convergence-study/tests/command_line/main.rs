@@ -472,7 +472,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     let (status, _, err) = run(&root, &["new", "program", "mine"]);
     assert!(status == Some(2) && err.contains("mine.py: expected a new file"), "{err}");
     assert!(!root.path().join("mine.toml").exists());
-    let (status, _, err) = run(&root, &["new", "scene", "mine"]);
+    let (status, _, err) = run(&root, &["new", "novel", "mine"]);
     assert!(status == Some(2) && err.contains("program"), "{err}");
 }
 

@@ -172,7 +172,7 @@ pub enum VerificationError {
 /// Runs the studies and writes baseline, if asked, and reports.
 ///
 /// # Errors
-/// [`VerificationError`]; a baseline that cannot be read is found before anything is run.
+/// [`VerificationError`]; a baseline that cannot be read and reports that cannot be written are found before anything is run.
 pub fn verify(
     project: &Project,
     studies: &[Box<dyn Study>],
@@ -184,6 +184,8 @@ pub fn verify(
     let folder = &request.reports;
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     tidy(request)?;
+    // A folder that cannot be written is found before the run.
+    atomic::prepare_folder(folder).map_err(fail)?;
     let finished = run::run(studies, request.effort, progress)?;
 
     let _lock = request.lock()?;

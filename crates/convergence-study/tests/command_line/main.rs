@@ -437,6 +437,17 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
     let (status, out, err) = study("out");
     assert!(status == Some(2) && err.contains("out: the reports cannot be written"), "{err}");
     assert!(out.starts_with("one: pass") && !out.contains("report:"), "{out}");
+
+    let leaves_a_trace = "[study]\nid = \"two\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"program\"\n[program]\n\
+                          command = [\"touch\", \"ran-{n}\"]\n[refine]\nn = [4, 8, 16]\n\
+                          [[expect]]\nerror = \"L2\"\norder = 2.0\ntolerance = 0.1\n";
+    fs::write(root.path().join("studies/two.toml"), leaves_a_trace).unwrap();
+    let (status, out, err) = run(&root, &["verify", "--out", "file"]);
+    assert!(status == Some(2) && out.is_empty() && err.contains("file: the reports cannot be written"), "{err}");
+    let trace = root.path().join("studies/ran-4");
+    assert!(!trace.exists(), "the study was run");
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    assert!(trace.exists());
 }
 
 fn json_is_alone_on_standard_output() {

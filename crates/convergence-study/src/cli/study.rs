@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{tables, text_of_failures};
-use crate::run::{self, Finished};
+use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
 use crate::store::record::{self, Precision, Record};
 use crate::study::{Study, StudyFile, Untested};
@@ -56,7 +56,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verdict = findings.verdict;
     // Looked for only where it is shown.
     let untested = studies.iter().zip(&finished).map(|(study, finished)| -> Vec<Untested> {
-        if finished.outcome.verdict == Verdict::Pass { study.untested() } else { vec![] }
+        if finished.outcome.verdict == Verdict::Pass { untested(study.as_ref(), effort) } else { vec![] }
     });
     let text = match flags.format {
         Format::Json => {
@@ -86,7 +86,15 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(verdict.into())
 }
 
-/// What a study is no test of although it passes; empty where there is nothing.
+/// What a study is no test of, looked for no longer than a case may take.
+fn untested(study: &dyn Study, effort: Effort) -> Vec<Untested> {
+    match time_limit::within(effort.case_limit, || study.untested()) {
+        (untested, None) => untested,
+        (_, Some(up)) => vec![Untested { what: "not known".to_owned(), why: format!("the search for it was {up}") }],
+    }
+}
+
+/// The table of what a study is no test of although it passes; empty where there is nothing.
 fn no_test_of(untested: &[Untested]) -> String {
     let rows: Vec<Vec<String>> = untested.iter().map(|one| vec![one.what.clone(), one.why.clone()]).collect();
     if rows.is_empty() { String::new() } else { format!("\n{}", screen::table(&["no test of", "because"], &rows)) }

@@ -12,8 +12,9 @@ use std::process::Command;
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report;
-use convergence_study::store::record::{QuantityRecord, Record, RecordError};
+use convergence_study::store::record::{Record, RecordError};
 use convergence_study::store::{atomic, provenance};
+use convergence_study::study::Quantity;
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
 
@@ -90,7 +91,7 @@ impl Numbers {
             if study.verdict != Verdict::Pass {
                 numbers.not_passing.push(study.id.clone());
             }
-            for QuantityRecord { name, value, tolerance } in study.quantities {
+            for Quantity { name, value, tolerance } in study.quantities {
                 numbers.values.insert(format!("{}: {name}", study.id), (value, tolerance));
             }
         }

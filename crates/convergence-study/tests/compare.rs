@@ -249,7 +249,7 @@ fn a_record_is_read_as_it_was_written() {
     assert!(read.studies[0].levels[0].errors.0[0].1.is_nan());
     for (from, to, message) in [
         ("\"schema\": 1", "\"schema\": 7", "r.json: schema: found 7; expected 1"),
-        ("\"pass\"", "\"good\"", "found the verdict `good`; expected pass, inconclusive or fail"),
+        ("\"pass\"", "\"good\"", "unknown variant `good`, expected one of `pass`, `inconclusive`, `fail`"),
         ("\"studies\"", "\"study\"", "r.json: missing field `studies`"),
         ("{", "", "expected a record as `verify` writes it"),
     ] {

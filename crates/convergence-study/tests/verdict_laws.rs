@@ -245,23 +245,17 @@ fn the_worst_verdict_wins_and_none_at_all_is_inconclusive() {
 fn settings_that_mean_nothing_are_refused() {
     let judge = || Judge::new(0.125).expect("usable");
     assert_eq!(judge().tolerance(), 0.125);
-    for confidence in [0.0, 1.0, -0.5] {
-        assert_eq!(judge().with_confidence(confidence), Err(JudgeError::Confidence(confidence)));
-    }
     for floor in [-1e-300, f64::INFINITY] {
         assert_eq!(judge().with_floor(floor), Err(JudgeError::Floor(floor)));
     }
-    assert!(judge().with_floor(f64::NAN).is_err() && judge().with_confidence(f64::NAN).is_err());
+    assert!(judge().with_floor(f64::NAN).is_err());
     assert!(judge().with_floor(0.0).is_ok());
 }
 
 #[test]
-fn more_confidence_takes_a_wider_interval_and_a_higher_floor_fewer_levels() {
+fn a_higher_floor_takes_fewer_levels() {
     let levels = with_rates(&[1.1, 0.95, 1.02, 0.99]);
-    let judge = || Judge::new(0.4).expect("usable");
-    let width = |judge: Judge| judge.judge(&levels, 1.0).interval.map(|[low, high]| high - low).expect("regular");
-    assert!(width(judge().with_confidence(0.99).expect("usable")) > 1.5 * width(judge()));
-    let floor = judge().with_floor(levels[4].error).expect("usable");
+    let floor = Judge::new(0.4).expect("usable").with_floor(levels[4].error).expect("usable");
     assert_eq!(floor.judge(&levels, 1.0).used, 0..4);
 }
 

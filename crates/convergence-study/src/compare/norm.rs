@@ -8,9 +8,6 @@ use crate::judge::fit::Quantiles;
 use crate::judge::verdict::{FEWEST_LEVELS, Verdict};
 use crate::store::record::{LevelRecord, RateRecord, StudyRecord};
 
-/// Confidence of the interval of a ratio.
-const CONFIDENCE: f64 = 0.95;
-
 /// An error in both records.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Norm {
@@ -279,7 +276,7 @@ fn ratio(logs: &[Between]) -> Option<Ratio> {
     let half = if levels < FEWEST_LEVELS {
         square.sqrt()
     } else {
-        Quantiles::new(CONFIDENCE)?.t(levels - 1) * (square / (n - 1.0) / n).sqrt()
+        Quantiles::standard().t(levels - 1) * (square / (n - 1.0) / n).sqrt()
     };
     let doubt = logs.iter().map(|log| log.doubt).fold(0.0, f64::max);
     let ends = [mean - half - doubt, mean + half + doubt];

@@ -23,6 +23,8 @@ mod line;
 mod range;
 mod surface;
 
+use std::sync::LazyLock;
+
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 pub use candidates::{
@@ -65,6 +67,12 @@ impl Quantiles {
         };
         let t = (1..=Self::TABULATED).map(quantile).collect::<Option<Vec<f64>>>()?;
         Some(Self { confidence, t })
+    }
+
+    /// The quantiles of all intervals: 95 %.
+    pub fn standard() -> &'static Self {
+        static STANDARD: LazyLock<Quantiles> = LazyLock::new(|| Quantiles::new(0.95).expect("a confidence"));
+        &STANDARD
     }
 
     /// The confidence that these quantiles stand for.

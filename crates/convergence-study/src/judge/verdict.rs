@@ -6,8 +6,8 @@
 
 use thiserror::Error;
 
+use crate::judge::fit::FLOOR_MARGIN;
 pub use crate::judge::fit::Level;
-use crate::judge::fit::{FLOOR_MARGIN, Quantiles};
 
 mod outcome;
 mod reading;
@@ -30,9 +30,6 @@ pub const WILD: f64 = 5.0;
 /// Floor of errors of quantities of order 1, [`FLOOR_MARGIN`] times some hundred rounding errors: the default of [`Judge`].
 pub const ROUND_OFF_FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
-/// Confidence of the interval, the default of [`Judge`].
-const CONFIDENCE: f64 = 0.95;
-
 /// A setting of [`Judge`] under which no verdict would mean anything.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JudgeError {
@@ -42,9 +39,6 @@ pub enum JudgeError {
     /// Zero, negative or NaN.
     #[error("tolerance = {0}: expected a number > 0")]
     ToleranceNotPositive(f64),
-    /// Not between 0 and 1.
-    #[error("confidence = {0}: expected 0 < confidence < 1")]
-    Confidence(f64),
     /// Negative, infinite or NaN.
     #[error("floor = {0}: expected a finite number >= 0")]
     Floor(f64),
@@ -55,7 +49,6 @@ pub enum JudgeError {
 pub struct Judge {
     tolerance: f64,
     floor: f64,
-    quantiles: Quantiles,
 }
 
 impl Judge {
@@ -69,14 +62,7 @@ impl Judge {
         if tolerance <= 0.0 || tolerance.is_nan() {
             return Err(JudgeError::ToleranceNotPositive(tolerance));
         }
-        let quantiles = Quantiles::new(CONFIDENCE).ok_or(JudgeError::Confidence(CONFIDENCE))?;
-        Ok(Self { tolerance, floor: ROUND_OFF_FLOOR, quantiles })
-    }
-
-    /// The same rule with another confidence of the interval.
-    pub fn with_confidence(self, confidence: f64) -> Result<Self, JudgeError> {
-        let quantiles = Quantiles::new(confidence).ok_or(JudgeError::Confidence(confidence))?;
-        Ok(Self { quantiles, ..self })
+        Ok(Self { tolerance, floor: ROUND_OFF_FLOOR })
     }
 
     /// The same rule with another floor, in the unit of the errors: fine levels whose errors are not above it have no say. 0 drops no level.
@@ -109,7 +95,7 @@ impl Judge {
 
     /// What does not depend on claim and tolerance, to be held against several of them.
     pub(crate) fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
-        Reading::new(levels, self.floor, Some(&self.quantiles))
+        Reading::new(levels, self.floor)
     }
 
     /// The outcome for levels that have been read, by a judge of the same floor and confidence.
@@ -132,7 +118,7 @@ pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
         Err(_) => Reason::ClaimUnusable,
     };
     // The rate does not depend on the tolerance.
-    let reading = Reading::new(levels, ROUND_OFF_FLOOR, Quantiles::new(CONFIDENCE).as_ref());
+    let reading = Reading::new(levels, ROUND_OFF_FLOOR);
     RateVerdict::new(&reading, order, tolerance, refused)
 }
 

@@ -1,6 +1,5 @@
 //! Curves that hide each other: which ones a note must name.
 
-use super::marker::Marks;
 use super::ruler::Ruler;
 use super::style;
 use super::xy::Curve;
@@ -10,8 +9,7 @@ const CLOSE: f64 = 3.0;
 
 /// A note for each set of data curves that lie on one another, at every point that both axes can show.
 pub(super) fn notes(curves: &[Curve], x: &Ruler, y: &Ruler) -> Vec<String> {
-    // Rings lie around the points of another curve on purpose.
-    let is_shown = |curve: &&Curve| curve.is_data && curve.marks != Marks::Ring && curve.points.len() > 1;
+    let is_shown = |curve: &&Curve| curve.is_data && curve.points.len() > 1;
     let data: Vec<&Curve> = curves.iter().filter(is_shown).collect();
     let mut sets: Vec<Vec<&Curve>> = vec![];
     for curve in data {

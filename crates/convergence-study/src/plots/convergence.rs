@@ -26,8 +26,6 @@ pub struct ErrorSeries {
     pub used: Option<Range<usize>>,
     /// Which [`look`] it has; `None`: that of its place in the figure.
     pub look: Option<usize>,
-    /// The same errors in an earlier, trusted run, drawn as rings around the points.
-    pub baseline: Vec<(f64, f64)>,
 }
 
 /// A convergence plot, both axes logarithmic.
@@ -52,16 +50,7 @@ pub struct Convergence {
 impl Convergence {
     /// Labels for errors over the mesh width.
     pub fn in_space() -> Self {
-        Self::over("mesh width h")
-    }
-
-    /// Labels for errors over the time step.
-    pub fn in_time() -> Self {
-        Self::over("time step dt")
-    }
-
-    fn over(x_label: &str) -> Self {
-        Self { x_label: x_label.into(), y_label: "error".into(), ..Self::default() }
+        Self { x_label: "mesh width h".into(), y_label: "error".into(), ..Self::default() }
     }
 }
 
@@ -75,7 +64,6 @@ pub fn convergence(figure: &Convergence) -> String {
         beyond: figure.beyond.clone(),
         ..Xy::default()
     };
-    xy.curves.extend(baselines(&figure.series));
     for (k, series) in figure.series.iter().enumerate() {
         xy.curves.extend(curves(series, look_of(k, series)));
         xy.legend.push(entry(series, look_of(k, series)));
@@ -89,21 +77,6 @@ pub fn convergence(figure: &Convergence) -> String {
     }
     xy.outlines = outlines;
     xy.draw()
-}
-
-/// One entry in the legend for all baselines: their colours say which series they belong to.
-fn baselines(series: &[ErrorSeries]) -> impl Iterator<Item = Curve> {
-    let with_baseline = series.iter().enumerate().filter(|(_, s)| !s.baseline.is_empty());
-    with_baseline.enumerate().map(|(nth, (k, s))| Curve {
-        name: "baseline (ring)".to_owned(),
-        noted_as: None,
-        is_listed: nth == 0,
-        points: s.baseline.clone(),
-        look: look_of(k, s),
-        width: 0.0,
-        marks: Marks::Ring,
-        is_data: true,
-    })
 }
 
 /// Whether a line is fitted to some of its points only.

@@ -36,8 +36,6 @@ pub enum Marks {
     Filled,
     /// Outline on white.
     Open,
-    /// A wide ring that leaves room for a filled marker inside.
-    Ring,
 }
 
 /// Half the height of a circle; the others are sized to look equally heavy.
@@ -54,10 +52,6 @@ impl Marker {
                 if !self.is_strokes() {
                     self.fill(pen, at, RADIUS - 1.4, WHITE);
                 }
-            }
-            Marks::Ring => {
-                pen.disc(at, RADIUS + 4.5, colour);
-                pen.disc(at, RADIUS + 2.8, WHITE);
             }
         }
     }

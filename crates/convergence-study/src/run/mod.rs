@@ -14,6 +14,7 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
+use crate::judge::verdict::Verdict;
 use crate::study::soundness;
 use crate::study::{Case, CaseFailure, Check, Header, Outcome, Plan, Study};
 use caught::caught;
@@ -35,9 +36,10 @@ pub struct Finished {
 }
 
 /// A case without a result.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FailedCase {
     /// Its label.
+    #[serde(rename = "case")]
     pub label: String,
     /// Why, in words.
     pub reason: String,
@@ -147,7 +149,7 @@ fn run_cases(
     let counter = Counter::new(&jobs, progress);
     let run = |job: Job| {
         let done = job.time(|| {
-            let Ok(plan) = &planned[job.study].plan else { return false };
+            let Ok(plan) = &planned[job.study].plan else { return };
             let (ended, up) = time_limit::within(limit, || caught(|| plan.run(job.case)));
             if let Err(reason) = ended {
                 plan.fail(job.case, CaseFailure { reason });
@@ -156,7 +158,6 @@ fn run_cases(
             if let Some(up) = up {
                 plan.fail(job.case, up.into());
             }
-            up.is_some()
         });
         counter.count(&job);
         done
@@ -182,10 +183,9 @@ fn conclude(Planned { header, plan, cases }: Planned<'_>, done: &[Done]) -> Fini
         Err(reason) => broken("list its cases", &reason),
     };
     spent.busy += started.elapsed();
-    for (case, _) in cases.iter().zip(done).filter(|(_, done)| done.is_stopped) {
-        let failed = failed_cases.iter().find(|failed| failed.label == case.label);
-        let reason = failed.map_or("", |failed| failed.reason.as_str());
-        outcome.checks.push(Check::that(false, format!("{} ends within the limit", case.label), reason));
+    // Whatever the study makes of it: a failed case cannot pass.
+    if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
+        outcome.checks.push(Check::that(false, "every case has a result", format!("{} have none", failed_cases.len())));
     }
     Finished { outcome: soundness::settle(&header.id, outcome), failed_cases, header: header.clone(), spent }
 }

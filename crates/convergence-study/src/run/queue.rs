@@ -35,18 +35,16 @@ pub(super) struct Job {
 pub(super) struct Done {
     study: usize,
     case: usize,
-    /// Whether it was stopped at the limit on its time.
-    pub(super) is_stopped: bool,
     started: Instant,
     ended: Instant,
 }
 
 impl Job {
-    /// Runs it and reads the clock before and after; `run` says whether the case was stopped at its limit.
-    pub(super) fn time(&self, run: impl FnOnce() -> bool) -> Done {
+    /// Runs it and reads the clock before and after.
+    pub(super) fn time(&self, run: impl FnOnce()) -> Done {
         let started = Instant::now();
-        let is_stopped = run();
-        Done { study: self.study, case: self.case, is_stopped, started, ended: Instant::now() }
+        run();
+        Done { study: self.study, case: self.case, started, ended: Instant::now() }
     }
 }
 

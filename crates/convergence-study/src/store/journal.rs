@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::record::Errors;
-use super::record::form::{self, null_is_nan};
+use super::record::form::null_is_nan;
 use super::{atomic, regular, writing};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
@@ -35,7 +35,6 @@ pub struct Run {
     /// What was run, as a command.
     pub command: String,
     /// The verdict on the run, changes against the baseline included.
-    #[serde(with = "form::verdict")]
     pub verdict: Verdict,
     /// Its studies.
     pub studies: Vec<StudyRun>,
@@ -47,7 +46,6 @@ pub struct StudyRun {
     /// Its id.
     pub id: String,
     /// Its verdict.
-    #[serde(with = "form::verdict")]
     pub verdict: Verdict,
     /// The rates that were judged.
     pub rates: Vec<RateRun>,

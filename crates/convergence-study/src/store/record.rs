@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::run::Finished;
+use crate::run::{FailedCase, Finished};
 use crate::store::regular;
 use crate::study::Untested;
 use crate::study::outcome::{Check, LevelErrors, Outcome, Quantity};
@@ -45,7 +45,6 @@ pub struct Record {
     /// What was run, such as `quick`.
     pub scope: String,
     /// The verdict on the run, changes against the baseline included.
-    #[serde(with = "form::verdict")]
     pub verdict: Verdict,
     /// What moved away from the baseline, in words.
     pub baseline_changes: Vec<String>,
@@ -65,7 +64,6 @@ pub struct StudyRecord {
     /// The kind of study.
     pub kind: String,
     /// `pass`, `fail` or `inconclusive`.
-    #[serde(with = "form::verdict")]
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
@@ -74,11 +72,11 @@ pub struct StudyRecord {
     /// Rates judged.
     pub rates: Vec<RateRecord>,
     /// Everything else that was judged.
-    pub checks: Vec<CheckRecord>,
+    pub checks: Vec<Check>,
     /// Numbers that the baseline guards.
-    pub quantities: Vec<QuantityRecord>,
+    pub quantities: Vec<Quantity>,
     /// Cases without a result.
-    pub failed_cases: Vec<FailedCaseRecord>,
+    pub failed_cases: Vec<FailedCase>,
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
     /// What the study is no test of although it passes; only `study` looks for it.
@@ -135,43 +133,8 @@ pub struct RateRecord {
     /// The limit of the pairwise rates.
     pub extrapolated: Option<f64>,
     /// `pass`, `fail` or `inconclusive`.
-    #[serde(with = "form::verdict")]
     pub verdict: Verdict,
     /// Why, in words.
-    pub reason: String,
-}
-
-/// A check.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CheckRecord {
-    /// What is claimed.
-    pub claim: String,
-    /// `pass`, `fail` or `inconclusive`.
-    #[serde(with = "form::verdict")]
-    pub verdict: Verdict,
-    /// The evidence, with numbers.
-    pub evidence: String,
-}
-
-/// A guarded number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct QuantityRecord {
-    /// Its name.
-    pub name: String,
-    /// Its value.
-    #[serde(deserialize_with = "null_is_nan")]
-    pub value: f64,
-    /// The relative change that is tolerated.
-    #[serde(deserialize_with = "null_is_nan")]
-    pub tolerance: f64,
-}
-
-/// A case without a result.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FailedCaseRecord {
-    /// Which one.
-    pub case: String,
-    /// Why.
     pub reason: String,
 }
 
@@ -261,7 +224,6 @@ impl Record {
 impl StudyRecord {
     /// The record of one study.
     pub fn new(Finished { header, outcome, failed_cases, .. }: &Finished, precision: Precision) -> Self {
-        let failed = failed_cases.iter();
         Self {
             id: header.id.clone(),
             claim: header.claim.clone(),
@@ -271,11 +233,9 @@ impl StudyRecord {
             summary: outcome.summary.clone(),
             levels: outcome.levels.iter().map(|level| precision.level(level)).collect(),
             rates: outcome.rates.iter().map(|(norm, rate)| precision.rate(norm, rate)).collect(),
-            checks: outcome.checks.iter().map(check).collect(),
+            checks: outcome.checks.clone(),
             quantities: outcome.quantities.iter().map(|quantity| precision.quantity(quantity)).collect(),
-            failed_cases: failed
-                .map(|failed| FailedCaseRecord { case: failed.label.clone(), reason: failed.reason.clone() })
-                .collect(),
+            failed_cases: failed_cases.clone(),
             not_finite: not_finite(outcome),
             untested: vec![],
         }
@@ -317,15 +277,9 @@ impl Precision {
         }
     }
 
-    fn quantity(self, quantity: &Quantity) -> QuantityRecord {
-        let Quantity { name, value, tolerance } = quantity;
-        QuantityRecord { name: name.clone(), value: self.number(*value), tolerance: *tolerance }
+    fn quantity(self, quantity: &Quantity) -> Quantity {
+        Quantity { value: self.number(quantity.value), ..quantity.clone() }
     }
-}
-
-fn check(check: &Check) -> CheckRecord {
-    let Check { claim, verdict, evidence } = check;
-    CheckRecord { claim: claim.clone(), verdict: *verdict, evidence: evidence.clone() }
 }
 
 /// Every number of an outcome that JSON cannot hold.

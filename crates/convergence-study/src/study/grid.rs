@@ -9,8 +9,6 @@ use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
 use crate::plots;
 
-/// Confidence of intervals and of the joint region.
-const CONFIDENCE: f64 = 0.95;
 /// Root mean square misfit in log e up to which the model is taken for a description of the data.
 const MISFIT: f64 = 0.1;
 /// Relative change of a fitted order that the baseline tolerates: the fit ends where its steps are that small.
@@ -118,8 +116,7 @@ impl Grid {
     fn fit(&self, column: &GridColumn) -> Result<Fitted, String> {
         let point = |(&[h, dt], &error): (&[f64; 2], &f64)| SurfacePoint { h, dt, error };
         let points: Vec<SurfacePoint> = self.points.iter().zip(&column.errors).map(point).collect();
-        let quantiles = Quantiles::new(CONFIDENCE).ok_or("no quantiles")?;
-        let fit = |adding| fit_surface_by(&points, adding, &quantiles);
+        let fit = |adding| fit_surface_by(&points, adding, Quantiles::standard());
         let squares = fit(Adding::Squares);
         let misfit = squares.as_ref().map_or(f64::INFINITY, |fit| fit.rms);
         let is_best = squares.as_ref().is_ok_and(|fit| fit.rms <= fit.rms_additive);

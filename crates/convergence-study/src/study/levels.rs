@@ -146,7 +146,6 @@ impl Levels {
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
                 look: Some(column.look),
-                ..ErrorSeries::default()
             }
         });
         let mut slopes: Vec<f64> = claimed.clone().map(|(_, claim)| claim.order).collect();

@@ -51,7 +51,7 @@ impl LevelErrors {
 }
 
 /// Something judged.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Check {
     /// What is claimed.
     pub claim: String,
@@ -92,14 +92,21 @@ pub struct Figure {
 }
 
 /// A number that must not move unnoticed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Quantity {
     /// Name, unique within the study.
     pub name: String,
     /// Value.
+    #[serde(deserialize_with = "null_is_nan")]
     pub value: f64,
     /// Relative change that is tolerated.
+    #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
+}
+
+/// A number of a record; `null` is NaN.
+pub(crate) fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    serde::Deserialize::deserialize(deserializer).map(|number: Option<f64>| number.unwrap_or(f64::NAN))
 }
 
 impl Outcome {

@@ -201,7 +201,7 @@ pub(crate) fn a_damaged_line_of_a_journal_is_named() {
             format!("{line}{}", line.replace("\"schema\":1", "\"schema\":9")),
             "runs.jsonl:2: schema: found 9; expected 1",
         ),
-        (line.replace("pass", "good"), "runs.jsonl:1: found the verdict `good`"),
+        (line.replace("pass", "good"), "runs.jsonl:1: unknown variant `good`, expected one of `pass`"),
         (String::new(), "runs.jsonl: found no run"),
     ] {
         fs::write(&journal, &damaged).unwrap();

@@ -51,7 +51,6 @@ pub(crate) fn space_errors() -> Convergence {
     norms[0].used = Some(3..10);
     // A norm that hides another one.
     norms.push(ErrorSeries { label: "energy norm, lumped".into(), ..norms[5].clone() });
-    norms[5].baseline = norms[5].points.iter().map(|&(h, e)| (h, 1.01 * e)).collect();
     Convergence { series: norms, slopes: vec![1.0, 2.0], ..Convergence::in_space() }
 }
 
@@ -65,7 +64,8 @@ pub(crate) fn time_errors() -> Convergence {
         series: vec![euler, midpoint],
         slopes: vec![1.0, 2.0],
         floor: Some(Guide { label: "round-off".into(), value: 1e-8 }),
-        ..Convergence::in_time()
+        x_label: "time step dt".into(),
+        ..Convergence::in_space()
     }
 }
 

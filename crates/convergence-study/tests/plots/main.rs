@@ -132,8 +132,7 @@ fn figures_of_extreme_data_do_not_panic() {
                 parse(&history(&History { y: axis, series, guides, phases, ..Default::default() }));
             }
             let fit = Some(PowerLaw { rate: x, constant: y });
-            let norm =
-                ErrorSeries { points: points.clone(), order: Some(x), fit, baseline: points, ..Default::default() };
+            let norm = ErrorSeries { points: points.clone(), order: Some(x), fit, ..Default::default() };
             parse(&convergence(&Convergence { series: vec![norm], slopes: vec![x, 1.0], ..Default::default() }));
             let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
             let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
@@ -198,7 +197,7 @@ fn labels_are_all_there() {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     let words = texts(&convergence(&gallery::space_errors()));
-    for label in ["energy norm, order 1, rate 1.002", "baseline (ring)", "mesh width h", "10⁻³", "1", "2"] {
+    for label in ["energy norm, order 1, rate 1.002", "mesh width h", "10⁻³", "1", "2"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     assert!(texts(&parameter_map(&gallery::stability_map())).contains(&"diverged".to_owned()));
@@ -304,7 +303,7 @@ fn a_note_names_the_curves_that_coincide() {
 fn a_series_keeps_its_look_in_every_figure() {
     let mut norm = gallery::time_errors().series.remove(0);
     norm.look = Some(3);
-    let alone = convergence(&Convergence { series: vec![norm.clone()], ..Convergence::in_time() });
+    let alone = convergence(&Convergence { series: vec![norm.clone()], ..Convergence::in_space() });
     let mut figure = gallery::time_errors();
     figure.series.push(norm);
     let last = convergence(&figure);

@@ -7,7 +7,8 @@ use crate::judge::power_law::PowerLaw;
 use crate::text::number::{RATE_PLACES, interval_text};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// The claim holds.
     Pass,

@@ -32,8 +32,7 @@ fn constant(levels: &[Level], rate: f64) -> Option<f64> {
 }
 
 impl<'a> Reading<'a> {
-    /// * `quantiles`: without them there is no rate.
-    pub(super) fn new(sequence: &'a [Level], floor: f64, quantiles: Option<&Quantiles>) -> Self {
+    pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
         let unusable = unusable(sequence);
         let range = match unusable {
             Some(_) => AsymptoticRange { used: 0..0, pre_asymptotic: 0, at_floor: 0 },
@@ -41,7 +40,7 @@ impl<'a> Reading<'a> {
         };
         let end = range.used.end;
         let start = if range.used.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.used.start };
-        let fit = quantiles.and_then(|quantiles| rate_interval(&sequence[start..end], quantiles));
+        let fit = rate_interval(&sequence[start..end], Quantiles::standard());
         let used = if fit.is_some() { start..end } else { 0..0 };
         Self {
             sequence,

@@ -7,10 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::{Errors, Parameters};
 
-/// A number; `null` is NaN.
-pub(in crate::store) fn null_is_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
-}
+pub(in crate::store) use crate::study::outcome::null_is_nan;
 
 /// The same of each number of a list.
 pub(in crate::store) fn null_is_nan_in<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
@@ -24,26 +21,6 @@ pub(in crate::store) fn null_is_nan_of_pair<'de, D: Deserializer<'de>>(
 ) -> Result<Option<[f64; 2]>, D::Error> {
     let ends: Option<[Option<f64>; 2]> = Option::deserialize(deserializer)?;
     Ok(ends.map(|ends| ends.map(|end| end.unwrap_or(f64::NAN))))
-}
-
-/// A verdict by its name.
-pub(in crate::store) mod verdict {
-    use serde::de::{Deserialize, Deserializer, Error};
-    use serde::ser::Serializer;
-
-    use crate::judge::verdict::Verdict;
-
-    pub(in crate::store) fn serialize<S: Serializer>(verdict: &Verdict, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(verdict.name())
-    }
-
-    pub(in crate::store) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Verdict, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        let known =
-            [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail].into_iter().find(|known| known.name() == name);
-        known
-            .ok_or_else(|| D::Error::custom(format!("found the verdict `{name}`; expected pass, inconclusive or fail")))
-    }
 }
 
 impl Serialize for Errors {

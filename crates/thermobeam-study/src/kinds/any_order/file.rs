@@ -23,8 +23,10 @@
 //! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
 //! ```
 
+use std::path::Path;
+
 use convergence_study::input::{Field, InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -41,47 +43,49 @@ const MOST_STEPS: usize = 100_000;
 
 const POSITIVE: &str = "a finite number > 0";
 
-pub(super) fn read(header: Header, root: &Section<'_>) -> Result<AnyOrder, InputError> {
-    let vibration = root.section("vibration")?;
-    let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
-    root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
-    let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
-    let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&[
-        ("space", Over::Space),
-        ("time", Over::Time),
-        ("degree", Over::Degree),
-    ])?;
-    let keys: &[&str] = match over {
-        Over::Space => &["over", "t_end", "time_degree", "steps", "map"],
-        Over::Time => &["over", "t_end", "degree", "elements", "map"],
-        Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
-    };
-    run.allow(keys)?;
-    let t_end = run.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)?;
-    let (beam, obstacles, exact) = match &vibration {
-        Some(section) => free(section)?,
-        None => {
-            let beam = tables::beam(root)?;
-            (beam, tables::obstacles(root)?, manufactured(root, &beam, t_end)?)
+impl FromFile for AnyOrder {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        let vibration = root.section("vibration")?;
+        let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
+        root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
+        let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
+        let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&[
+            ("space", Over::Space),
+            ("time", Over::Time),
+            ("degree", Over::Degree),
+        ])?;
+        let keys: &[&str] = match over {
+            Over::Space => &["over", "t_end", "time_degree", "steps", "map"],
+            Over::Time => &["over", "t_end", "degree", "elements", "map"],
+            Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
+        };
+        run.allow(keys)?;
+        let t_end = run.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)?;
+        let (beam, obstacles, exact) = match &vibration {
+            Some(section) => free(section)?,
+            None => {
+                let beam = tables::beam(root)?;
+                (beam, tables::obstacles(root)?, manufactured(root, &beam, t_end)?)
+            }
+        };
+        let loaded = vibration.is_none();
+        let map = run.get("map").map(|field| field.expression(Variable::S)).transpose()?;
+        let allowed = "at least one table [[series]]";
+        let series = root.require("series", allowed)?;
+        let items = series.items(allowed)?;
+        if items.is_empty() {
+            return Err(series.refuse_as_written(allowed));
         }
-    };
-    let loaded = vibration.is_none();
-    let map = run.get("map").map(|field| field.expression(Variable::S)).transpose()?;
-    let allowed = "at least one table [[series]]";
-    let series = root.require("series", allowed)?;
-    let items = series.items(allowed)?;
-    if items.is_empty() {
-        return Err(series.refuse_as_written(allowed));
-    }
-    let series = items.iter().map(|item| one(&run, over, &item.section()?)).collect::<Result<Vec<_>, _>>()?;
-    let control = control(root, beam, obstacles)?;
-    let study = AnyOrder { header, beam, obstacles, exact, loaded, control, map, t_end, over, series };
-    for resolution in study.resolutions() {
-        if let (Err(error), Some(field)) = (study.mesh(resolution.elements), run.get("map")) {
-            return Err(field.refuse(error.to_string(), "a map that increases from 0 to 1"));
+        let series = items.iter().map(|item| one(&run, over, &item.section()?)).collect::<Result<Vec<_>, _>>()?;
+        let control = control(root, beam, obstacles)?;
+        let study = AnyOrder { header, beam, obstacles, exact, loaded, control, map, t_end, over, series };
+        for resolution in study.resolutions() {
+            if let (Err(error), Some(field)) = (study.mesh(resolution.elements), run.get("map")) {
+                return Err(field.refuse(error.to_string(), "a map that increases from 0 to 1"));
+            }
         }
+        Ok(study)
     }
-    Ok(study)
 }
 
 /// Free vibrations: the beam whose modes are exact, and the modes, each released from a tip displacement of 0.1.

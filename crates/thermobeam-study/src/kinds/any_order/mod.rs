@@ -8,10 +8,7 @@ mod cases;
 mod file;
 mod judge;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::parameters::{Beam, Obstacles};
 
 use crate::exact::solution::Manufactured;
@@ -108,12 +105,6 @@ impl AnyOrder {
     /// The coefficients that the solver works with: those of the control, or else those of the loads.
     fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
         self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
-    }
-}
-
-impl FromFile for AnyOrder {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        file::read(header, root)
     }
 }
 

@@ -8,30 +8,32 @@ use crate::scene::limits;
 use crate::scene::tables;
 use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<BifurcationStudy, InputError> {
-    root.allow(&["study", "diagram", "buckling", "rest"])?;
-    let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
-    diagram.allow(&["scenes", "beta", "points"])?;
-    let (meshes, tolerance) = buckling(root)?;
-    let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
-    rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
-    let t_max = rest.require("t_max", "a number")?;
-    limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
-    Ok(BifurcationStudy {
-        header,
-        scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
-        grid: grid(&diagram)?,
-        meshes,
-        tolerance,
-        betas: ascending(&rest, "beta", 1)?,
-        elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
-        dt: positive(&rest, "dt")?,
-        speed: positive(&rest, "speed")?,
-        t_max: positive(&rest, "t_max")?,
-        distance: positive(&rest, "distance")?,
-    })
+impl FromFile for BifurcationStudy {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "diagram", "buckling", "rest"])?;
+        let diagram = root.require("diagram", "a table with scenes, beta and points")?.section()?;
+        diagram.allow(&["scenes", "beta", "points"])?;
+        let (meshes, tolerance) = buckling(root)?;
+        let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
+        rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
+        let t_max = rest.require("t_max", "a number")?;
+        limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
+        Ok(Self {
+            header,
+            scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
+            grid: grid(&diagram)?,
+            meshes,
+            tolerance,
+            betas: ascending(&rest, "beta", 1)?,
+            elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
+            dt: positive(&rest, "dt")?,
+            speed: positive(&rest, "speed")?,
+            t_max: positive(&rest, "t_max")?,
+            distance: positive(&rest, "distance")?,
+        })
+    }
 }
 
 /// The β of the diagrams.

@@ -11,10 +11,7 @@ mod file;
 mod judge;
 mod report;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 
 use crate::scene::Scene;
 
@@ -54,12 +51,6 @@ pub struct BifurcationStudy {
     t_max: f64,
     /// How far from an exact steady state they may be.
     distance: f64,
-}
-
-impl FromFile for BifurcationStudy {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
-    }
 }
 
 impl Kind for BifurcationStudy {

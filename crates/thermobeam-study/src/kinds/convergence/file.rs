@@ -26,25 +26,33 @@
 //! tolerance = 0.05
 //! ```
 
+use std::path::Path;
+
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::{Convergence, ROW};
 use crate::kinds::tables::{control, expectations, manufactured, refine};
 use crate::scene::tables;
 
-pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Convergence, InputError> {
-    // Studies of other kinds name files of this kind.
-    if header.kind != ROW.name {
-        let study = root.require("study", "a table")?.section()?;
-        return Err(study.refuse("kind", format!("\"{}\"", header.kind), format!("\"{}\" for this reader", ROW.name)));
+impl FromFile for Convergence {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        // Studies of other kinds name files of this kind.
+        if header.kind != ROW.name {
+            let study = root.require("study", "a table")?.section()?;
+            return Err(study.refuse(
+                "kind",
+                format!("\"{}\"", header.kind),
+                format!("\"{}\" for this reader", ROW.name),
+            ));
+        }
+        root.allow(&["study", "beam", "obstacles", "exact", "refine", "control", "expect"])?;
+        let beam = tables::beam(root)?;
+        let obstacles = tables::obstacles(root)?;
+        let refine = refine(root)?;
+        let exact = manufactured(root, &beam, refine.t_end)?;
+        let control = control(root, beam, obstacles)?;
+        let expect = expectations(root)?;
+        Ok(Self { header, beam, obstacles, exact, refine, control, expect })
     }
-    root.allow(&["study", "beam", "obstacles", "exact", "refine", "control", "expect"])?;
-    let beam = tables::beam(root)?;
-    let obstacles = tables::obstacles(root)?;
-    let refine = refine(root)?;
-    let exact = manufactured(root, &beam, refine.t_end)?;
-    let control = control(root, beam, obstacles)?;
-    let expect = expectations(root)?;
-    Ok(Convergence { header, beam, obstacles, exact, refine, control, expect })
 }

@@ -9,13 +9,8 @@ mod file;
 mod grid;
 mod judge;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::study::levels::Levels;
-use convergence_study::study::{
-    Axis, Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Untested, reader,
-};
+use convergence_study::study::{Axis, Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, Untested, reader};
 use thermobeam::parameters::{Beam, Obstacles};
 
 use crate::kinds::controls::untested;
@@ -72,12 +67,6 @@ impl Convergence {
     fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
         let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
         norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors)
-    }
-}
-
-impl FromFile for Convergence {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        file::read(header, root)
     }
 }
 

@@ -4,32 +4,34 @@ use std::path::Path;
 
 use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::{AnyOrder, EndStates};
 use crate::kinds::steady::{listed_scenes, positive};
 use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::scene::{limits, tables};
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<EndStates, InputError> {
-    root.allow(&["study", "run", "any-order", "expect"])?;
-    let run = root.require("run", "a table with scenes, elements, dt, speed and t_max")?.section()?;
-    run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
-    let expect = root.require("expect", "a table with tolerance and error")?.section()?;
-    expect.allow(&["tolerance", "error"])?;
-    let (dt, t_max) = (positive(&run, "dt")?, positive(&run, "t_max")?);
-    limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
-    Ok(EndStates {
-        header,
-        scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, folder)?,
-        elements: mesh_sizes(&run)?,
-        dt,
-        speed: positive(&run, "speed")?,
-        t_max,
-        tolerance: tolerance(&expect)?,
-        error: positive(&expect, "error")?,
-        any_order: root.section("any-order")?.map(|section| any_order(&section)).transpose()?,
-    })
+impl FromFile for EndStates {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "run", "any-order", "expect"])?;
+        let run = root.require("run", "a table with scenes, elements, dt, speed and t_max")?.section()?;
+        run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
+        let expect = root.require("expect", "a table with tolerance and error")?.section()?;
+        expect.allow(&["tolerance", "error"])?;
+        let (dt, t_max) = (positive(&run, "dt")?, positive(&run, "t_max")?);
+        limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+        Ok(Self {
+            header,
+            scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, folder)?,
+            elements: mesh_sizes(&run)?,
+            dt,
+            speed: positive(&run, "speed")?,
+            t_max,
+            tolerance: tolerance(&expect)?,
+            error: positive(&expect, "error")?,
+            any_order: root.section("any-order")?.map(|section| any_order(&section)).transpose()?,
+        })
+    }
 }
 
 fn any_order(section: &Section<'_>) -> Result<AnyOrder, InputError> {

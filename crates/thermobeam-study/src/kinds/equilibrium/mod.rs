@@ -9,10 +9,7 @@ mod cases;
 mod file;
 mod judge;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::equilibrium::Contact;
 
 use crate::kinds::tables::Discretisation;
@@ -87,12 +84,6 @@ pub struct End {
     pub contact: Contact,
     /// Largest errors at the nodes.
     pub error: Fields,
-}
-
-impl FromFile for EndStates {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
-    }
 }
 
 impl Kind for EndStates {

@@ -19,7 +19,7 @@
 use std::path::Path;
 
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::ExactExperiments;
 use super::cases::TIP_TIMES;
@@ -28,19 +28,22 @@ use crate::scene::Scene;
 
 const POSITIVE: &str = "a finite number > 0";
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<ExactExperiments, InputError> {
-    root.allow(&["study", "experiments", "discretisations"])?;
-    let section = root.require("experiments", "a table with scenes, times and agreement")?.section()?;
-    section.allow(&["scenes", "times", "agreement", "compare"])?;
-    let scenes = scenes(&section, folder)?;
-    let times = times(&section, &scenes)?;
-    let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
-    let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
-    if compare {
-        comparable(&section, &scenes, &times)?;
+impl FromFile for ExactExperiments {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "experiments", "discretisations"])?;
+        let section = root.require("experiments", "a table with scenes, times and agreement")?.section()?;
+        section.allow(&["scenes", "times", "agreement", "compare"])?;
+        let scenes = scenes(&section, folder)?;
+        let times = times(&section, &scenes)?;
+        let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+        let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
+        if compare {
+            comparable(&section, &scenes, &times)?;
+        }
+        let discretisations =
+            discretisations(root, "discretisations", None, times.last().copied().unwrap_or_default())?;
+        Ok(Self { header, scenes, times, discretisations, agreement, compare })
     }
-    let discretisations = discretisations(root, "discretisations", None, times.last().copied().unwrap_or_default())?;
-    Ok(ExactExperiments { header, scenes, times, discretisations, agreement, compare })
 }
 
 fn scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {

@@ -8,10 +8,7 @@ mod file;
 mod judge;
 mod report;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::dg::ContactEvent;
 
 use crate::kinds::tables::Discretisation;
@@ -71,12 +68,6 @@ pub struct ExactExperiments {
     agreement: f64,
     /// Whether the scenes' own schemes are run and compared.
     compare: bool,
-}
-
-impl FromFile for ExactExperiments {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
-    }
 }
 
 impl Kind for ExactExperiments {

@@ -10,25 +10,27 @@ use crate::scene::Scene;
 use crate::scene::limits;
 use crate::scene::tables;
 use convergence_study::input::{Field, InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 /// A positive number, in words.
 const POSITIVE: &str = "a finite number > 0";
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Experiments, InputError> {
-    root.allow(&["study", "experiments", "run", "steady"])?;
-    let run = root.require("run", "a table with t_max, window and rate")?.section()?;
-    run.allow(&["elements", "dt", "t_max", "window", "rate"])?;
-    let until =
-        Until { t_max: positive(&run, "t_max")?, window: positive(&run, "window")?, rate: positive(&run, "rate")? };
-    let mut experiments = experiments(root, folder)?;
-    let t_max = run.require("t_max", POSITIVE)?;
-    for experiment in &mut experiments {
-        refine(&run, &mut experiment.scene)?;
-        limits::steps_until(&t_max, until.t_max, experiment.scene.dt, limits::STEPS)?;
+impl FromFile for Experiments {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "experiments", "run", "steady"])?;
+        let run = root.require("run", "a table with t_max, window and rate")?.section()?;
+        run.allow(&["elements", "dt", "t_max", "window", "rate"])?;
+        let until =
+            Until { t_max: positive(&run, "t_max")?, window: positive(&run, "window")?, rate: positive(&run, "rate")? };
+        let mut experiments = experiments(root, folder)?;
+        let t_max = run.require("t_max", POSITIVE)?;
+        for experiment in &mut experiments {
+            refine(&run, &mut experiment.scene)?;
+            limits::steps_until(&t_max, until.t_max, experiment.scene.dt, limits::STEPS)?;
+        }
+        let (betas, rest) = steady(root)?;
+        Ok(Self { header, experiments, until, betas, rest })
     }
-    let (betas, rest) = steady(root)?;
-    Ok(Experiments { header, experiments, until, betas, rest })
 }
 
 /// The table `[experiments]`: the scenes of the three groups.

@@ -33,10 +33,7 @@ mod report;
 mod rest;
 mod run;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::equilibrium::{Contact, Equilibrium};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
@@ -127,12 +124,6 @@ impl Nearest {
     fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
         let (state, (in_u, in_phi)) = steady::nearest(mesh, level, states)?;
         Some(Self { state, distance: max_or_nan(in_u, in_phi) })
-    }
-}
-
-impl FromFile for Experiments {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
     }
 }
 

@@ -10,8 +10,10 @@
 //! tolerance = 0.1
 //! ```
 
+use std::path::Path;
+
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 use thermobeam::dg::MAX_DEGREE;
 use thermobeam::mesh::Mesh;
 
@@ -20,29 +22,31 @@ use crate::expression::{Expression, Variable};
 use crate::scene::functions::FunctionField;
 use crate::scene::{limits, tables};
 
-pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Frequencies, InputError> {
-    root.allow(&["study", "frequencies"])?;
-    let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;
-    section.allow(&["first", "count", "elements", "degree", "map", "order", "tolerance"])?;
-    let positive = "a finite number > 0";
-    let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
-    let elements = increasing(&section)?;
-    let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
-    // A mesh has twice as many frequencies, of which the upper ones approximate nothing.
-    let most = (elements[0] * degree).min(limits::MODES);
-    let count = section.require("count", "a whole number >= 1")?.count(1..=most)?;
-    let first = section.get("first").map_or(Ok(1), |field| field.count(1..=count))?;
-    let map = map(&section, &elements)?;
-    Ok(Frequencies {
-        header,
-        first,
-        count,
-        degree,
-        map,
-        elements,
-        order: number("order")?,
-        tolerance: number("tolerance")?,
-    })
+impl FromFile for Frequencies {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "frequencies"])?;
+        let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;
+        section.allow(&["first", "count", "elements", "degree", "map", "order", "tolerance"])?;
+        let positive = "a finite number > 0";
+        let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
+        let elements = increasing(&section)?;
+        let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
+        // A mesh has twice as many frequencies, of which the upper ones approximate nothing.
+        let most = (elements[0] * degree).min(limits::MODES);
+        let count = section.require("count", "a whole number >= 1")?.count(1..=most)?;
+        let first = section.get("first").map_or(Ok(1), |field| field.count(1..=count))?;
+        let map = map(&section, &elements)?;
+        Ok(Self {
+            header,
+            first,
+            count,
+            degree,
+            map,
+            elements,
+            order: number("order")?,
+            tolerance: number("tolerance")?,
+        })
+    }
 }
 
 fn increasing(section: &Section<'_>) -> Result<Vec<usize>, InputError> {

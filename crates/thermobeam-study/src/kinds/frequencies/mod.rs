@@ -7,10 +7,7 @@ mod cases;
 mod file;
 mod judge;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 
 use crate::expression::Expression;
 
@@ -38,12 +35,6 @@ pub struct Frequencies {
     map: Option<Expression>,
     order: f64,
     tolerance: f64,
-}
-
-impl FromFile for Frequencies {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        file::read(header, root)
-    }
 }
 
 impl Kind for Frequencies {

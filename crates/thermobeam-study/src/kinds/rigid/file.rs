@@ -4,38 +4,41 @@ use std::path::Path;
 
 use convergence_study::input::{Field, InputError, Section};
 use convergence_study::judge::verdict::Judge;
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::RigidStudy;
 use crate::kinds::steady::{at_resolution, listed_scene, positive};
 use crate::scene::{Scene, limits, tables};
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<RigidStudy, InputError> {
-    root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
-    let obstacles = root.require("obstacles", "a table with epsilon, limit and tolerance")?.section()?;
-    obstacles.allow(&["epsilon", "limit", "tolerance"])?;
-    let tolerance = obstacles.require("tolerance", "a number > 0 and < 0.5")?;
-    let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
-    let moving = root.require("moving", "a table with scene, elements, dt, t_end and max_iterations")?.section()?;
-    moving.allow(&["scene", "elements", "dt", "t_end", "max_iterations"])?;
-    let rest = root.require("rest", "a table with scene, elements, dt, speed and t_max")?.section()?;
-    rest.allow(&["scene", "elements", "dt", "speed", "t_max"])?;
-    let impact = root.require("impact", "a table with scene and steps")?.section()?;
-    impact.allow(&["scene", "steps"])?;
-    let t_end = positive(&moving, "t_end")?;
-    Ok(RigidStudy {
-        header,
-        epsilons: epsilons(&obstacles)?,
-        limit: positive(&obstacles, "limit")?,
-        judge,
-        moving: scene(&moving, folder, Some(t_end))?,
-        max_iterations: moving.require("max_iterations", "a whole number >= 1")?.count(1..=usize::MAX)?,
-        resting: scene(&rest, folder, None)?,
-        speed: positive(&rest, "speed")?,
-        t_max: positive(&rest, "t_max")?,
-        impact: impact_scene(&impact, folder)?,
-        steps: impact.require("steps", "a whole number >= 1")?.count(1..=1_000_000)?,
-    })
+impl FromFile for RigidStudy {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
+        let obstacles = root.require("obstacles", "a table with epsilon, limit and tolerance")?.section()?;
+        obstacles.allow(&["epsilon", "limit", "tolerance"])?;
+        let tolerance = obstacles.require("tolerance", "a number > 0 and < 0.5")?;
+        let judge =
+            Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written("a number > 0 and < 0.5"))?;
+        let moving = root.require("moving", "a table with scene, elements, dt, t_end and max_iterations")?.section()?;
+        moving.allow(&["scene", "elements", "dt", "t_end", "max_iterations"])?;
+        let rest = root.require("rest", "a table with scene, elements, dt, speed and t_max")?.section()?;
+        rest.allow(&["scene", "elements", "dt", "speed", "t_max"])?;
+        let impact = root.require("impact", "a table with scene and steps")?.section()?;
+        impact.allow(&["scene", "steps"])?;
+        let t_end = positive(&moving, "t_end")?;
+        Ok(Self {
+            header,
+            epsilons: epsilons(&obstacles)?,
+            limit: positive(&obstacles, "limit")?,
+            judge,
+            moving: scene(&moving, folder, Some(t_end))?,
+            max_iterations: moving.require("max_iterations", "a whole number >= 1")?.count(1..=usize::MAX)?,
+            resting: scene(&rest, folder, None)?,
+            speed: positive(&rest, "speed")?,
+            t_max: positive(&rest, "t_max")?,
+            impact: impact_scene(&impact, folder)?,
+            steps: impact.require("steps", "a whole number >= 1")?.count(1..=1_000_000)?,
+        })
+    }
 }
 
 /// The compliances.

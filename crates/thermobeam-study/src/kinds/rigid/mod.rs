@@ -27,11 +27,8 @@ mod judge;
 mod report;
 mod theory;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::judge::verdict::Judge;
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 
 use crate::scene::Scene;
 
@@ -153,12 +150,6 @@ pub struct Impact {
     pub force: f64,
     /// Peak of the penetration, ε times the force.
     pub penetration: f64,
-}
-
-impl FromFile for RigidStudy {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
-    }
 }
 
 impl Kind for RigidStudy {

@@ -14,27 +14,31 @@
 //! t_end = 1.0
 //! ```
 
+use std::path::Path;
+
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::{Answer, NUMBERS, Scenes, Whole};
 use crate::kinds::energy::End;
 use crate::scene;
 use crate::scene::any_order::SceneFile;
 
-pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Scenes, InputError> {
-    root.allow(&["study", "case"])?;
-    let allowed = "a list of at least one case, each [[case]]";
-    let list = root.require("case", allowed)?;
-    let mut scenes: Vec<Whole> = vec![];
-    for item in list.items(allowed)? {
-        let whole = case(&item.section()?)?;
-        if scenes.iter().any(|earlier| earlier.name == whole.name) {
-            return Err(item.refuse(format!("a second \"{}\"", whole.name), "a name that no other case has"));
+impl FromFile for Scenes {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "case"])?;
+        let allowed = "a list of at least one case, each [[case]]";
+        let list = root.require("case", allowed)?;
+        let mut scenes: Vec<Whole> = vec![];
+        for item in list.items(allowed)? {
+            let whole = case(&item.section()?)?;
+            if scenes.iter().any(|earlier| earlier.name == whole.name) {
+                return Err(item.refuse(format!("a second \"{}\"", whole.name), "a name that no other case has"));
+            }
+            scenes.push(whole);
         }
-        scenes.push(whole);
+        if scenes.is_empty() { Err(list.refuse_as_written(allowed)) } else { Ok(Self { header, scenes }) }
     }
-    if scenes.is_empty() { Err(list.refuse_as_written(allowed)) } else { Ok(Scenes { header, scenes }) }
 }
 
 fn case(section: &Section<'_>) -> Result<Whole, InputError> {

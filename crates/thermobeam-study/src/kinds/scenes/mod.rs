@@ -6,10 +6,7 @@
 mod file;
 mod judge;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 
 use super::energy::End;
 use super::tables::Discretisation;
@@ -141,12 +138,6 @@ fn numbers(last: &Sample, extremes: &Extremes, energy: &EnergySummary) -> [f64; 
         extremes.u_tip_max,
         energy.largest_increase,
     ]
-}
-
-impl FromFile for Scenes {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        file::read(header, root)
-    }
 }
 
 impl Kind for Scenes {

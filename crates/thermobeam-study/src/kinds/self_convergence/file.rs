@@ -28,42 +28,45 @@ use std::path::Path;
 
 use convergence_study::input::{Field, InputError, Section};
 use convergence_study::study::levels::Claim;
-use convergence_study::study::{Axis, Header};
+use convergence_study::study::{Axis, FromFile, Header};
 use thermobeam::scheme::SCHEMES;
 
 use super::{Observable, Resolution, SelfConvergence};
 use crate::kinds::tables::discretisations;
 use crate::scene::{Scene, limits, tables};
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<SelfConvergence, InputError> {
-    root.allow(&["study", "scene", "refine", "reference", "expect"])?;
-    let named = root.require("scene", "a table with the scene's file")?.section()?;
-    named.allow(&["file"])?;
-    let scene = Scene::read(named.require("file", "the path of a scene, from this file's folder")?.file(folder)?)?;
-    let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
-    section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
-    let axis = section.require("axis", "\"time\", \"both\"")?.choice(&[("time", Axis::Time), ("both", Axis::Both)])?;
-    let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
-    let (levels, power) = levels(&section, axis, samples)?;
-    let positive = "a finite number > 0";
-    let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
-    let scheme = section
-        .get("scheme")
-        .map_or(Ok(scene.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
-    let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
-    Ok(SelfConvergence {
-        header,
-        axis,
-        scheme,
-        levels,
-        power,
-        references: discretisations(root, "reference", of_mesh, t_end)?,
-        t_end,
-        samples,
-        contact: contact(&section, &scene)?,
-        claims: claims(root, axis)?,
-        scene,
-    })
+impl FromFile for SelfConvergence {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "scene", "refine", "reference", "expect"])?;
+        let named = root.require("scene", "a table with the scene's file")?.section()?;
+        named.allow(&["file"])?;
+        let scene = Scene::read(named.require("file", "the path of a scene, from this file's folder")?.file(folder)?)?;
+        let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
+        section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
+        let axis =
+            section.require("axis", "\"time\", \"both\"")?.choice(&[("time", Axis::Time), ("both", Axis::Both)])?;
+        let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
+        let (levels, power) = levels(&section, axis, samples)?;
+        let positive = "a finite number > 0";
+        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
+        let scheme = section
+            .get("scheme")
+            .map_or(Ok(scene.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
+        let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
+        Ok(Self {
+            header,
+            axis,
+            scheme,
+            levels,
+            power,
+            references: discretisations(root, "reference", of_mesh, t_end)?,
+            t_end,
+            samples,
+            contact: contact(&section, &scene)?,
+            claims: claims(root, axis)?,
+            scene,
+        })
+    }
 }
 
 fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {

@@ -23,11 +23,8 @@ mod file;
 mod judge;
 mod observable;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::study::levels::Claim;
-use convergence_study::study::{Axis, Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Axis, Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::mesh::Mesh;
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Level;
@@ -116,12 +113,6 @@ impl Sample {
 
     fn rotation(&self) -> f64 {
         self.level.phi.last().copied().unwrap_or(f64::NAN)
-    }
-}
-
-impl FromFile for SelfConvergence {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use convergence_study::input::{Field, InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::comparison::Comparison;
 use super::contraction::Grid;
@@ -16,19 +16,21 @@ const PARTS: [&str; 3] = ["contraction", "comparison", "map"];
 
 const POSITIVE: &str = "a finite number > 0";
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Solvers, InputError> {
-    root.allow(&[&["study"], &PARTS[..]].concat())?;
-    if PARTS.iter().all(|part| root.get(part).is_none()) {
-        return Err(
-            root.missing(PARTS[0], &format!("at least one table for kind \"{}\": {}", ROW.name, PARTS.join(", ")))
-        );
+impl FromFile for Solvers {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&[&["study"], &PARTS[..]].concat())?;
+        if PARTS.iter().all(|part| root.get(part).is_none()) {
+            return Err(
+                root.missing(PARTS[0], &format!("at least one table for kind \"{}\": {}", ROW.name, PARTS.join(", ")))
+            );
+        }
+        Ok(Self {
+            header,
+            contraction: root.section(PARTS[0])?.map(|section| contraction(&section)).transpose()?,
+            comparison: root.section(PARTS[1])?.map(|section| comparison(&section, folder)).transpose()?,
+            map: root.section(PARTS[2])?.map(|section| map(&section)).transpose()?,
+        })
     }
-    Ok(Solvers {
-        header,
-        contraction: root.section(PARTS[0])?.map(|section| contraction(&section)).transpose()?,
-        comparison: root.section(PARTS[1])?.map(|section| comparison(&section, folder)).transpose()?,
-        map: root.section(PARTS[2])?.map(|section| map(&section)).transpose()?,
-    })
 }
 
 fn elements(section: &Section<'_>) -> Result<usize, InputError> {

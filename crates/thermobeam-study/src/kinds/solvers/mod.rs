@@ -35,12 +35,9 @@ mod file;
 mod map;
 mod step;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::study::levels::completion;
 use convergence_study::study::{
-    Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Table, reader,
+    Case, CaseFailure, Check, Figure, Header, Kind, KindRow, Outcome, Quantity, Ran, Table, reader,
 };
 
 pub use comparison::Agreement;
@@ -125,12 +122,6 @@ struct Part {
     tables: Vec<Table>,
     figures: Vec<Figure>,
     quantities: Vec<Quantity>,
-}
-
-impl FromFile for Solvers {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
-    }
 }
 
 impl Solvers {

@@ -1,22 +1,26 @@
 //! The file of a vibration study: modes, what is refined, orders.
 
+use std::path::Path;
+
 use convergence_study::input::{Field, InputError, Section};
-use convergence_study::study::{Axis, Header};
+use convergence_study::study::{Axis, FromFile, Header};
 use thermobeam::parameters::Beam;
 
 use super::{Cooling, Vibrating, Vibration};
 use crate::kinds::tables::{Refine, control, expectations, refine};
 use crate::scene::{limits, tables};
 
-pub(super) fn read(header: Header, root: &Section<'_>) -> Result<Vibration, InputError> {
-    root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
-    let beam = beam(root)?;
-    let refine = refine(root)?;
-    bounded(root, &refine)?;
-    let modes = modes(root, &refine)?;
-    let heat = heat(root, &refine)?;
-    let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
-    Ok(Vibration { header, beam, solver, modes, heat, refine, expect: expectations(root)? })
+impl FromFile for Vibration {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
+        let beam = beam(root)?;
+        let refine = refine(root)?;
+        bounded(root, &refine)?;
+        let modes = modes(root, &refine)?;
+        let heat = heat(root, &refine)?;
+        let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
+        Ok(Self { header, beam, solver, modes, heat, refine, expect: expectations(root)? })
+    }
 }
 
 /// The beam, which must be one whose modes are exact.

@@ -12,10 +12,7 @@ mod judge;
 mod mesh_modes;
 mod motion;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Axis, Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Axis, Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::parameters::Beam;
 
 use crate::kinds::tables::{Expectation, Norms, Refine};
@@ -81,12 +78,6 @@ pub struct Vibrated {
 impl Vibration {
     fn isolates(&self, axis: Axis) -> bool {
         self.refine.isolate && self.refine.axis == axis
-    }
-}
-
-impl FromFile for Vibration {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        file::read(header, root)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::Header;
+use convergence_study::study::{FromFile, Header};
 
 use super::method::{METHODS, Method};
 use super::{Advantage, AnyOrder, ROW, WorkPrecision};
@@ -22,31 +22,33 @@ const MISFIT: f64 = 0.15;
 
 const POSITIVE: &str = "a finite number > 0";
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<WorkPrecision, InputError> {
-    root.allow(&["study", ROW.name, "reference", "advantage"])?;
-    let section = root.require(ROW.name, "a table with elements, steps and a problem")?.section()?;
-    let keys = ["solution", "scene", "vibration", "zeta", "t_end", "agreement", "elements", "steps"];
-    section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
-    let steps = levels(&section, "steps")?;
-    if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
-        return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
+impl FromFile for WorkPrecision {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", ROW.name, "reference", "advantage"])?;
+        let section = root.require(ROW.name, "a table with elements, steps and a problem")?.section()?;
+        let keys = ["solution", "scene", "vibration", "zeta", "t_end", "agreement", "elements", "steps"];
+        section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
+        let steps = levels(&section, "steps")?;
+        if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
+            return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
+        }
+        let elements = levels(&section, "elements")?;
+        let number = |key: &str, default: f64| {
+            section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
+        };
+        let (family, reference) = problem(root, &section, folder)?;
+        Ok(Self {
+            header,
+            family,
+            reference,
+            computed: OnceLock::new(),
+            tolerance: number("tolerance", TOLERANCE)?,
+            misfit: number("misfit", MISFIT)?,
+            advantages: advantages(root)?,
+            elements,
+            steps,
+        })
     }
-    let elements = levels(&section, "elements")?;
-    let number = |key: &str, default: f64| {
-        section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
-    };
-    let (family, reference) = problem(root, &section, folder)?;
-    Ok(WorkPrecision {
-        header,
-        family,
-        reference,
-        computed: OnceLock::new(),
-        tolerance: number("tolerance", TOLERANCE)?,
-        misfit: number("misfit", MISFIT)?,
-        advantages: advantages(root)?,
-        elements,
-        steps,
-    })
 }
 
 /// An increasing list of at least two whole numbers.

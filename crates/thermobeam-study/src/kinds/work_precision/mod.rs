@@ -31,11 +31,9 @@ mod library;
 pub mod method;
 mod timed;
 
-use std::path::Path;
 use std::sync::OnceLock;
 
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
 use thermobeam::solve::Solver;
 
 use crate::error::evaluator::{ErrorMeasure, Evaluator};
@@ -138,12 +136,6 @@ impl WorkPrecision {
         let mut evaluator = Evaluator::new(&self.family, &on, self.reference()?)?;
         let mut run = |&steps: &usize| method.run(&on, &mut evaluator, [steps, self.observations()], self.tolerance);
         self.steps.iter().map(&mut run).collect()
-    }
-}
-
-impl FromFile for WorkPrecision {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        file::read(header, root, folder)
     }
 }
 

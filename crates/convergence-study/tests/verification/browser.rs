@@ -67,16 +67,22 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     let file = folder.path().join("index.html");
     let page = page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
     std::fs::write(&file, page).expect("a file");
+    // Where the machine is busy, the browser may give up before the page has said anything: it is asked again.
+    let said = (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
+    assert_eq!(said.as_deref(), Some("RIGHT"));
+}
+
+/// What the page says of itself: its title, `RIGHT` or `WRONG` with what is wrong; `None` where it has another one.
+fn said(file: &Path, profile: &Path) -> Option<String> {
     let output = Command::new(CHROMIUM)
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
         .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
         .args(["--window-size=500,800", "--virtual-time-budget=2000", "--dump-dom"])
-        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .arg(format!("--user-data-dir={}", profile.display()))
         .arg(format!("file://{}#good-1.0", file.display()))
         .output()
         .expect("the browser starts");
     let document = String::from_utf8_lossy(&output.stdout);
-    let title =
-        document.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>")).map(|(title, _)| title);
-    assert_eq!(title, Some("RIGHT"), "{}", String::from_utf8_lossy(&output.stderr));
+    let title = document.split_once("<title>")?.1.split_once("</title>")?.0;
+    (title == "RIGHT" || title.starts_with("WRONG")).then(|| title.to_owned())
 }

@@ -8,7 +8,7 @@ use crate::study::{KindRow, Study};
 use crate::text::names::nearest;
 
 /// Every reason, for listing.
-pub(crate) const REASONS: [Reason; 17] = [
+pub(crate) const REASONS: [Reason; 19] = [
     Reason::Agrees,
     Reason::NonFiniteError,
     Reason::NegativeError,
@@ -24,6 +24,8 @@ pub(crate) const REASONS: [Reason; 17] = [
     Reason::NotAsymptotic,
     Reason::RoundOffFloor,
     Reason::WildRate,
+    Reason::Outlier,
+    Reason::LevelsTooClose,
     Reason::IntervalTooWide,
     Reason::AtTheEdge,
 ];
@@ -86,6 +88,15 @@ pub(crate) fn reason_text(reason: Reason) -> (&'static str, &'static str) {
         Reason::WildRate => {
             ("wild", "A pairwise rate is more than five orders away from the claim: these levels are not one family.")
         }
+        Reason::Outlier => (
+            "outlier",
+            "The levels before and after it lie on one line of the finest rate, and it is off by a factor of two or more. Look for what is \
+             different in that case, or leave it out.",
+        ),
+        Reason::LevelsTooClose => (
+            "close",
+            "The coarsest step is less than 1.5 times the finest: a term of lower order would not show. Refine further.",
+        ),
         Reason::IntervalTooWide => (
             "wide",
             "The data scatter too much for this tolerance. Add levels, take an error that does not change its sign, or claim less \

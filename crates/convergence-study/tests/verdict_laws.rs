@@ -362,6 +362,8 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
         NotAsymptotic,
         RoundOffFloor,
         WildRate,
+        Outlier,
+        LevelsTooClose,
         IntervalTooWide,
         AtTheEdge,
     ];
@@ -370,7 +372,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
     assert!(ignorant.iter().all(|reason| reason.verdict() == Verdict::Inconclusive));
     let texts: Vec<_> = [Agrees].iter().chain(&failing).chain(&ignorant).map(|reason| reason.text()).collect();
     let distinct: std::collections::BTreeSet<_> = texts.iter().collect();
-    assert!(distinct.len() == 17 && texts.iter().all(|text| text.len() > 10), "{texts:?}");
+    assert!(distinct.len() == 19 && texts.iter().all(|text| text.len() > 10), "{texts:?}");
 }
 
 mod whatever_is_measured {

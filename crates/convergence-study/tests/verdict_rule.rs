@@ -84,6 +84,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
         (&[0.1, 0.6, 1.1], 1.0, Reason::NotAsymptotic),
         (&[2.0, 2.0, 1.98, 1.94], 2.0, Reason::NotAsymptotic),
         (&[6.5, 1.0, 1.0], 1.0, Reason::WildRate),
+        (&[1.0, -0.5, 2.5, 1.0, 1.0], 1.0, Reason::Outlier),
         (&[1.0, 1.0, 1.0], f64::NAN, Reason::ClaimUnusable),
     ] {
         let outcome = judge(&with_rates(rates), order, 0.05);

@@ -27,6 +27,9 @@ pub const WIDEST_TOLERANCE: f64 = 0.5;
 /// slower than theory when the step is halved is a different solution, not a worse one.
 pub const WILD: f64 = 5.0;
 
+/// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order changes no rate.
+pub const LEAST_SPAN: f64 = 1.5;
+
 /// Floor of errors of quantities of order 1, [`FLOOR_MARGIN`] times some hundred rounding errors: the default of [`Judge`].
 pub const ROUND_OFF_FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 

@@ -78,6 +78,10 @@ pub enum Reason {
     RoundOffFloor,
     /// A pairwise rate that belongs to no convergent family of this order.
     WildRate,
+    /// A level between others on one line is far from it.
+    Outlier,
+    /// All steps are nearly the same.
+    LevelsTooClose,
     /// The interval is wider than the band and overlaps it, or the rates scatter so much that an error that grows proves nothing.
     IntervalTooWide,
     /// The interval is narrow enough, but holds an end of the band.
@@ -117,6 +121,8 @@ impl Reason {
             Self::NotAsymptotic => "not yet asymptotic",
             Self::RoundOffFloor => "at the round-off floor",
             Self::WildRate => "a pairwise rate is wild",
+            Self::Outlier => "a level does not fit its neighbours",
+            Self::LevelsTooClose => "the levels are too close to each other",
             Self::IntervalTooWide => "the interval is too wide for the tolerance",
             Self::AtTheEdge => "the interval crosses the edge of the tolerance",
         }
@@ -192,14 +198,18 @@ impl RateVerdict {
         let levels = reading.levels;
         let used = reading.used.clone();
         let (fitted, interval) = reading.fit.map_or((None, None), |fit| (Some(fit.rate), Some(fit.interval)));
+        let text = match reading.outlier().filter(|_| kind == Reason::Outlier) {
+            Some(level) => format!("level {} does not fit its neighbours", level + 1),
+            None => kind.text().to_owned(),
+        };
         let reason = match interval {
             Some(interval) => {
                 let (first, last) = (used.start + 1, used.end);
                 let rate = interval_text(interval, RATE_PLACES);
-                let found = format!("{}: {rate} from levels {first} to {last} of {levels}", kind.text());
+                let found = format!("{text}: {rate} from levels {first} to {last} of {levels}");
                 if kind == Reason::ClaimUnusable { found } else { format!("{found}, claimed {order} ± {tolerance}") }
             }
-            None => kind.text().to_owned(),
+            None => text,
         };
         Self {
             order,

@@ -94,6 +94,10 @@ impl<'a> Reading<'a> {
             Some(Reason::FallsAway)
         } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
             Some(Reason::WildRate)
+        } else if self.outlier().is_some() {
+            Some(Reason::Outlier)
+        } else if self.span() < super::LEAST_SPAN {
+            Some(Reason::LevelsTooClose)
         } else if self.range.used.len() >= FEWEST_LEVELS {
             None
         } else if self.range.at_floor >= self.range.pre_asymptotic {
@@ -116,6 +120,17 @@ impl<'a> Reading<'a> {
             _ if self.rates().last().is_some_and(|finest| *finest <= 0.0) => Reason::IntervalTooWide,
             reason => reason,
         }
+    }
+
+    /// The level that does not fit its neighbours.
+    pub(super) fn outlier(&self) -> Option<usize> {
+        trend::outlier(&self.sequence[..self.range.used.end], self.range.pre_asymptotic)
+    }
+
+    /// Ratio of the coarsest step above the floor to the finest; infinite where there is none.
+    fn span(&self) -> f64 {
+        let above_floor = &self.sequence[..self.range.used.end];
+        above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
     }
 
     /// The rates between levels above the floor.

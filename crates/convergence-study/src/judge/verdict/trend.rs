@@ -8,6 +8,12 @@ const STILL_FALLING: f64 = 0.1;
 /// A departure counts when the rate has moved by this share of the tolerance in three refinements.
 const DEPARTED: f64 = 0.2;
 
+/// An error is off the line through its neighbours where it is this many times larger or smaller.
+const OFF_THE_LINE: f64 = 2.0;
+
+/// How far the rate from one neighbour of an outlier to the other may be from the finest rate.
+const SAME_RATE: f64 = 0.2;
+
 /// Changes of the rate between one refinement and the next.
 fn changes(rates: &[f64]) -> Vec<f64> {
     rates.windows(2).map(|pair| pair[1] - pair[0]).collect()
@@ -61,6 +67,26 @@ pub(super) fn steep(levels: &[Level], rates: &[f64], order: f64) -> bool {
     let apart = |k: usize| 0.5 * (levels[k].step / levels[k + 2].step).ln();
     let too_steep = |(k, change): (usize, f64)| change.abs() > steepest * apart(k);
     changes(rates).into_iter().enumerate().rev().take(2).any(too_steep)
+}
+
+/// The coarsest of the levels set aside that is off the line through its two neighbours, in logarithms, while that line falls at the finest rate.
+///
+/// Levels that are not yet asymptotic approach the finest rate together. Where the neighbours are already on such a line and one level
+/// between them is not, that level is of another problem: a case with a wrong setting.
+///
+/// * `levels`: those above the floor, with `set_aside` coarse ones that the fit leaves out.
+pub(super) fn outlier(levels: &[Level], set_aside: usize) -> Option<usize> {
+    let [.., before, last] = levels else { return None };
+    let rate = |coarse: &Level, fine: &Level| (coarse.error / fine.error).ln() / (coarse.step / fine.step).ln();
+    let finest = rate(before, last);
+    let is_off = |(_, three): &(usize, &[Level])| {
+        let [coarse, level, fine] = three else { return false };
+        let across = rate(coarse, fine);
+        let expected = fine.error.ln() + across * (level.step / fine.step).ln();
+        (level.error.ln() - expected).abs() > OFF_THE_LINE.ln() && (across - finest).abs() <= SAME_RATE
+    };
+    let found = levels.windows(3).enumerate().take(set_aside.saturating_sub(1)).find(is_off);
+    found.map(|(coarse, _)| coarse + 1)
 }
 
 /// Whether the finest change of the rate is larger than every earlier one, than half the tolerance, and than scatter explains.
@@ -154,6 +180,31 @@ mod tests {
             (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.046875, false),
         ] {
             assert_eq!(departs(rates, tolerance), expected, "{rates:?} {tolerance}");
+        }
+    }
+
+    #[test]
+    fn an_outlier_is_a_level_off_the_line_through_its_neighbours() {
+        let levels = |rates: &[f64]| {
+            let mut levels = vec![Level { step: 1.0, error: 1.0 }];
+            for rate in rates {
+                let Level { step, error } = levels[levels.len() - 1];
+                levels.push(Level { step: 0.5 * step, error: error * 0.5_f64.powf(*rate) });
+            }
+            levels
+        };
+        for (rates, set_aside, expected) in [
+            // Three times too large, then too small.
+            (&[2.0, 0.415, 3.585, 2.0, 2.0][..], 3, Some(2)),
+            (&[3.585, 0.415, 2.0, 2.0], 2, Some(1)),
+            // Not twice; the levels around it not on the line; the coarsest level of all; nothing set aside.
+            (&[2.0, 1.125, 2.875, 2.0, 2.0], 3, None),
+            (&[0.25, 3.25, 2.0, 2.0], 2, None),
+            (&[-1.0, 2.0, 2.0, 2.0], 1, None),
+            (&[2.0, 0.415, 3.585], 0, None),
+            (&[], 0, None),
+        ] {
+            assert_eq!(outlier(&levels(rates), set_aside), expected, "{rates:?}");
         }
     }
 

@@ -92,6 +92,13 @@ fn a_rate_is_shown_whatever_the_verdict() {
         let (rate, [low, high]) = (outcome.fitted.expect("a rate"), outcome.interval.expect("an interval"));
         assert!(low <= rate && rate <= high && outcome.reason.contains("from levels"), "{outcome:?}");
     }
+    let off = judge(&with_rates(&[1.0, -0.5, 2.5, 1.0, 1.0]), 1.0, 0.05);
+    assert!(off.reason.starts_with("level 3 does not fit its neighbours"), "{off:?}");
+    assert_eq!(off.set_aside, [0, 1, 2].map(|level| SetAside { level, because: Aside::Outlier }));
+    let narrow: Vec<Level> =
+        (0..5).map(|k| 1.1_f64.powi(-k)).map(|h| Level { step: h, error: h * (1.0 + 0.03 * h) }).collect();
+    assert_eq!(judge(&narrow[..4], 1.0, 0.2).kind, Reason::LevelsTooClose, "1.331");
+    assert_eq!(judge(&narrow, 1.0, 0.2).kind, Reason::LevelsTooClose, "1.464");
     let refused = judge(&with_rates(&[1.0, 1.0, 1.0]), 1.0, 0.5);
     assert!(refused.kind == Reason::ToleranceTooWide && refused.fitted.is_some());
 }

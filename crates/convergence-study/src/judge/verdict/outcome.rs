@@ -143,6 +143,8 @@ pub struct SetAside {
 pub enum Aside {
     /// Coarse: the rates there are still too far from the finest one.
     PreAsymptotic,
+    /// Coarse: an outlier, or a level behind it.
+    Outlier,
     /// Fine: the error is not above the floor, and neither is that of any finer level.
     AtFloor,
 }
@@ -152,6 +154,7 @@ impl Aside {
     pub fn text(self) -> &'static str {
         match self {
             Self::PreAsymptotic => "not yet asymptotic",
+            Self::Outlier => "at or before a level that does not fit its neighbours",
             Self::AtFloor => "at or below the floor",
         }
     }

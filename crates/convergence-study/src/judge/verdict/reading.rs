@@ -67,7 +67,8 @@ impl<'a> Reading<'a> {
         let above_floor = self.range.used.end;
         let coarse = 0..if self.used.is_empty() { self.range.used.start } else { self.used.start };
         let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
-        aside(coarse, Aside::PreAsymptotic).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
+        let because = if self.outlier().is_some() { Aside::Outlier } else { Aside::PreAsymptotic };
+        aside(coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
     }
 
     /// The reason of the verdict on a claim: the steps of the rule, in their order.

@@ -15,7 +15,7 @@ const MOST_PLACES: usize = 6;
 pub(super) fn mark(judged: &Judged<'_>, level: usize) -> &'static str {
     match judged.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
         Some(Aside::AtFloor) => "_",
-        Some(Aside::PreAsymptotic) => "~",
+        Some(Aside::PreAsymptotic | Aside::Outlier) => "~",
         None => "",
     }
 }
@@ -26,8 +26,8 @@ pub(super) fn legend(findings: &Findings<'_>) -> String {
         findings.columns.iter().any(|column| column.rate.set_aside.iter().any(|aside| aside.because == because))
     };
     let mut text = String::new();
-    if occurs(Aside::PreAsymptotic) {
-        text += "~ set aside: not yet asymptotic\n";
+    for because in [Aside::PreAsymptotic, Aside::Outlier].into_iter().filter(|because| occurs(*because)) {
+        let _ = writeln!(text, "~ set aside: {}", because.text());
     }
     if occurs(Aside::AtFloor) {
         let _ = writeln!(text, "_ set aside: not above the floor {:e}", findings.floor);

@@ -95,14 +95,12 @@ impl<'a> Reading<'a> {
             Some(Reason::FallsAway)
         } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
             Some(Reason::WildRate)
-        } else if self.outlier().is_some() {
-            Some(Reason::Outlier)
-        } else if self.span() < super::LEAST_SPAN {
-            Some(Reason::LevelsTooClose)
         } else if self.range.used.len() >= FEWEST_LEVELS {
             None
         } else if self.range.at_floor >= self.range.pre_asymptotic {
             Some(Reason::RoundOffFloor)
+        } else if self.outlier().is_some() {
+            Some(Reason::Outlier)
         } else {
             Some(Reason::NotAsymptotic)
         }
@@ -117,6 +115,8 @@ impl<'a> Reading<'a> {
         }
         match compare(fit.interval, order, tolerance) {
             Reason::TooLow => Reason::TooLow,
+            Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
+            Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
             // The finest error is not smaller, which scatter may explain: there is no order to agree with.
             _ if self.rates().last().is_some_and(|finest| *finest <= 0.0) => Reason::IntervalTooWide,
             reason => reason,

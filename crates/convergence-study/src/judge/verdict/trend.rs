@@ -12,7 +12,7 @@ const DEPARTED: f64 = 0.2;
 const OFF_THE_LINE: f64 = 2.0;
 
 /// How far the rate from one neighbour of an outlier to the other may be from the finest rate.
-const SAME_RATE: f64 = 0.2;
+const SAME_RATE: f64 = 0.1;
 
 /// Changes of the rate between one refinement and the next.
 fn changes(rates: &[f64]) -> Vec<f64> {

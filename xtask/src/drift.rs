@@ -12,8 +12,8 @@ use std::process::Command;
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report;
+use convergence_study::store::atomic;
 use convergence_study::store::record::{Record, RecordError};
-use convergence_study::store::{atomic, provenance};
 use convergence_study::study::Quantity;
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
@@ -172,7 +172,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let table = Table { title, head: head.map(str::to_owned).to_vec(), rows };
     output::print(&screen::table(&head, &table.rows))?;
     if arguments.write {
-        atomic::write(&reported, page(&root, &table, &clock.took()))?;
+        atomic::write(&reported, page(&table, &clock.ended(&root)))?;
         output::print(&format!("written to {}\n", reported.display()))?;
     }
     Ok(if kept { Ended::Well } else { Ended::Badly })
@@ -197,13 +197,10 @@ fn row(variant: &Variant, distance: &Distance, not_passing: &[String], good: boo
     ]
 }
 
-fn page(root: &Path, table: &Table, took: &str) -> String {
-    let machine = provenance::Provenance::collect(root, "cargo xtask dev drift --write".to_owned(), 1, &[]);
+fn page(table: &Table, ended: &str) -> String {
     format!(
-        "# Drift\n\nWritten by `cargo xtask dev drift --write` on {}, {}. Differences are relative; `median` is that of the numbers that \
-         differ. {took}\n\n## {}\n\n{}",
-        machine.cpu.as_deref().unwrap_or("an unknown CPU"),
-        machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
+        "# Drift\n\nWritten by `cargo xtask dev drift --write`. Differences are relative; `median` is that of the numbers that \
+         differ. {ended}\n\n## {}\n\n{}",
         table.title,
         report::markdown(table)
     )

@@ -95,7 +95,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let table = Table { title: String::new(), head: head.map(str::to_owned).to_vec(), rows };
     output::print(&format!("{}\n", sentence(&all)))?;
     if arguments.write {
-        atomic::write(&reported, page(arguments, &all, &table, &clock.took()))?;
+        atomic::write(&reported, page(arguments, &all, &table, &clock.ended(&root)))?;
         output::print(&format!("written to {}\n", reported.display()))?;
     }
     if !passed && all.failed == 0 {
@@ -126,9 +126,9 @@ fn sentence(all: &Tally) -> String {
     format!("{} damaged files: {} read, {} refused, {failed}", all.inputs, all.read, all.refused)
 }
 
-fn page(arguments: &Arguments, all: &Tally, table: &Table, took: &str) -> String {
+fn page(arguments: &Arguments, all: &Tally, table: &Table, ended: &str) -> String {
     format!(
-        "# Damaged files\n\nWritten by `cargo xtask dev fuzz --write --inputs {} --first {}`. {took} Files of the project are damaged as \
+        "# Damaged files\n\nWritten by `cargo xtask dev fuzz --write --inputs {} --first {}`. {ended} Files of the project are damaged as \
          programs, editors and people do it: bits flipped, the end lost, lines lost, doubled and mixed, pieces put in, ten \
          thousand brackets, words exchanged, numbers made huge, negative, infinite or NaN. Each goes to the reader that is \
          for it, and is read or refused by a message that begins with the file's name and says where.\n\n{}.\n\n{}",

@@ -14,6 +14,7 @@ mod report;
 use std::num::NonZeroUsize;
 
 use convergence_study::store::atomic;
+use convergence_study::store::provenance::Provenance;
 
 use accepted::Accepted;
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
@@ -93,7 +94,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     // One that the first judge missed counts as open until all have seen it: the others alone would make a better rate.
     let begun = |mutant: &&Mutant| ledger.is_begun(mutant) || sample.contains(mutant);
     let findings: Vec<_> = all.iter().filter(begun).map(|mutant| (mutant, last_word(mutant))).collect();
-    let page = report::page(&findings, &all, arguments.seed, &accepted);
+    let here = Provenance::collect(&root, String::new(), arguments.jobs.get(), &[]);
+    let page = report::page(&findings, &all, arguments.seed, &accepted, &here);
     atomic::write(&root.join("reports/mutants.md"), &page)?;
     let survivors = findings.iter().filter(|(_, judged)| *judged == Some(Judged::Missed));
     let bare = survivors.filter(|(mutant, _)| !is_accepted(mutant)).count();

@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let sentence = format!("{} of {count} mistakes are noticed by the study named for them", count - unnoticed);
     output::print(&format!("{}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
     if arguments.write {
-        atomic::write(&reported, page(&table, &sentence, &clock.took()))?;
+        atomic::write(&reported, page(&table, &sentence, &clock.ended(&root)))?;
         output::print("report: reports/regressions.md\n")?;
     }
     Ok(if unnoticed == 0 { Ended::Well } else { Ended::Badly })
@@ -90,10 +90,10 @@ fn row(regression: &Regression, noticed: &Noticed, is_named: bool) -> Vec<String
     ]
 }
 
-fn page(table: &Table, sentence: &str, took: &str) -> String {
+fn page(table: &Table, sentence: &str, ended: &str) -> String {
     format!(
         "# Mistakes of meaning\n\nWritten by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
-         quick tier of `verify` must notice it, and the study named for it must name what is wrong. {took}\n\n{sentence}.\n\n{}",
+         quick tier of `verify` must notice it, and the study named for it must name what is wrong. {ended}\n\n{sentence}.\n\n{}",
         list::FILE,
         report::markdown(table)
     )

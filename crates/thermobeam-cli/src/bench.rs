@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use convergence_study::project::Project;
 use convergence_study::store::atomic;
-use convergence_study::store::provenance::{self, Provenance};
+use convergence_study::store::provenance;
 use convergence_study::study::{FromFile, Kind, Study, StudyFile, Table, Tier};
 use convergence_study::{report, run as runner};
 use thermobeam_study::error::evaluator::ErrorMeasure;
@@ -63,7 +63,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let accuracies = studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name).count();
     let what = format!("{accuracies} studies of accuracy, the tier {} on one thread and on all", arguments.tier.name());
     let clock = LongRun::begin(&format!("times of steps, {what}"), &root.join("reports/bench.md"), *quiet);
-    let mut page = Page { text: heading(project, &root, &path), folder: out.clone(), tables: vec![], shows, clock };
+    let mut page = Page { text: heading(project, &path), folder: out.clone(), tables: vec![], shows, clock };
     page.add(step_time::ways(&scene, 100)?)?;
     page.add(step_time::ways(&scene, 1000)?)?;
     page.add(step_time::scenes(&scene, 100)?)?;
@@ -76,7 +76,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     threads(studies, arguments.tier, screen::jobs(*jobs), &mut page)?;
     let sentence = match page.folder.as_ref().map(|folder| folder.join("bench.md")) {
         Some(file) => {
-            page.text += &format!("{}\n", page.clock.took());
+            page.text += &format!("{}\n", page.clock.ended(&root));
             atomic::write(&file, &page.text)?;
             format!("written to {}", file.display())
         }
@@ -121,16 +121,12 @@ impl Page {
     }
 }
 
-fn heading(project: &Project, root: &Path, scene: &Path) -> String {
+fn heading(project: &Project, scene: &Path) -> String {
     let command = format!("{} bench --out reports", project.command);
-    let machine = Provenance::collect(root, command.clone(), 1, &[]);
     let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     format!(
-        "# Benchmarks\n\nWritten by `{command}` on {}, {} threads, {}; scene {name}. Each time is the best of \
-         several runs; counts are exact. Another machine gives other times: compare ratios.\n\n",
-        machine.cpu.as_deref().unwrap_or("an unknown CPU"),
-        machine.threads_available.map_or("?".to_owned(), |threads| threads.to_string()),
-        machine.toolchain.as_deref().unwrap_or("an unknown toolchain"),
+        "# Benchmarks\n\nWritten by `{command}`; scene {name}; the machine is named at the end. Each time is the best of several runs; \
+         counts are exact. Another machine gives other times: compare ratios.\n\n"
     )
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use convergence_study::report::markdown;
+use convergence_study::store::provenance::Provenance;
 use convergence_study::study::outcome::Table;
 
 use super::accepted::Accepted;
@@ -69,12 +70,19 @@ pub(super) fn sentence(findings: &[Finding<'_>], accepted: &Accepted) -> String 
 }
 
 /// The page.
-pub(super) fn page(findings: &[Finding<'_>], all: &[Mutant], seed: u64, accepted: &Accepted) -> String {
+pub(super) fn page(
+    findings: &[Finding<'_>],
+    all: &[Mutant],
+    seed: u64,
+    accepted: &Accepted,
+    here: &Provenance,
+) -> String {
     let mut page =
         "# Mutation testing\n\nWritten by `cargo xtask dev mutants`. One mistake at a time is planted in the \
                     solver and in the code of fits, verdicts and exact solutions; it is caught where a test of its own \
                     package fails, or else the quick tier of `verify`.\n\n"
             .to_owned();
+    page += &format!("{}\n\n", here.sentences().join(" "));
     let of = |package: &str| {
         let all = all.iter().filter(|mutant| mutant.target.package == package).count();
         let judged = findings.iter().filter(|(mutant, _)| mutant.target.package == package).count();

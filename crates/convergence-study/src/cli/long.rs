@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use super::output;
+use super::{output, screen};
+use crate::store::provenance::Provenance;
 
 /// A command that takes minutes, and writes the page that says how many.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ impl LongRun {
     /// Starts the clock, and says how long the run took whose page is there.
     ///
     /// * `what`: what is done, in words.
-    /// * `page`: written by an earlier run, with [`took`](Self::took) in it.
+    /// * `page`: written by an earlier run, with [`ended`](Self::ended) in it.
     pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
         let before = fs::read_to_string(page).ok().and_then(|text| seconds(&text));
         let run = Self { started: Instant::now(), before, quiet };
@@ -37,9 +38,13 @@ impl LongRun {
         self.tell(&format!("{what}, at {:.0}{of} s", self.started.elapsed().as_secs_f64()));
     }
 
-    /// The sentence for the page.
-    pub fn took(&self) -> String {
-        sentence(self.started.elapsed().as_secs_f64())
+    /// Where and when the run was made and how long it took, for the page.
+    ///
+    /// * `root`: the project's folder.
+    pub fn ended(&self, root: &Path) -> String {
+        let here = Provenance::collect(root, String::new(), screen::jobs(None).get(), &[]);
+        let took = sentence(self.started.elapsed().as_secs_f64());
+        here.sentences().into_iter().chain([took]).collect::<Vec<_>>().join(" ")
     }
 
     fn tell(&self, message: &str) {

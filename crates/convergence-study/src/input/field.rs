@@ -20,6 +20,9 @@ pub struct Misread {
     pub reason: String,
 }
 
+/// What [`Field::positive`] takes, in words.
+pub const POSITIVE: &str = "a finite number > 0";
+
 /// A value of the document, with its dotted name.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
@@ -60,6 +63,11 @@ impl<'a> Field<'a> {
             Some(value) if value.is_finite() && ok(value) => Ok(value),
             _ => Err(self.refuse_as_written(allowed)),
         }
+    }
+
+    /// A finite number > 0.
+    pub fn positive(&self) -> Result<f64, InputError> {
+        self.number_where(POSITIVE, |value| value > 0.0)
     }
 
     /// A whole number in `range`.

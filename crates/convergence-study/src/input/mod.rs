@@ -19,7 +19,7 @@ pub mod error_table;
 
 pub use crate::text::visible::visible;
 pub use error::{Complaint, InputError, Place};
-pub use field::{Field, Misread, shorten};
+pub use field::{Field, Misread, POSITIVE, shorten};
 pub use section::Section;
 
 /// Largest file that is read, in bytes. Study files are small; this keeps a wrong path from filling the memory.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use super::error::{Complaint, InputError};
-use super::{Field, Source, settings};
+use super::{Field, POSITIVE, Source, settings};
 use crate::text::names::nearest;
 
 /// A table of the document, with its dotted name.
@@ -71,6 +71,11 @@ impl<'a> Section<'a> {
     /// The value of a key that has no default; `allowed` says what would have to be there.
     pub fn require(&self, key: &str, allowed: &str) -> Result<Field<'a>, InputError> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
+    }
+
+    /// The finite number > 0 of a key that has no default.
+    pub fn positive(&self, key: &str) -> Result<f64, InputError> {
+        self.require(key, POSITIVE)?.positive()
     }
 
     /// The error about a key that is missing.

@@ -44,8 +44,6 @@ use crate::study::{Claim, Header};
 /// The longest time for a case of a file that does not say.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
-const POSITIVE: &str = "a finite number > 0";
-
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
     root.allow(&["study", "program", "refine", "expect"])?;
     let section = root.require("program", "a table with the command")?.section()?;
@@ -55,7 +53,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let words = words(&section, &refine.names())?;
     let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
         let allowed = "a number of seconds > 0";
-        let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
+        let seconds = field.positive()?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
     let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
@@ -149,11 +147,10 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
             Expected::Error(name(&section.require("error", allowed)?, allowed)?)
         }
     };
-    let positive = |field: Field<'_>| field.number_where(POSITIVE, |order| order > 0.0);
-    let order = positive(section.require("order", POSITIVE)?)?;
+    let order = section.positive("order")?;
     let time = match section.get("order_dt") {
         Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
-        Some(field) => positive(field)?,
+        Some(field) => field.positive()?,
         None => order,
     };
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");

@@ -87,14 +87,10 @@ impl FromFile for AnyOrderCost {
         let section = root.require(ROW.name, "a table with scene, error and runs")?.section()?;
         section.allow(&["scene", "t_end", "error", "times", "any-order", "midpoint"])?;
         let mut scene = Scene::read(section.require("scene", "a scene file")?.file(folder)?)?;
-        let positive = |key: &str| {
-            let allowed = "a finite number > 0";
-            section.require(key, allowed)?.number_where(allowed, |value| value > 0.0)
-        };
-        scene.t_end = positive("t_end")?;
+        scene.t_end = section.positive("t_end")?;
         let allowed = "a list of [degree p, degree q, largest step]";
         let any_order = rows::<3>(&section, "any-order", allowed)?.into_iter().map(|[p, q, dt]| {
-            let dt = dt.number_where("a finite number > 0", |dt| dt > 0.0)?;
+            let dt = dt.positive()?;
             Ok(Way::AnyOrder(p.count(1..=MAX_DEGREE)?, q.count(0..=MAX_TIME_DEGREE)?, dt))
         });
         let mut runs = any_order.collect::<Result<Vec<_>, InputError>>()?;
@@ -108,7 +104,14 @@ impl FromFile for AnyOrderCost {
             return Err(section.require("midpoint", allowed)?.refuse_as_written(allowed));
         }
         runs.extend(midpoint.into_iter().map(|(elements, steps)| Way::Midpoint(elements, steps)));
-        Ok(Self { header, scene, error: positive("error")?, times: positive("times")?, runs, exact: OnceLock::new() })
+        Ok(Self {
+            header,
+            scene,
+            error: section.positive("error")?,
+            times: section.positive("times")?,
+            runs,
+            exact: OnceLock::new(),
+        })
     }
 }
 

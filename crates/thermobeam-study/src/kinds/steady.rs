@@ -12,7 +12,7 @@ use thermobeam::solve::Level;
 use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::input::{Field, InputError, Section};
+use convergence_study::input::{Field, InputError};
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
 
@@ -99,12 +99,6 @@ pub(super) fn distances(mesh: &Mesh, level: &Level, state: &Equilibrium) -> (f64
 pub(super) fn nearest(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<(Equilibrium, (f64, f64))> {
     let measured = states.iter().map(|state| (*state, distances(mesh, level, state)));
     measured.min_by(|a, b| max_or_nan(a.1.0, a.1.1).total_cmp(&max_or_nan(b.1.0, b.1.1)))
-}
-
-/// The positive number of a key that has no default.
-pub(super) fn positive(section: &Section<'_>, key: &str) -> Result<f64, InputError> {
-    let allowed = "a finite number > 0";
-    section.require(key, allowed)?.number_where(allowed, |value| value > 0.0)
 }
 
 /// A contact state in words.

@@ -14,7 +14,7 @@
 //! t_end = 10.0
 //! ```
 
-use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::input::{self, InputError, Section};
 use std::path::Path;
 use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
@@ -133,7 +133,7 @@ fn from_document(root: &Section<'_>, name: String) -> Result<AnyOrderScene, Inpu
         Some(field) => field.count(1..=MAX_DEGREE)?,
         None => DEGREE,
     };
-    let t_end = positive(&time.require("t_end", "a finite number > 0")?)?;
+    let t_end = time.positive("t_end")?;
     let stepping = stepping(&time, &beam, obstacles.as_ref(), t_end)?;
     let blamed = root.section("mesh")?.and_then(|mesh| ["nodes", "elements"].into_iter().find_map(|key| mesh.get(key)));
     if let Some(field) = blamed {
@@ -145,10 +145,6 @@ fn from_document(root: &Section<'_>, name: String) -> Result<AnyOrderScene, Inpu
     Ok(AnyOrderScene { name, beam, obstacles, initial, mesh, degree, stepping, t_end })
 }
 
-fn positive(field: &Field<'_>) -> Result<f64, InputError> {
-    field.number_where("a finite number > 0", |value| value > 0.0)
-}
-
 fn stepping(
     time: &Section<'_>,
     beam: &Beam,
@@ -156,7 +152,7 @@ fn stepping(
     t_end: f64,
 ) -> Result<dg::Stepping, InputError> {
     let defaults = dg::Stepping::default();
-    let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| positive(&field));
+    let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());
     let dt = or("dt", DT.min(t_end))?;
     if let Some(field) = time.get("dt") {
         limits::steps_until(&field, t_end, dt, limits::STEPS)?;

@@ -35,7 +35,7 @@ use thermobeam::solve::Settings;
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
-use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::input::{self, Field, InputError, POSITIVE, Section};
 
 /// Elements of a scene that does not say: the paper's number.
 const DEFAULT_ELEMENTS: usize = 100;
@@ -124,10 +124,9 @@ pub(crate) fn stem(file_name: &str) -> String {
 fn time_steps(time: &Section<'_>) -> Result<(f64, f64, usize), InputError> {
     // Each of dt, t_end and their quotient is rounded once.
     const SLACK: f64 = 4.0 * f64::EPSILON;
-    let positive = "a finite number > 0";
-    let t_end = time.require("t_end", positive)?.number_where(positive, |t_end| t_end > 0.0)?;
-    let field = time.require("dt", positive)?;
-    let dt = field.number_where(positive, |dt| dt > 0.0)?;
+    let t_end = time.positive("t_end")?;
+    let field = time.require("dt", POSITIVE)?;
+    let dt = field.positive()?;
     let quotient = t_end / dt;
     if quotient > limits::STEPS as f64 {
         let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");

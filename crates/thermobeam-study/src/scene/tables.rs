@@ -89,7 +89,7 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
         settings.solver = field.choice(&Solver::ALL.map(|solver| (solver.name(), solver)))?;
     }
     if let Some(field) = section.get("tolerance") {
-        settings.tolerance = field.number_where("a finite number > 0", |tolerance| tolerance > 0.0)?;
+        settings.tolerance = field.positive()?;
     }
     if let Some(field) = section.get("max_iterations") {
         settings.max_iterations = field.count(1..=usize::MAX)?;

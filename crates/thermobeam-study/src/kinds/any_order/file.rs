@@ -41,8 +41,6 @@ use crate::scene::{limits, tables};
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
 
-const POSITIVE: &str = "a finite number > 0";
-
 impl FromFile for AnyOrder {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
@@ -60,7 +58,7 @@ impl FromFile for AnyOrder {
             Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
         };
         run.allow(keys)?;
-        let t_end = run.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)?;
+        let t_end = run.positive("t_end")?;
         let (beam, obstacles, exact) = match &vibration {
             Some(section) => free(section)?,
             None => {
@@ -92,7 +90,7 @@ impl FromFile for AnyOrder {
 fn free(section: &Section<'_>) -> Result<(Beam, Option<Obstacles>, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
     section.allow(&["zeta", "modes"])?;
-    let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
+    let zeta = section.positive("zeta")?;
     let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
     let field = section.require("modes", &allowed)?;
     let items = field.items(&allowed)?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::BifurcationStudy;
-use crate::kinds::steady::{listed_scenes, positive};
+use crate::kinds::steady::listed_scenes;
 use crate::scene::limits;
 use crate::scene::tables;
 use convergence_study::input::{Field, InputError, Section};
@@ -19,7 +19,7 @@ impl FromFile for BifurcationStudy {
         let rest = root.require("rest", "a table with beta, elements, dt, speed, t_max and distance")?.section()?;
         rest.allow(&["beta", "elements", "dt", "speed", "t_max", "distance"])?;
         let t_max = rest.require("t_max", "a number")?;
-        limits::steps_until(&t_max, positive(&rest, "t_max")?, positive(&rest, "dt")?, limits::STEPS)?;
+        limits::steps_until(&t_max, rest.positive("t_max")?, rest.positive("dt")?, limits::STEPS)?;
         Ok(Self {
             header,
             scenes: listed_scenes(&diagram.require("scenes", "a list of scene files")?, folder)?,
@@ -28,10 +28,10 @@ impl FromFile for BifurcationStudy {
             tolerance,
             betas: ascending(&rest, "beta", 1)?,
             elements: tables::elements(&rest.require("elements", "a whole number >= 1")?)?,
-            dt: positive(&rest, "dt")?,
-            speed: positive(&rest, "speed")?,
-            t_max: positive(&rest, "t_max")?,
-            distance: positive(&rest, "distance")?,
+            dt: rest.positive("dt")?,
+            speed: rest.positive("speed")?,
+            t_max: rest.positive("t_max")?,
+            distance: rest.positive("distance")?,
         })
     }
 }

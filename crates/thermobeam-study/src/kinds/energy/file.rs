@@ -27,7 +27,7 @@
 
 use std::path::Path;
 
-use convergence_study::input::{Field, InputError, Section};
+use convergence_study::input::{InputError, Section};
 use convergence_study::study::Header;
 use thermobeam::mesh::Mesh;
 use thermobeam::scheme::SCHEMES;
@@ -40,8 +40,6 @@ use crate::expression::Variable;
 use crate::kinds::watch::SOLVED;
 use crate::scene::functions::FunctionField;
 use crate::scene::{self, Scene, limits, tables};
-
-const POSITIVE: &str = "a finite number > 0";
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Runs, InputError> {
     match root.section("energy")? {
@@ -69,8 +67,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<Run>, InputError> 
     }
     let seed = count("seed")? as u64;
     let mesh = mesh(section)?;
-    let positive = |key: &str| section.require(key, POSITIVE)?.number_where(POSITIVE, |value| value > 0.0);
-    let (dt, tolerance) = (positive("dt")?, positive("tolerance")?);
+    let (dt, tolerance) = (section.positive("dt")?, section.positive("tolerance")?);
     let steps = section.require("steps", "a number of steps")?.count(1..=limits::STEPS)?;
     let mut origins = vec![];
     for file in &files {
@@ -133,12 +130,11 @@ fn case(section: &Section<'_>) -> Result<Run, InputError> {
     let newton = scene.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
     let settings = if newton { Settings { tolerance: SOLVED, ..scene.settings } } else { scene.settings };
-    let positive = |field: Field<'_>| field.number_where(POSITIVE, |drift| drift > 0.0);
     Ok(Run {
         name,
         claim: section.require("claim", "a text")?.text()?.to_owned(),
         end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
-        drift: section.get("drift").map(positive).transpose()?,
+        drift: section.get("drift").map(|field| field.positive()).transpose()?,
         bound: Bound::Rounding,
         stepping: Stepping { scheme: scene.scheme, settings, dt: scene.dt, loaded: false },
         steps: scene.steps,

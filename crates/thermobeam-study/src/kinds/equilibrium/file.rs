@@ -7,7 +7,7 @@ use convergence_study::judge::verdict::Judge;
 use convergence_study::study::{FromFile, Header};
 
 use super::{AnyOrder, EndStates};
-use crate::kinds::steady::{listed_scenes, positive};
+use crate::kinds::steady::listed_scenes;
 use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::scene::{limits, tables};
 
@@ -18,17 +18,17 @@ impl FromFile for EndStates {
         run.allow(&["scenes", "elements", "dt", "speed", "t_max"])?;
         let expect = root.require("expect", "a table with tolerance and error")?.section()?;
         expect.allow(&["tolerance", "error"])?;
-        let (dt, t_max) = (positive(&run, "dt")?, positive(&run, "t_max")?);
+        let (dt, t_max) = (run.positive("dt")?, run.positive("t_max")?);
         limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
         Ok(Self {
             header,
             scenes: listed_scenes(&run.require("scenes", "a list of scene files")?, folder)?,
             elements: mesh_sizes(&run)?,
             dt,
-            speed: positive(&run, "speed")?,
+            speed: run.positive("speed")?,
             t_max,
             tolerance: tolerance(&expect)?,
-            error: positive(&expect, "error")?,
+            error: expect.positive("error")?,
             any_order: root.section("any-order")?.map(|section| any_order(&section)).transpose()?,
         })
     }
@@ -36,8 +36,8 @@ impl FromFile for EndStates {
 
 fn any_order(section: &Section<'_>) -> Result<AnyOrder, InputError> {
     section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
-    let t_end = positive(section, "t_end")?;
-    Ok(AnyOrder { how: Discretisation::read(section, t_end)?, t_end, error: positive(section, "error")? })
+    let t_end = section.positive("t_end")?;
+    Ok(AnyOrder { how: Discretisation::read(section, t_end)?, t_end, error: section.positive("error")? })
 }
 
 fn tolerance(expect: &Section<'_>) -> Result<f64, InputError> {

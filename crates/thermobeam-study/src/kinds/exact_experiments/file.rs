@@ -26,8 +26,6 @@ use super::cases::TIP_TIMES;
 use crate::kinds::tables::discretisations;
 use crate::scene::Scene;
 
-const POSITIVE: &str = "a finite number > 0";
-
 impl FromFile for ExactExperiments {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "discretisations"])?;
@@ -35,7 +33,7 @@ impl FromFile for ExactExperiments {
         section.allow(&["scenes", "times", "agreement", "compare"])?;
         let scenes = scenes(&section, folder)?;
         let times = times(&section, &scenes)?;
-        let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+        let agreement = section.positive("agreement")?;
         let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
         if compare {
             comparable(&section, &scenes, &times)?;

@@ -5,15 +5,12 @@ use std::path::Path;
 use thermobeam::equilibrium::Contact;
 
 use super::{Experiment, Experiments, Group, ToRest, Until};
-use crate::kinds::steady::{at_resolution, listed_scene, listed_scenes, positive};
+use crate::kinds::steady::{at_resolution, listed_scene, listed_scenes};
 use crate::scene::Scene;
 use crate::scene::limits;
 use crate::scene::tables;
-use convergence_study::input::{Field, InputError, Section};
+use convergence_study::input::{Field, InputError, POSITIVE, Section};
 use convergence_study::study::{FromFile, Header};
-
-/// A positive number, in words.
-const POSITIVE: &str = "a finite number > 0";
 
 impl FromFile for Experiments {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
@@ -21,7 +18,7 @@ impl FromFile for Experiments {
         let run = root.require("run", "a table with t_max, window and rate")?.section()?;
         run.allow(&["elements", "dt", "t_max", "window", "rate"])?;
         let until =
-            Until { t_max: positive(&run, "t_max")?, window: positive(&run, "window")?, rate: positive(&run, "rate")? };
+            Until { t_max: run.positive("t_max")?, window: run.positive("window")?, rate: run.positive("rate")? };
         let mut experiments = experiments(root, folder)?;
         let t_max = run.require("t_max", POSITIVE)?;
         for experiment in &mut experiments {
@@ -70,7 +67,7 @@ fn rests(section: &Section<'_>, count: usize) -> Result<Vec<Contact>, InputError
 fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
     let field = run.get("elements");
     let elements = field.as_ref().map_or(Ok(scene.mesh.nodes().len() - 1), tables::elements)?;
-    let dt = run.get("dt").map_or(Ok(scene.dt), |field| field.number_where(POSITIVE, |dt| dt > 0.0))?;
+    let dt = run.get("dt").map_or(Ok(scene.dt), |field| field.positive())?;
     if field.is_some() || run.get("dt").is_some() {
         *scene =
             at_resolution(scene, elements, dt).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
@@ -90,9 +87,9 @@ fn steady(root: &Section<'_>) -> Result<(Vec<f64>, ToRest), InputError> {
     }
     let rest = ToRest {
         elements: tables::elements(&section.require("elements", "a whole number >= 1")?)?,
-        dt: positive(&section, "dt")?,
-        speed: positive(&section, "speed")?,
-        t_max: positive(&section, "t_max")?,
+        dt: section.positive("dt")?,
+        speed: section.positive("speed")?,
+        t_max: section.positive("t_max")?,
     };
     limits::steps_until(&section.require("t_max", POSITIVE)?, rest.t_max, rest.dt, limits::STEPS)?;
     Ok((betas, rest))

@@ -27,8 +27,7 @@ impl FromFile for Frequencies {
         root.allow(&["study", "frequencies"])?;
         let section = root.require("frequencies", "a table with count, elements, order and tolerance")?.section()?;
         section.allow(&["first", "count", "elements", "degree", "map", "order", "tolerance"])?;
-        let positive = "a finite number > 0";
-        let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
+        let number = |key: &str| section.positive(key);
         let elements = increasing(&section)?;
         let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
         // A mesh has twice as many frequencies, of which the upper ones approximate nothing.

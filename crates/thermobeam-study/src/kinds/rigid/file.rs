@@ -7,7 +7,7 @@ use convergence_study::judge::verdict::Judge;
 use convergence_study::study::{FromFile, Header};
 
 use super::RigidStudy;
-use crate::kinds::steady::{at_resolution, listed_scene, positive};
+use crate::kinds::steady::{at_resolution, listed_scene};
 use crate::scene::{Scene, limits, tables};
 
 impl FromFile for RigidStudy {
@@ -24,17 +24,17 @@ impl FromFile for RigidStudy {
         rest.allow(&["scene", "elements", "dt", "speed", "t_max"])?;
         let impact = root.require("impact", "a table with scene and steps")?.section()?;
         impact.allow(&["scene", "steps"])?;
-        let t_end = positive(&moving, "t_end")?;
+        let t_end = moving.positive("t_end")?;
         Ok(Self {
             header,
             epsilons: epsilons(&obstacles)?,
-            limit: positive(&obstacles, "limit")?,
+            limit: obstacles.positive("limit")?,
             judge,
             moving: scene(&moving, folder, Some(t_end))?,
             max_iterations: moving.require("max_iterations", "a whole number >= 1")?.count(1..=usize::MAX)?,
             resting: scene(&rest, folder, None)?,
-            speed: positive(&rest, "speed")?,
-            t_max: positive(&rest, "t_max")?,
+            speed: rest.positive("speed")?,
+            t_max: rest.positive("t_max")?,
             impact: impact_scene(&impact, folder)?,
             steps: impact.require("steps", "a whole number >= 1")?.count(1..=1_000_000)?,
         })
@@ -58,11 +58,11 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
     let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
     let dt = section.require("dt", "a number")?;
     // The moving beam's tip is kept at every step.
-    limits::steps_until(&dt, scene.t_end, positive(section, "dt")?, limits::RECORDED_STEPS)?;
+    limits::steps_until(&dt, scene.t_end, section.positive("dt")?, limits::RECORDED_STEPS)?;
     if section.get("t_max").is_some() {
-        limits::steps_until(&dt, positive(section, "t_max")?, positive(section, "dt")?, limits::STEPS)?;
+        limits::steps_until(&dt, section.positive("t_max")?, section.positive("dt")?, limits::STEPS)?;
     }
-    at_resolution(&scene, tables::elements(&field)?, positive(section, "dt")?)
+    at_resolution(&scene, tables::elements(&field)?, section.positive("dt")?)
         .map_err(|error| field.refuse(error.to_string(), "a mesh"))
 }
 

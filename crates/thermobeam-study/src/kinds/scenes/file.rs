@@ -66,8 +66,7 @@ fn case(section: &Section<'_>) -> Result<Whole, InputError> {
 /// The numbers of an answer, and the bound.
 fn numbers(section: &Section<'_>) -> Result<(Answer, f64), InputError> {
     section.allow(&[&["within"], &NUMBERS[..]].concat())?;
-    let positive = "a finite number > 0";
-    let within = section.require("within", positive)?.number_where(positive, |within| within > 0.0)?;
+    let within = section.positive("within")?;
     let mut answer = vec![];
     for name in NUMBERS {
         if let Some(field) = section.get(name) {

@@ -47,8 +47,7 @@ impl FromFile for SelfConvergence {
             section.require("axis", "\"time\", \"both\"")?.choice(&[("time", Axis::Time), ("both", Axis::Both)])?;
         let samples = section.require("samples", "a whole number >= 1")?.count(1..=1000)?;
         let (levels, power) = levels(&section, axis, samples)?;
-        let positive = "a finite number > 0";
-        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |f| f.number_where(positive, |t_end| t_end > 0.0))?;
+        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
         let scheme = section
             .get("scheme")
             .map_or(Ok(scene.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
@@ -144,8 +143,7 @@ fn claims(root: &Section<'_>, axis: Axis) -> Result<Vec<(Observable, Claim)>, In
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["quantity", "order", "tolerance"])?;
-        let positive = "a finite number > 0";
-        let number = |key: &str| section.require(key, positive)?.number_where(positive, |value| value > 0.0);
+        let number = |key: &str| section.positive(key);
         let observable = section.require("quantity", &names)?.choice(&observables)?;
         Ok((observable, Claim { order: number("order")?, tolerance: number("tolerance")? }))
     };

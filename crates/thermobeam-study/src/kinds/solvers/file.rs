@@ -14,8 +14,6 @@ use crate::scene::{Scene, limits, tables};
 /// The parts of a study, one table each.
 const PARTS: [&str; 3] = ["contraction", "comparison", "map"];
 
-const POSITIVE: &str = "a finite number > 0";
-
 impl FromFile for Solvers {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&[&["study"], &PARTS[..]].concat())?;
@@ -44,7 +42,7 @@ fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputE
     if items.is_empty() {
         return Err(field.refuse_as_written(allowed));
     }
-    items.iter().map(|item| item.number_where(POSITIVE, |x| x > 0.0)).collect()
+    items.iter().map(Field::positive).collect()
 }
 
 fn contraction(section: &Section<'_>) -> Result<Grid, InputError> {
@@ -81,7 +79,7 @@ fn map(section: &Section<'_>) -> Result<Map, InputError> {
         lines: lines(section, over)?,
         elements: elements(section)?,
         steps: section.require("steps", "a number of steps")?.count(1..=limits::STEPS)?,
-        agreement: section.require("agreement", POSITIVE)?.number_where(POSITIVE, |a| a > 0.0)?,
+        agreement: section.positive("agreement")?,
     })
 }
 

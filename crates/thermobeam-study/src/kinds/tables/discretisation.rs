@@ -1,14 +1,12 @@
 //! Two discretisations of any order, tables with elements, degrees and steps: what one says is checked by the other.
 
-use convergence_study::input::{Field, InputError, Section};
+use convergence_study::input::{Field, InputError, POSITIVE, Section};
 use convergence_study::study::CaseFailure;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
 use crate::run::rerun::resampled;
 use crate::scene::any_order::AnyOrderScene;
 use crate::scene::{Scene, limits, tables};
-
-const POSITIVE: &str = "a finite number > 0";
 
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
@@ -58,7 +56,7 @@ impl Discretisation {
     /// From a table that has [`DISCRETISATION_KEYS`], and may have others, for runs to `t_end`.
     pub(crate) fn read(section: &Section<'_>, t_end: f64) -> Result<Self, InputError> {
         let field = section.require("dt", POSITIVE)?;
-        let dt = field.number_where(POSITIVE, |value| value > 0.0)?;
+        let dt = field.positive()?;
         limits::steps_until(&field, t_end, dt, limits::STEPS)?;
         let restart = format!("a number > 0 and at most dt = {dt:?}");
         let growth = "a finite number >= 1";

@@ -35,13 +35,9 @@ fn expectation(section: &Section<'_>) -> Result<Expectation, InputError> {
     section.allow(&["norm", "order", "tolerance"])?;
     let norms = Norm::ALL.map(|norm| (norm.name(), norm));
     let names = norms.map(|(name, _)| format!("\"{name}\"")).join(", ");
-    let positive = |key: &str| {
-        let allowed = "a finite number > 0";
-        section.require(key, allowed)?.number_where(allowed, |value| value > 0.0)
-    };
     Ok(Expectation {
         norm: section.require("norm", &names)?.choice(&norms)?,
-        order: positive("order")?,
-        tolerance: positive("tolerance")?,
+        order: section.positive("order")?,
+        tolerance: section.positive("tolerance")?,
     })
 }

@@ -102,14 +102,13 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
-    let positive = "a finite number > 0";
     let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
     let refine = Refine {
         axis,
         isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
         steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
         grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
-        t_end: section.require("t_end", positive)?.number_where(positive, |t_end| t_end > 0.0)?,
+        t_end: section.positive("t_end")?,
         perturbation: perturbation(&section)?,
         map: map(&section, &elements, perturbation(&section)?)?,
         elements,

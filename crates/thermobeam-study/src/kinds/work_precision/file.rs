@@ -20,8 +20,6 @@ const TOLERANCE: f64 = 1e-11;
 /// Largest misfit of the law, where a file does not say.
 const MISFIT: f64 = 0.15;
 
-const POSITIVE: &str = "a finite number > 0";
-
 impl FromFile for WorkPrecision {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name, "reference", "advantage"])?;
@@ -33,9 +31,7 @@ impl FromFile for WorkPrecision {
             return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
         }
         let elements = levels(&section, "elements")?;
-        let number = |key: &str, default: f64| {
-            section.get(key).map_or(Ok(default), |field| field.number_where(POSITIVE, |value| value > 0.0))
-        };
+        let number = |key: &str, default: f64| section.get(key).map_or(Ok(default), |field| field.positive());
         let (family, reference) = problem(root, &section, folder)?;
         Ok(Self {
             header,
@@ -87,7 +83,7 @@ fn problem(root: &Section<'_>, section: &Section<'_>, folder: &Path) -> Result<(
             let mut scene = Scene::read(file.file(folder)?)?;
             scene.t_end = t_end(section)?;
             let by = discretisations(root, "reference", None, scene.t_end)?;
-            let agreement = section.require("agreement", POSITIVE)?.number_where(POSITIVE, |value| value > 0.0)?;
+            let agreement = section.positive("agreement")?;
             Ok((Family::of_scene(&scene), Some(AnyOrder { scene, by, agreement })))
         }
         (None, None, Some(_)) => Ok((vibration(section)?, None)),
@@ -96,7 +92,7 @@ fn problem(root: &Section<'_>, section: &Section<'_>, folder: &Path) -> Result<(
 }
 
 fn t_end(section: &Section<'_>) -> Result<f64, InputError> {
-    section.require("t_end", POSITIVE)?.number_where(POSITIVE, |t_end| t_end > 0.0)
+    section.positive("t_end")
 }
 
 /// The lowest modes, each released from a tip displacement of 0.1.
@@ -107,7 +103,7 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     let items = field.items(allowed)?;
     let modes = items.iter().map(|item| Ok((item.count(0..=1000)?, AMPLITUDE))).collect::<Result<Vec<_>, InputError>>();
     let modes = modes?;
-    let zeta = section.require("zeta", POSITIVE)?.number_where(POSITIVE, |zeta| zeta > 0.0)?;
+    let zeta = section.positive("zeta")?;
     match free_vibration::vibration(&modes, zeta) {
         Ok(exact) if !modes.is_empty() => {
             Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
@@ -126,7 +122,7 @@ fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
         let method = |key: &str| -> Result<Method, InputError> {
             section.require(key, "the name of a method")?.choice(&methods)
         };
-        let number = |key: &str| section.require(key, POSITIVE)?.number_where(POSITIVE, |value| value > 0.0);
+        let number = |key: &str| section.positive(key);
         Ok(Advantage {
             quantity: section.require("norm", "the name of a norm")?.choice(&quantities)?,
             error: number("error")?,

@@ -4,12 +4,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
-use thermobeam::error::SetupError;
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::simulation::Stepping;
 use thermobeam::solve::Level;
 
-use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::input::{Field, InputError};
@@ -41,12 +38,6 @@ pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<S
     Ok(Scene { mesh: Mesh::uniform(elements)?, dt, steps, ..scene.clone() })
 }
 
-/// The scene at t = 0, to be stepped.
-pub(super) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
-    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-    Driver::new(simulate::problem(scene), stepping)
-}
-
 /// A beam at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rest {
@@ -66,7 +57,7 @@ const QUIET: f64 = 5.0;
 /// A step that cannot be done, or motion that lasts longer than `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, CaseFailure> {
     let mut moved = 0.0;
-    let rest = driver(scene)?.run(usize::MAX, |step| {
+    let rest = simulate::driver(scene)?.run(usize::MAX, |step| {
         let t = step.simulation.t();
         if !step.new.is_slow(speed) {
             moved = t;

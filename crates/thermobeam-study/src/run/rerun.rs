@@ -1,32 +1,14 @@
-//! A scene run again: on another mesh, with other time steps, by another scheme or solver.
+//! A scene run again, on another mesh or with other time steps.
 
 use std::ops::ControlFlow;
 
-use crate::run::driver::{Driver, RunError};
+use crate::run::driver::RunError;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Simulation, Stepping};
-use thermobeam::solve::{Level, Settings};
-
-/// What a scene is run with.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rerun<'s> {
-    /// Coefficients, obstacles and initial data.
-    pub(crate) scene: &'s Scene,
-    /// The mesh.
-    pub(crate) mesh: Mesh,
-    /// Number of time steps.
-    pub(crate) steps: usize,
-    /// Final time.
-    pub(crate) t_end: f64,
-    /// Time scheme.
-    pub(crate) scheme: Scheme,
-    /// How each step is solved.
-    pub(crate) settings: Settings,
-}
+use thermobeam::simulation::Simulation;
+use thermobeam::solve::Level;
 
 /// What was seen on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,45 +19,35 @@ pub(crate) struct Trace<S> {
     pub(crate) samples: Vec<S>,
 }
 
-impl<'s> Rerun<'s> {
-    /// The scene as it is.
-    pub(crate) fn of(scene: &'s Scene) -> Self {
-        let Scene { mesh, steps, t_end, scheme, settings, .. } = scene;
-        Self { scene, mesh: mesh.clone(), steps: *steps, t_end: *t_end, scheme: *scheme, settings: *settings }
-    }
+/// The scene on another mesh, with so many steps to a final time.
+pub(crate) fn at(scene: &Scene, mesh: Mesh, steps: usize, t_end: f64) -> Scene {
+    Scene { mesh, steps, t_end, dt: t_end / steps as f64, ..scene.clone() }
+}
 
-    /// Runs it to its end.
-    ///
-    /// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
-    ///
-    /// # Errors
-    /// [`RunError`] where the solver refuses the problem, or a step fails.
-    pub(crate) fn run<S>(
-        &self,
-        samples: usize,
-        mut sample: impl FnMut(&Simulation, &Level) -> S,
-    ) -> Result<Trace<S>, RunError> {
-        let Self { scheme, settings, .. } = *self;
-        let dt = self.t_end / self.steps as f64;
-        let mut driver = Driver::new(self.problem(), Stepping { scheme, settings, dt, loaded: false })?;
-        let last = self.mesh.elements();
-        let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
-        let stride = self.steps / samples;
-        driver.run(self.steps, |step| {
-            let tip = step.new.u[last];
-            trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
-            if step.simulation.step() % stride == 0 {
-                trace.samples.push(sample(step.simulation, step.new));
-            }
-            ControlFlow::<()>::Continue(())
-        })?;
-        Ok(trace)
-    }
-
-    fn problem(&self) -> Problem {
-        let initial = simulate::initial(self.scene, &self.mesh);
-        Problem { beam: self.scene.beam, obstacles: self.scene.obstacles, mesh: self.mesh.clone(), initial }
-    }
+/// Runs a scene to its end.
+///
+/// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
+///
+/// # Errors
+/// [`RunError`] where the solver refuses the problem, or a step fails.
+pub(crate) fn traced<S>(
+    scene: &Scene,
+    samples: usize,
+    mut sample: impl FnMut(&Simulation, &Level) -> S,
+) -> Result<Trace<S>, RunError> {
+    let mut driver = simulate::driver(scene)?;
+    let last = scene.mesh.elements();
+    let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
+    let stride = scene.steps / samples;
+    driver.run(scene.steps, |step| {
+        let tip = step.new.u[last];
+        trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
+        if step.simulation.step() % stride == 0 {
+            trace.samples.push(sample(step.simulation, step.new));
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    Ok(trace)
 }
 
 /// `elements` elements laid out as those of `mesh`: its nodes x_i as a function of i/n, linear in between, taken at j/m.
@@ -120,7 +92,7 @@ mod tests {
     fn a_run_keeps_extremes_and_samples() {
         let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 2.0\n";
         let scene = Scene::parse(text, "s.toml").expect("a scene");
-        let trace = Rerun::of(&scene).run(4, |simulation, level| (simulation.t(), level.u[4])).expect("a run");
+        let trace = traced(&scene, 4, |simulation, level| (simulation.t(), level.u[4])).expect("a run");
         let times: Vec<f64> = trace.samples.iter().map(|sample| sample.0).collect();
         assert_eq!(times, [0.5, 1.0, 1.5, 2.0]);
         assert_eq!(trace.tip[0].min(0.0), trace.tip[0]);

@@ -120,6 +120,15 @@ pub fn problem(scene: &Scene) -> Problem {
     }
 }
 
+/// The scene at t = 0, to be stepped.
+///
+/// # Errors
+/// [`SetupError`] where the solver cannot work with the scene's numbers.
+pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
+    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
+    Driver::new(problem(scene), stepping)
+}
+
 /// A scene's initial data on any mesh, boundary values set as in [`problem`].
 pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
     let nodes = mesh.nodes();
@@ -154,8 +163,7 @@ impl Simulator {
     /// # Errors
     /// [`SetupError`] where the solver cannot work with the scene's numbers.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-        let driver = Driver::new(problem(scene), stepping)?.timed();
+        let driver = driver(scene)?.timed();
         let sampler = Sampler::new(&scene.mesh);
         Ok(Self { driver, sampler, steps: scene.steps })
     }

@@ -3,12 +3,10 @@
 use std::ops::ControlFlow;
 
 use convergence_study::study::{Case, CaseFailure};
-use thermobeam::simulation::Stepping;
 
 use super::{ExactExperiments, Method, Run, Shown};
 use crate::kinds::tables::Discretisation;
 use crate::run::any_order;
-use crate::run::driver::Driver;
 use crate::run::simulate::{self, Sampler};
 use crate::scene::Scene;
 
@@ -58,8 +56,7 @@ fn own_run(study: &ExactExperiments, scene: &Scene) -> Result<Shown, CaseFailure
     let t_end = study.times.last().copied().unwrap_or(scene.t_end);
     let step_of = |t: f64| (t / scene.dt).round() as usize;
     let steps = step_of(t_end);
-    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-    let mut driver = Driver::new(simulate::problem(scene), stepping)?;
+    let mut driver = simulate::driver(scene)?;
     let tip_step: Vec<usize> = (1..=TIP_TIMES).map(|k| step_of(t_end * k as f64 / TIP_TIMES as f64)).collect();
     let mut shown = Shown { steps, balance: [f64::NAN; 2], ..Shown::default() };
     let (sampler, mut next) = (Sampler::new(&scene.mesh), 0);

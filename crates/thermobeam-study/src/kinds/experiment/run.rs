@@ -9,8 +9,9 @@ use thermobeam::solve::Level;
 
 use super::motion::{Frame, Shapes};
 use super::{Nearest, Until};
-use crate::kinds::steady::{driver, exact_states};
+use crate::kinds::steady::exact_states;
 use crate::run::driver::{Driver, Step};
+use crate::run::simulate::driver;
 use crate::scene::Scene;
 
 /// Points of a curve in a figure, about: more than a figure has columns.

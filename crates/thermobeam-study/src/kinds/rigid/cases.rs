@@ -10,8 +10,9 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::solve::{Settings, Solver};
 
 use super::{Bouncing, FixedPointRun, Found, Impact, Rest, RigidStudy, RunOf, Task};
-use crate::kinds::steady::{driver, settle};
+use crate::kinds::steady::settle;
 use crate::run::driver::{RunError, Step};
+use crate::run::simulate::driver;
 use crate::scene::Scene;
 
 pub(super) fn cases(study: &RigidStudy) -> Vec<Case<Task>> {

@@ -6,7 +6,8 @@ use thermobeam::mesh::{Mesh, MeshError};
 use super::{Resolution, Run, Sample, SelfConvergence, Traced};
 use crate::error::reference::{Reference, fine_mesh};
 use crate::kinds::tables::Refine;
-use crate::run::rerun::{Rerun, resampled};
+use crate::run::rerun::{at, resampled, traced};
+use crate::scene::Scene;
 
 /// Points of a curve in a figure: more than pixels.
 const CURVE_POINTS: usize = 2000;
@@ -49,13 +50,12 @@ fn common_mesh(study: &SelfConvergence) -> Result<Mesh, MeshError> {
 fn by_the_scheme(study: &SelfConvergence, level: Resolution) -> Result<Traced, CaseFailure> {
     let Resolution { elements, steps } = level;
     let mesh = resampled(&study.scene.mesh, elements)?;
-    let scheme = study.scheme;
-    let rerun = Rerun { mesh: mesh.clone(), steps, t_end: study.t_end, scheme, ..Rerun::of(&study.scene) };
+    let scene = Scene { scheme: study.scheme, ..at(&study.scene, mesh.clone(), steps, study.t_end) };
     // As many points as fit a figure, and all the times that are compared.
     let per_sample = (CURVE_POINTS / study.samples).max(1);
     let stride = largest_divisor(steps / study.samples, per_sample);
     let (mut tip, mut samples) = (vec![], vec![]);
-    let trace = rerun.run(study.samples * stride, |simulation, level| {
+    let trace = traced(&scene, study.samples * stride, |simulation, level| {
         tip.push((simulation.t(), level.u[elements]));
         if tip.len() % stride == 0 {
             samples.push(Sample { level: level.clone(), energy: simulation.energy(level).total() });

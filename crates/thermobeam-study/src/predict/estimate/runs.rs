@@ -2,7 +2,7 @@
 
 use super::EstimateError;
 use crate::run::driver::RunError;
-use crate::run::rerun::{Rerun, resampled};
+use crate::run::rerun::{at, resampled, traced};
 use crate::scene::Scene;
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::{Settings, Solver};
@@ -53,8 +53,7 @@ impl Runs {
         let samples = (1..=SAMPLES.min(steps / 4)).rev().find(|&k| (steps / 4).is_multiple_of(k)).unwrap_or(1);
         let mesh = |elements| resampled(&scene.mesh, elements);
         let run = |mesh: Result<Mesh, _>, steps: usize, settings: Settings| {
-            let rerun = Rerun { mesh: mesh?, steps, settings, ..Rerun::of(scene) };
-            read(&rerun, samples)
+            read(&Scene { settings, ..at(scene, mesh?, steps, scene.t_end) }, samples)
         };
         let named = |mesh, steps: usize, settings, name: &str| {
             run(mesh, steps, settings).map_err(|failure| EstimateError { run: name.into(), failure })
@@ -84,10 +83,10 @@ impl Runs {
     }
 }
 
-fn read(rerun: &Rerun<'_>, samples: usize) -> Result<Reading, RunError> {
-    let last = rerun.mesh.elements();
+fn read(scene: &Scene, samples: usize) -> Result<Reading, RunError> {
+    let last = scene.mesh.elements();
     let trace =
-        rerun.run(samples, |simulation, level| [level.u[last], level.phi[last], simulation.energy(level).total()])?;
+        traced(scene, samples, |simulation, level| [level.u[last], level.phi[last], simulation.energy(level).total()])?;
     let curve = |k: usize| trace.samples.iter().map(|sample| sample[k]).collect();
     Ok(Reading { extremes: trace.tip, tip: curve(0), rotation: curve(1), energy: curve(2) })
 }

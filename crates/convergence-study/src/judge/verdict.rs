@@ -23,9 +23,6 @@ pub const FEWEST_LEVELS: usize = 3;
 /// Tolerances must stay below: half the distance between two integer orders accepts either.
 pub const WIDEST_TOLERANCE: f64 = 0.5;
 
-/// Width of an interval beyond which its middle is called no rate: figures and tables then show the interval alone, or none.
-pub const WIDEST_INTERVAL: f64 = 0.5;
-
 /// Distance from the order beyond which a pairwise rate is no pre-asymptotic effect: an error that falls 32 times faster or
 /// slower than theory when the step is halved is a different solution, not a worse one.
 pub const WILD: f64 = 5.0;

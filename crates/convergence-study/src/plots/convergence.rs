@@ -9,8 +9,7 @@ use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Scale};
 use crate::judge::power_law::PowerLaw;
-use crate::judge::verdict::WIDEST_INTERVAL;
-use crate::text::number::{RATE_PLACES, decimals, interval_places};
+use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 use std::ops::Range;
 
 /// The errors in one norm.

@@ -6,10 +6,10 @@ use super::case::{Ran, by_reason};
 use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Quantity, Table};
 use crate::judge::fit::Level;
-use crate::judge::verdict::{self, Judge, RateVerdict, Verdict, WIDEST_INTERVAL};
+use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots::{self, Convergence, ErrorSeries};
-use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text, rate_text};
+use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
 
 /// What a caption says of the lines.
 #[cfg(feature = "reports")]

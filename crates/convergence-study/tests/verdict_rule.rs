@@ -176,6 +176,19 @@ fn a_floor_means_what_it_says_and_names_the_levels_below() {
 }
 
 #[test]
+fn the_curve_of_a_rate_passes_through_the_finest_error_that_it_uses() {
+    // The rates move, so that the rate at h → 0 is none of a straight line through all errors.
+    let levels = with_error(7, 2.0, |h| h * h * (1.0 + h));
+    for (floor, finest) in [(0.0, 6), (levels[5].error, 4)] {
+        let judged = Judge::new(0.1).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 2.0);
+        assert_eq!(judged.used.end, finest + 1, "{judged:?}");
+        let Level { step, error } = levels[finest];
+        let there = judged.power_law().expect("a rate").error_at(step);
+        assert!((there / error - 1.0).abs() < 1e-12, "{there} instead of {error}");
+    }
+}
+
+#[test]
 fn the_order_of_the_rows_does_not_matter() {
     let rows = ["0.1,1.01e-1", "0.05,5.02e-2", "0.025,2.505e-2", "0.0125,1.2512e-2"];
     let judged = |rows: Vec<&str>| {

@@ -68,6 +68,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     page.add(step_time::ways(&scene, 1000)?)?;
     page.add(step_time::scenes(&scene, 100)?)?;
     page.add(step_time::scaling(&scene, &ELEMENTS)?)?;
+    page.remark(step_time::SCALING)?;
     let any_order = any_order_time::times(&scene, scene.t_end.min(ANY_ORDER_END));
     page.add(any_order.map_err(|failure| Unusable::because(&failure.reason))?)?;
     for file in studies.iter().filter(|file| file.study.header().kind == work_precision::ROW.name) {
@@ -109,6 +110,12 @@ impl Page {
         self.clock.done(&table.title);
         self.tables.push(table);
         Ok(())
+    }
+
+    /// Adds a paragraph, and shows it.
+    fn remark(&mut self, text: &str) -> std::io::Result<()> {
+        self.text += &format!("{text}\n\n");
+        if self.shows { output::print(&format!("{text}\n\n")) } else { Ok(()) }
     }
 
     /// Adds a figure, in a file beside the page.

@@ -79,6 +79,23 @@ fn contraction_factors_of_one_and_more_are_labelled() {
 }
 
 #[test]
+fn open_markers_of_a_contraction_have_a_legend() {
+    let series = |label: &str, points: &[(f64, f64)]| Series { label: label.into(), points: points.to_vec() };
+    let drawn = |series| contraction(&Contraction { title: None, series });
+    let open_samples = |svg: &str| {
+        let doc = parse(svg);
+        let entries = elements(&doc, "g").filter(|n| n.has_attribute("data-entry"));
+        let markers = entries.flat_map(|n| n.descendants()).filter(|n| n.attribute("fill") == Some("#FFFFFF"));
+        markers.count()
+    };
+    let note = "open markers: no convergence";
+    let apart = drawn(vec![series("converges", &[(0.1, 0.1), (0.5, 0.5)]), series("fails", &[(2.0, 1.0)])]);
+    assert_eq!((open_samples(&apart), apart.contains(note)), (1, false));
+    let split = drawn(vec![series("both", &[(0.1, 0.1), (2.0, 1.0)])]);
+    assert_eq!((open_samples(&split), split.contains(note)), (0, true));
+}
+
+#[test]
 fn nothing_to_draw_is_no_reason_to_panic() {
     let empty =
         [contraction(&Contraction::default()), bifurcation(&Bifurcation::default()), animation(&Animation::default())];

@@ -17,8 +17,8 @@ pub(super) struct Vertex {
 pub(super) fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ticks) {
     let mut labels: Vec<(Point, &str)> = Vec::new();
     let plot = sheet.plot;
-    for level in &levels.major {
-        let segments = iso_segments(rows, level.at);
+    let lines: Vec<_> = levels.major.iter().map(|level| iso_segments(rows, level.at)).collect();
+    for (level, segments) in levels.major.iter().zip(&lines) {
         // As far as can be from the frame and from the other labels.
         let room = |p: &Point| {
             let frame = [p.0 - plot.left, plot.right - p.0, 2.0 * (p.1 - plot.top), 2.0 * (plot.bottom - p.1)];
@@ -27,10 +27,12 @@ pub(super) fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ti
         };
         let middles = segments.iter().map(|[a, b]| (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1)));
         let best = middles.map(|p| (room(&p), p)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let mut pieces = segments.clone();
-        if let Some((_, at)) = best.filter(|(room, _)| *room > 45.0) {
-            labels.push((at, &level.label));
-            pieces = segments.iter().flat_map(|&s| keep_outside(s, &around(at, &level.label))).collect();
+        labels.extend(best.filter(|(room, _)| *room > 45.0).map(|(_, at)| (at, &*level.label)));
+    }
+    // Every label interrupts every line.
+    for mut pieces in lines {
+        for (at, label) in &labels {
+            pieces = pieces.into_iter().flat_map(|s| keep_outside(s, &around(*at, label))).collect();
         }
         sheet.canvas.draw(Layer::clipped(plot), |pen| {
             pieces.iter().for_each(|s| pen.line(s, WHITE, 3.4));
@@ -44,10 +46,10 @@ pub(super) fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ti
     });
 }
 
-/// The place of a label, which interrupts its line.
+/// The place of a label, with the gap that separates it from the lines.
 fn around(at: Point, label: &str) -> Rect {
-    let half = 0.5 * text_width(label, TICK_SIZE) + 2.0;
-    Rect { left: at.0 - half, right: at.0 + half, top: at.1 - 11.0, bottom: at.1 + 11.0 }
+    let half = 0.5 * text_width(label, TICK_SIZE) + 8.0;
+    Rect { left: at.0 - half, right: at.0 + half, top: at.1 - 16.0, bottom: at.1 + 16.0 }
 }
 
 /// Pieces of an iso line: every cell is cut into two triangles, on which the value is linear.

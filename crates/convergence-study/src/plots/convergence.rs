@@ -9,6 +9,7 @@ use super::style::{self, Dash};
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Scale};
 use crate::judge::power_law::PowerLaw;
+use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 use std::ops::Range;
 
 /// The errors in one norm.
@@ -22,6 +23,9 @@ pub struct ErrorSeries {
     pub order: Option<f64>,
     /// Line fitted to the points; its rate stands in the legend.
     pub fit: Option<PowerLaw>,
+    /// Interval of that rate, which says how many of its digits are known. Of one wider than [`WIDEST_INTERVAL`] neither rate nor
+    /// line is drawn. `None`: not known.
+    pub interval: Option<[f64; 2]>,
     /// Indices of the points that were fitted, over which the line is drawn; the others get open markers. `None`: all.
     pub used: Option<Range<usize>>,
     /// Which [`look`] it has; `None`: that of its place in the figure.
@@ -45,6 +49,22 @@ pub struct Convergence {
     pub floor: Option<Guide>,
     /// Everything right of this step is shaded, with the text above it.
     pub beyond: Option<(f64, String)>,
+}
+
+impl ErrorSeries {
+    /// The line, where its rate is known.
+    pub(crate) fn line(&self) -> Option<PowerLaw> {
+        let is_known = |[low, high]: [f64; 2]| high - low <= WIDEST_INTERVAL;
+        self.fit.filter(|_| self.interval.is_none_or(is_known))
+    }
+
+    /// What the legend says of the rate.
+    fn rate(&self) -> Option<String> {
+        self.fit?;
+        let Some(line) = self.line() else { return Some("no rate".to_owned()) };
+        let places = self.interval.map_or(RATE_PLACES - 1, |interval| interval_places(interval, RATE_PLACES));
+        line.rate.is_finite().then(|| format!("rate {}", decimals(line.rate, places)))
+    }
 }
 
 impl Convergence {
@@ -82,7 +102,7 @@ pub fn convergence(figure: &Convergence) -> String {
 /// Whether a line is fitted to some of its points only.
 fn has_unused_points(series: &ErrorSeries) -> bool {
     let len = series.points.len();
-    series.fit.is_some() && series.used.as_ref().is_some_and(|used| used.len() < len)
+    series.line().is_some() && series.used.as_ref().is_some_and(|used| used.len() < len)
 }
 
 /// Its own look, or that of its place in the figure.
@@ -92,12 +112,17 @@ fn look_of(k: usize, series: &ErrorSeries) -> Look {
 
 /// The legend's entry for line and markers. A fitted line is thin and solid, one that only joins the points is not.
 fn entry(series: &ErrorSeries, look: Look) -> Entry {
-    let (dash, width) = if series.fit.is_some() { (Dash::Solid, style::THIN) } else { (look.dash, style::LINE) };
+    let (dash, width) = match (series.fit, series.line()) {
+        (_, Some(_)) => (Dash::Solid, style::THIN),
+        (Some(_), None) => (look.dash, 0.0),
+        (None, None) => (look.dash, style::LINE),
+    };
     let swatch = Swatch::Line { look: Look { dash, ..look }, width, marks: Marks::Filled };
     Entry { swatch, label: label(series) }
 }
 
-/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not use.
+/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not use. Where
+/// the rate is not known, the markers alone.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let marked = Curve {
         name: label(series),
@@ -109,7 +134,9 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         marks: Marks::Filled,
         is_data: true,
     };
-    let Some(fit) = series.fit else { return vec![marked] };
+    let Some(fit) = series.line() else {
+        return vec![if series.fit.is_some() { Curve { width: 0.0, ..marked } } else { marked }];
+    };
     let used = series.used.clone().unwrap_or(0..series.points.len());
     let (fitted, others): (Vec<_>, Vec<_>) =
         series.points.iter().copied().enumerate().partition(|(k, _)| used.contains(k));
@@ -129,14 +156,9 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
 }
 
 fn label(series: &ErrorSeries) -> String {
-    let mut text = series.label.clone();
-    if let Some(order) = series.order {
-        text += &format!(", order {order}");
-    }
-    if let Some(rate) = series.fit.map(|fit| fit.rate).filter(|r| r.is_finite()) {
-        text += &format!(", rate {rate:.3}");
-    }
-    text
+    let order = series.order.map(|order| format!("order {order}"));
+    let texts = [Some(series.label.clone()), order, series.rate()];
+    texts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
 /// The fitted power law between the outermost points.

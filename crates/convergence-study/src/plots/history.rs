@@ -16,6 +16,8 @@ pub struct History {
     pub y: Axis,
     /// `(t, value)`, times ascending.
     pub series: Vec<Series>,
+    /// Which [`look`](super::look::look) each series has: the same wherever it is drawn. Empty: those of their places.
+    pub looks: Vec<usize>,
     /// Limits and other values worth a line.
     pub guides: Vec<Guide>,
     /// Intervals to shade.
@@ -24,11 +26,12 @@ pub struct History {
 
 /// Draws quantities over time.
 pub fn history(figure: &History) -> String {
+    let curve = |(k, series)| Curve::line(figure.looks.get(k).copied().unwrap_or(k), series);
     Xy {
         title: figure.title.clone(),
         x: time_axis(&figure.x_label),
         y: figure.y.clone(),
-        curves: figure.series.iter().enumerate().map(|(k, series)| Curve::line(k, series)).collect(),
+        curves: figure.series.iter().enumerate().map(curve).collect(),
         guides: figure.guides.clone(),
         phases: figure.phases.clone(),
         ..Xy::default()

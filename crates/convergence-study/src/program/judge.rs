@@ -59,7 +59,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let id = &study.header.id;
     let mut figures = vec![];
     if !levels.columns.is_empty() {
-        let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
+        let caption = "Errors over levels of refinement.".to_owned();
         figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
         figures.extend(work_precision(id, levels, ran));
     }

@@ -93,8 +93,7 @@ fn differences(
         refinements: refinements[1..].to_vec(),
         columns: estimates.iter().map(column).collect(),
     };
-    let caption =
-        "Differences of neighbouring levels, each at the finer of its steps, with the lines of the observed rates.";
+    let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), rates)
 }
 

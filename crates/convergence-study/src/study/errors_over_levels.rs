@@ -64,7 +64,7 @@ where
     #[cfg(feature = "reports")]
     fn figure(&self, levels: &Levels, rates: &levels::Rates) -> super::outcome::Figure {
         let file = format!("{}-errors.svg", self.header.id);
-        let caption = "Errors over levels of refinement, with the lines of the observed rates.".to_owned();
+        let caption = "Errors over levels of refinement.".to_owned();
         levels.figure(file, None, caption, rates)
     }
 

@@ -9,6 +9,11 @@ use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots::{self, Convergence, ErrorSeries};
+use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
+
+/// What a caption says of the lines.
+#[cfg(feature = "reports")]
+const LINES: &str = " Lines: the rates observed, each through the finest error that it uses.";
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by 1e-8 at
 /// most, a change of the computation by more.
@@ -133,7 +138,9 @@ impl Levels {
     }
 
     #[cfg(feature = "reports")]
-    /// The errors that were judged, each with the line of its rate, and triangles for the orders claimed.
+    /// The errors that were judged, each with the line of its rate where that is known, and triangles for the orders claimed.
+    ///
+    /// * `caption`: what is drawn, as a sentence; what the lines are is added where there are any.
     pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
         let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
         let series = claimed.clone().map(|(column, claim)| {
@@ -142,6 +149,7 @@ impl Levels {
             ErrorSeries {
                 label: column.name.clone(),
                 fit: rate.and_then(|(_, rate)| rate.power_law()),
+                interval: rate.and_then(|(_, rate)| rate.interval),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| rate.used.clone()),
@@ -152,8 +160,10 @@ impl Levels {
         slopes.sort_by(f64::total_cmp);
         slopes.dedup();
         let labels = Convergence { x_label: self.axis.label().into(), ..Convergence::in_space() };
-        let svg = plots::convergence(&Convergence { title, series: series.collect(), slopes, ..labels });
-        Figure { file, caption, svg }
+        let series: Vec<ErrorSeries> = series.collect();
+        let has_line = series.iter().any(|series| series.line().is_some());
+        let svg = plots::convergence(&Convergence { title, series, slopes, ..labels });
+        Figure { file, caption: if has_line { caption + LINES } else { caption }, svg }
     }
 
     /// Every error of every level, for record and report.
@@ -194,15 +204,14 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
 
 /// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
     let row = |(name, rate): &(String, RateVerdict)| {
         let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| format!("{rate:.3}")).collect();
-        let interval = rate.interval.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"));
+        let interval = rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES));
         vec![
             name.clone(),
             rate.order.to_string(),
             pairwise.join(" "),
-            number(rate.fitted),
+            rate_in(rate),
             interval,
             rate.verdict.to_string(),
             rate.kind.text().to_owned(),
@@ -214,6 +223,15 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
             .map(str::to_owned)
             .into(),
         rows: rates.iter().map(row).collect(),
+    }
+}
+
+/// The rate with the digits that its interval leaves it, in a table that shows the interval as well.
+fn rate_in(rate: &RateVerdict) -> String {
+    match (rate.fitted, rate.interval) {
+        (Some(_), Some([low, high])) if high - low > WIDEST_INTERVAL => "no rate".to_owned(),
+        (Some(fitted), Some(interval)) => decimals(fitted, interval_places(interval, RATE_PLACES)),
+        (fitted, _) => rate_text(fitted),
     }
 }
 
@@ -270,6 +288,47 @@ mod tests {
             assert_eq!(judged.verdict, Verdict::Inconclusive, "{tolerance}");
             assert!(judged.fitted.is_some_and(|rate| (rate - 2.0).abs() < 1e-6), "{tolerance}");
         }
+    }
+
+    /// Errors of the second order on five levels, times these factors.
+    fn scattered(factors: [f64; 5]) -> Levels {
+        let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
+        let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
+        let errors = refinements.iter().zip(factors).map(|(level, factor)| factor * level.step * level.step).collect();
+        let claim = Some(Claim { order: 2.0, tolerance: 0.1 });
+        Levels {
+            axis: Axis::Space,
+            refinements,
+            columns: vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }],
+        }
+    }
+
+    /// The errors zigzag: their rate may be anything.
+    const ZIGZAG: [f64; 5] = [1.0, 3.0, 1.0, 3.0, 1.0];
+
+    #[test]
+    fn a_table_of_rates_has_the_digits_of_the_interval_and_no_rate_where_that_says_nothing() {
+        let cells = |factors| {
+            let table = rate_table("", &scattered(factors).judge());
+            [table.rows[0][3].clone(), table.rows[0][4].clone()]
+        };
+        assert_eq!(cells([1.0; 5]), ["2.0000", "2.0000 ± 0.00005"]);
+        let [rate, interval] = cells([1.0, 1.02, 1.0, 1.02, 1.0]);
+        assert!((4..=5).contains(&rate.len()) && interval.contains(" to "), "{rate}, {interval}");
+        assert_eq!(cells(ZIGZAG)[0], "no rate");
+    }
+
+    #[cfg(feature = "reports")]
+    #[test]
+    fn a_caption_speaks_of_lines_only_where_there_are_some() {
+        let caption = |factors, rates: bool| {
+            let levels = scattered(factors);
+            let rates = if rates { levels.judge() } else { vec![] };
+            levels.figure("f.svg".into(), None, "Errors.".into(), &rates).caption
+        };
+        assert_eq!(caption([1.0; 5], true), format!("Errors.{LINES}"));
+        assert_eq!(caption([1.0; 5], false), "Errors.");
+        assert_eq!(caption(ZIGZAG, true), "Errors.");
     }
 
     #[test]

@@ -9,6 +9,9 @@ const NOISE_PLACE: i32 = 15;
 /// Decimal places of a rate in a committed file: a relative change of an error by 1e-5 does not show.
 pub const RATE_PLACES: usize = 4;
 
+/// Width of an interval beyond which its middle is not shown as a rate: it would seem to be known.
+pub const WIDEST_INTERVAL: f64 = 0.5;
+
 /// The larger of two numbers; NaN if one of them is, which `f64::max` would hide.
 pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }

@@ -21,7 +21,7 @@ pub(crate) fn number(node: Node<'_, '_>, attribute: &str) -> f64 {
 }
 
 /// Left, top, right, bottom of a text in page units; widths estimated on the narrow side.
-fn bounds(node: Node<'_, '_>) -> [f64; 4] {
+pub(crate) fn bounds(node: Node<'_, '_>) -> [f64; 4] {
     let size = number(node, "font-size");
     let width = 0.5 * size * node.text().unwrap_or("").trim().chars().count() as f64;
     let (x, y) = (number(node, "x"), number(node, "y"));

@@ -5,7 +5,7 @@ mod laws;
 
 use convergence_study::judge::power_law::PowerLaw;
 use convergence_study::plots::*;
-use laws::{UNITS, elements, number, parse};
+use laws::{UNITS, bounds, elements, number, parse};
 use roxmltree::Node;
 
 #[test]
@@ -151,6 +151,34 @@ fn figures_of_extreme_data_do_not_panic() {
 }
 
 #[test]
+fn iso_lines_leave_a_gap_around_their_labels() {
+    let svg = surface(&gallery::error_surface());
+    let doc = parse(&svg);
+    let pair = |p: &str| p.split_once(',').map(|(x, y)| [x, y].map(|v| v.parse::<f64>().expect("a number")));
+    let lines = elements(&doc, "polyline").filter(|n| n.attribute("stroke-width") == Some("14"));
+    let ends: Vec<[f64; 2]> = lines
+        .flat_map(|n| n.attribute("points").unwrap().split_whitespace().filter_map(pair).collect::<Vec<_>>())
+        .collect();
+    let extent = |k: usize| {
+        let values = || ends.iter().map(|end| end[k]);
+        [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)]
+    };
+    let [[left, right], [top, bottom]] = [extent(0), extent(1)];
+    let is_label = |n: &Node<'_, '_>| {
+        let (x, y) = (number(*n, "x"), number(*n, "y"));
+        left < x && x < right && top < y && y < bottom
+    };
+    let labels: Vec<[f64; 4]> = elements(&doc, "text").filter(is_label).map(bounds).collect();
+    assert!(labels.len() >= 2, "{labels:?}");
+    for [left, top, right, bottom] in labels {
+        let near = |[x, y]: &&[f64; 2]| {
+            left - 8.0 * UNITS < *x && *x < right + 8.0 * UNITS && top - 5.0 * UNITS < *y && *y < bottom + 5.0 * UNITS
+        };
+        assert_eq!(ends.iter().find(near), None, "at the label {left} {top} {right} {bottom}");
+    }
+}
+
+#[test]
 fn constant_data_have_an_axis_with_ticks() {
     let series = vec![Series { label: "s".into(), points: vec![(0.0, 3.0), (1.0, 3.0)] }];
     let svg = history(&History { y: Axis::linear("v"), series, ..Default::default() });
@@ -291,6 +319,53 @@ fn levels_without_a_say_have_open_markers_and_a_note() {
     assert!(!texts(&convergence(&all)).iter().any(|text| text == note));
 }
 
+/// The legend's text, and whether a line is drawn, for a rate that is known as this interval.
+fn rate_known_as(interval: Option<[f64; 2]>) -> (String, bool) {
+    let mut figure = partly_used();
+    figure.series[0].order = Some(2.0);
+    figure.series[0].interval = interval;
+    let svg = convergence(&figure);
+    let doc = parse(&svg);
+    let label = elements(&doc, "g").find_map(|n| n.attribute("data-entry")).expect("an entry").to_owned();
+    let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
+    let has_line = lines.flat_map(|n| n.descendants()).any(|n| n.has_tag_name("polyline"));
+    (label, has_line)
+}
+
+#[test]
+fn a_rate_has_the_digits_of_its_interval_and_none_with_its_line_where_that_says_nothing() {
+    for (interval, label, has_line) in [
+        (None, "L2, order 2, rate 2.000", true),
+        (Some([1.99999, 2.00001]), "L2, order 2, rate 2.0000", true),
+        (Some([1.98, 2.02]), "L2, order 2, rate 2.000", true),
+        (Some([1.75, 2.25]), "L2, order 2, rate 2.00", true),
+        (Some([1.74, 2.26]), "L2, order 2, no rate", false),
+        (Some([-8.2, 12.2]), "L2, order 2, no rate", false),
+        (Some([f64::NAN, 2.0]), "L2, order 2, no rate", false),
+    ] {
+        assert_eq!(rate_known_as(interval), (label.to_owned(), has_line), "{interval:?}");
+    }
+}
+
+#[test]
+fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
+    let wave = |t: f64| (9.0 * t).sin();
+    let sampled = |count: u32, value: &dyn Fn(f64) -> f64| {
+        (0..=count).map(|k| f64::from(k) / f64::from(count)).map(|t| (t, value(t))).collect::<Vec<_>>()
+    };
+    let note = |other: Vec<(f64, f64)>| {
+        let series = [("fine", sampled(1000, &wave)), ("coarse", other)]
+            .map(|(label, points)| Series { label: label.into(), points });
+        let svg = history(&History { series: series.into(), ..History::default() });
+        texts(&svg).iter().any(|text| text == "fine and coarse coincide")
+    };
+    assert!(note(sampled(150, &wave)));
+    // Another curve, one that ends early, one whose points are right and whose lines between them are not.
+    assert!(!note(sampled(150, &|t| wave(t) + 0.05)));
+    assert!(!note(sampled(150, &wave)[..130].to_vec()));
+    assert!(!note(sampled(8, &wave)));
+}
+
 #[test]
 fn a_note_names_the_curves_that_coincide() {
     let words = texts(&convergence(&gallery::space_errors()));
@@ -309,6 +384,14 @@ fn a_series_keeps_its_look_in_every_figure() {
     let last = convergence(&figure);
     let is_purple = |svg: &str| points_of(svg, "#AA4499") > 0;
     assert!(is_purple(&alone) && is_purple(&last) && !is_purple(&convergence(&gallery::time_errors())));
+}
+
+#[test]
+fn the_series_of_a_history_have_the_looks_that_they_are_given() {
+    let series = vec![Series { label: "s".into(), points: vec![(0.0, 1.0), (1.0, 2.0)] }];
+    let drawn = |looks| history(&History { series: series.clone(), looks, ..History::default() });
+    let is_purple = |svg: &str| svg.contains("#AA4499");
+    assert!(is_purple(&drawn(vec![3])) && !is_purple(&drawn(vec![])));
 }
 
 #[test]

@@ -26,6 +26,11 @@ pub fn contraction(figure: &Contraction) -> String {
         beyond: Some((1.0, "no convergence (α ≥ 1)".into())),
         ..Xy::default()
     };
+    let is_split =
+        |series: &Series| [false, true].iter().all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above));
+    if figure.series.iter().any(is_split) {
+        xy.notes.push("open markers: no convergence".to_owned());
+    }
     // Up to 100, so that the text fits above its region.
     xy.show_x = vec![1.0, 100.0];
     xy.show_y = vec![1.0];
@@ -33,11 +38,15 @@ pub fn contraction(figure: &Contraction) -> String {
     xy.draw()
 }
 
-/// A series on both sides of α = 1, under one entry of the legend.
+/// A series on both sides of α = 1, under one entry of the legend, whose marker is open where all points are.
 fn curves((k, series): (usize, &Series)) -> [Curve; 2] {
-    let (below, above) = series.points.iter().partition(|point| point.0 < 1.0);
+    let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
+    let all_above = below.is_empty() && !above.is_empty();
     let side = |points, marks| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
-    [side(below, Marks::Filled), Curve { is_listed: false, ..side(above, Marks::Open) }]
+    [
+        Curve { is_listed: !all_above, ..side(below, Marks::Filled) },
+        Curve { is_listed: all_above, ..side(above, Marks::Open) },
+    ]
 }
 
 /// The line on which prediction and measurement agree, up to α = 1.

@@ -28,6 +28,7 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::scheme::MIDPOINT;
 use thermobeam::solve::Settings;
 
+use super::work_precision::law::front;
 use crate::error::curve::distance;
 use crate::run::any_order_time::{REFERENCE, by, finished};
 use crate::run::family::Family;
@@ -211,10 +212,9 @@ impl Kind for AnyOrderCost {
             head: ["run", "error", "node-solves"].map(str::to_owned).to_vec(),
             rows: ran.iter().map(row).collect(),
         };
-        let series = [("dG(q)", any_order), ("midpoint", midpoint)].map(|(label, mut points)| {
-            points.sort_by(|a, b| a.work.total_cmp(&b.work));
-            let points = points.iter().map(|point| (point.work, point.error)).collect();
-            plots::Series { label: label.to_owned(), points }
+        let series = [("dG(q)", any_order), ("midpoint", midpoint)].map(|(label, runs)| plots::Series {
+            label: label.to_owned(),
+            points: front(runs.iter().map(|run| (run.work, run.error))),
         });
         let svg = plots::work_precision(&plots::WorkPrecision {
             title: Some("What an error of u(1, t) costs".to_owned()),
@@ -223,7 +223,7 @@ impl Kind for AnyOrderCost {
             series: series.to_vec(),
         });
         let file = format!("{}-work.svg", self.header.id);
-        let caption = "Error of u(1, t) over counted work, by dG(q) and by midpoint.".to_owned();
+        let caption = "Error of u(1, t) over counted work, by dG(q) and by midpoint, without runs that another one beats in both.".to_owned();
         let quantities = if ratio.is_finite() {
             vec![Quantity { name: "times cheaper".to_owned(), value: ratio, tolerance: 0.05 }]
         } else {

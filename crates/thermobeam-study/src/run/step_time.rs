@@ -205,6 +205,10 @@ pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     Ok(table(&format!("What a scene pays for, {elements} elements"), "scene", rows))
 }
 
+/// What [`scaling`] has to say beside its table.
+pub const SCALING: &str = "The ratio is to the first mesh of 1000 elements or more. Past the caches a step takes as long as its \
+                           numbers take to come from memory and go back.";
+
 /// Cost and memory over the number of elements, of one case and of each of four in lanes.
 ///
 /// # Errors
@@ -227,7 +231,6 @@ pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
         ]
     };
     let head = ["elements", "ns per element and step", "ratio", "in lanes, per case", "passes a step", "MiB a case"];
-    let title = "Over the number of elements; the ratio is to the first mesh of 1000 or more. Past the caches a step takes as long \
-                 as its numbers take to come from memory and go back";
+    let title = "Time over the number of elements";
     Ok(Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows: times.iter().map(row).collect() })
 }

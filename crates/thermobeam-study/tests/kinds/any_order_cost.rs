@@ -40,6 +40,21 @@ fn a_thousandth_of_the_cost_and_planted_defects_fail() {
 }
 
 #[test]
+fn the_figure_leaves_out_a_run_that_another_beats() {
+    let study = study(|text| text);
+    let sound = passes_but_not_without_each_case(&study);
+    let points = |ran: &[_]| {
+        let svg = study.judge(ran).figures.remove(0).svg;
+        let line = svg.lines().find(|line| line.contains("data-series=\"dG(q)\"")).expect("a line").to_owned();
+        line.split("data-points=").nth(1).expect("points").split_whitespace().count()
+    };
+    let before = points(&sound);
+    // The cheapest run, whose error is the largest, is no better than the others are.
+    let beaten = changed::<AnyOrderCost>(&sound, |index, found| found.work *= if index == 0 { 1e3 } else { 1.0 });
+    assert_eq!(points(&beaten), before - 1);
+}
+
+#[test]
 fn a_claim_that_is_too_bold_fails() {
     for (from, to) in [("times = 1000", "times = 100000"), ("error = 1e-8", "error = 1e-15")] {
         assert_eq!(run_here(&study(|text| text.replace(from, to))).verdict, Verdict::Fail, "{to}");

@@ -1,5 +1,5 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, Outcome};
+use convergence_study::study::{FromFile, Kind, Outcome, run_cases_here};
 use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
 use thermobeam_study::kinds::energy::runs::{Found, Runs};
 use thermobeam_study::kinds::energy::{End, ROW};
@@ -39,6 +39,17 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
             });
             assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in {}", sound[case].case.label);
         }
+    }
+}
+
+#[test]
+fn the_samples_of_a_run_end_with_its_last_step() {
+    // 1000 steps, of which every third is a sample.
+    for ran in run_cases_here(&runs("energy-decay.toml")) {
+        let found = ran.found.expect("a run");
+        let last = found.samples.last().expect("samples");
+        assert_eq!((last.step, found.steps), (1000, 1000), "{}", ran.case.label);
+        assert!((last.t - 1.0).abs() < 1e-12 && last.residual > 0.0);
     }
 }
 

@@ -155,6 +155,16 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 }
 
 #[test]
+fn the_legend_says_of_which_differences_nothing_is_claimed() {
+    let outcome = run_here(&parse("reference-space.toml", |text| text));
+    let svg = &outcome.figures[0].svg;
+    assert!(svg.contains("tip-max, reference (not claimed), order 2, "), "{}", outcome.figures[0].file);
+    assert!(svg.contains("tip, reference, order 2, "));
+    assert_eq!(outcome.rates.iter().filter(|(name, _)| name.contains("not claimed")).count(), 0);
+    assert!(outcome.levels[0].errors.iter().any(|(name, _)| name == "tip-max, reference"));
+}
+
+#[test]
 fn a_file_that_makes_no_sense_is_refused() {
     for (from, to, message) in [
         ("[8, 16,", "[8, 20,", "a multiple of 8, the level before"),

@@ -119,6 +119,19 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
 }
 
 #[test]
+fn the_comparison_of_solvers_meets_an_obstacle_and_speaks_of_shade_only_then() {
+    let caption = |study: &Solvers| {
+        let mut figures = run_here(study).figures;
+        figures.retain(|figure| figure.file.ends_with("-iterations.svg"));
+        let figure = figures.pop().expect("a figure of iterations");
+        (figure.caption.contains("shaded"), figure.svg.contains("in contact"))
+    };
+    assert_eq!(caption(&fixed_point()), (true, true));
+    let early = text("fixed-point.toml").replace("steps = 3000", "steps = 100");
+    assert_eq!(caption(&Solvers::parse(&early, &file("fixed-point.toml")).expect("a study")), (false, false));
+}
+
+#[test]
 fn a_study_may_have_several_parts() {
     let parts = text("stability-coarse.toml").replace("points = 12", "points = 3").replace("[1e-6, 1e-3]", "[1e-3]")
         + "\n[contraction]\nelements = 20\ndt = [1e-3]\nepsilon = [1e-3]\nzeta = [0.1]\n";
@@ -149,7 +162,7 @@ fn a_file_that_makes_no_sense_is_refused() {
     for (from, to, message) in [
         ("zeta = [0.01, 0.1, 1.0]", "zeta = [0.0]", "contraction.zeta[0]"),
         ("zeta = [0.01, 0.1, 1.0]", "zeta = []", "contraction.zeta"),
-        ("steps = 500", "steps = 0", "comparison.steps"),
+        ("steps = 3000", "steps = 0", "comparison.steps"),
         ("paper-1-beta-0.toml", "paper-1-beta-00.toml", "comparison.scene"),
     ] {
         refused("fixed-point.toml", from, to, message);

@@ -48,6 +48,7 @@ fn figure(findings: &Findings<'_>) -> String {
             points: levels.iter().map(|level| (level.step, level.error)).collect(),
             order: Some(judged.rate.order).filter(|order| !order.is_nan()),
             fit: judged.rate.power_law(),
+            interval: judged.rate.interval,
             used: Some(judged.rate.used.clone()),
             ..ErrorSeries::default()
         }

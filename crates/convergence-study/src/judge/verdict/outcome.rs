@@ -172,7 +172,7 @@ pub struct RateVerdict {
     /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
     /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
     pub fitted: Option<f64>,
-    /// The constant C of error = C step^rate for that rate, by least squares, in logarithms, over the levels `used`.
+    /// The constant C of error = C step^rate for that rate: the curve passes through the error of the finest level `used`.
     pub constant: Option<f64>,
     /// The interval of `fitted`, which is its middle. It is what was judged, unless the reason is another one.
     pub interval: Option<[f64; 2]>,
@@ -191,7 +191,7 @@ pub struct RateVerdict {
 }
 
 impl RateVerdict {
-    /// The rate with its constant, as a curve; `None` where there is no rate.
+    /// The rate with its constant, as a curve through the finest error used; `None` where there is no rate.
     pub fn power_law(&self) -> Option<PowerLaw> {
         Some(PowerLaw { rate: self.fitted?, constant: self.constant? })
     }

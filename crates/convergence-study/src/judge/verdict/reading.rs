@@ -25,12 +25,6 @@ pub(crate) struct Reading<'a> {
     unusable: Option<Reason>,
 }
 
-/// The constant C of error = C step^rate by least squares, in logarithms, for a given rate.
-fn constant(levels: &[Level], rate: f64) -> Option<f64> {
-    let logs = levels.iter().map(|level| level.error.ln() - rate * level.step.ln());
-    Some((logs.sum::<f64>() / levels.len() as f64).exp()).filter(|constant| constant.is_finite())
-}
-
 impl<'a> Reading<'a> {
     pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
         let unusable = unusable(sequence);
@@ -54,9 +48,15 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The constant that belongs to the rate of the fit.
+    /// The constant C of error = C step^rate for the rate of the fit, through the finest level that the fit uses.
+    ///
+    /// The rate is that at h → 0, to which the finest level is the closest; a constant fitted to all levels would give a curve
+    /// that misses them all.
     pub(super) fn constant(&self) -> Option<f64> {
-        constant(&self.sequence[self.used.clone()], self.fit?.rate)
+        let finest = self.sequence[self.used.clone()].last()?;
+        // In logarithms: a power of a small step may underflow.
+        let constant = (finest.error.ln() - self.fit?.rate * finest.step.ln()).exp();
+        Some(constant).filter(|constant| constant.is_finite())
     }
 
     /// The levels that the fit leaves out.

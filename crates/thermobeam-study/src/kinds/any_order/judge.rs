@@ -43,9 +43,7 @@ fn over_steps(study: &AnyOrder, ran: &[Ran<Resolution, Errors>], completion: Che
         outcome.figures.push(levels.figure(
             format!("{}-{letter}{degree}.svg", study.header.id),
             Some(format!("{letter} = {degree}")),
-            format!(
-                "Errors for {letter} = {degree}, with the rates observed (lines) and the orders of theory (triangles)."
-            ),
+            format!("Errors for {letter} = {degree}, with the orders of theory (triangles)."),
             &judged,
         ));
         rates.extend(judged);

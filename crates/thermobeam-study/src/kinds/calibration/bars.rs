@@ -4,7 +4,7 @@
 //! [bars]
 //! samples = 150          # of each of 29 laws
 //! seed = 4
-//! coverage = 0.95        # least share of all bars that hold the error
+//! coverage = 0.95        # least share of all bars that contain the true error
 //! coverage_each = 0.85   # the same for each law, and for each number of values
 //! refused = 0.30         # allowed share of samples without a bar
 //! width = 0.30           # allowed median of half-width over true error
@@ -28,8 +28,8 @@ pub const ROW: KindRow = KindRow {
     read: reader::<BarCalibration>,
     why: "Richardson's estimate with its bar, and the grid convergence index, are applied to thousands of made-up sequences of values whose limit is known: \
           polluted, scattered, on equal and unequal steps.",
-    judged: "Counted: how often the bar holds the error, how often it is refused, how long it is. Each has its limit.",
-    failure: "Bars hold the error less often than is admitted, or say less: no error bar of any other study can be trusted as far as was said.",
+    judged: "Counted: how often the bar contains the true error, how often it is refused, how long it is. Each has its limit.",
+    failure: "Bars contain the true error less often than is admitted, or are longer: no error bar of any other study can be trusted as far as was said.",
 };
 
 /// A study of this kind.
@@ -86,7 +86,7 @@ impl Kind for BarCalibration {
         };
         let all = &bars.declared;
         let held = |tally: &Tally, least: f64| {
-            let claim = format!("{}: bars hold the error in {} at least", tally.name, percent(least));
+            let claim = format!("{}: at least {} of the bars contain the true error", tally.name, percent(least));
             Check::that(tally.coverage() >= least, claim, percent(tally.coverage()))
         };
         let each = bars.laws.iter().filter(|tally| tally.declared).chain(&bars.by_values);
@@ -94,11 +94,12 @@ impl Kind for BarCalibration {
         checks.push(held(all, self.coverage));
         let claim = format!("bars are refused in at most {}", percent(self.refused));
         checks.push(Check::that(all.refused() <= self.refused, claim, percent(all.refused())));
-        let claim = format!("half of the bars are no longer than ± {} of the error", self.width);
-        checks.push(Check::that(all.width() <= self.width, claim, format!("± {:.3}", all.width())));
+        let claim = format!("the median half-width is at most {} of the true error", self.width);
+        checks.push(Check::that(all.width() <= self.width, claim, format!("{:.3}", all.width())));
         checks.push(completion);
         let summary = format!(
-            "{:.1} % of the bars hold the error, of the grid convergence index {:.1} %; half of them are within ± {:.2} and ± {:.2} of it",
+            "{:.1} % of the bars contain the true error, {:.1} % of those of the grid convergence index; the median half-width is \
+             {:.2} of the true error, that of the index {:.2}",
             100.0 * all.coverage(),
             100.0 * all.index_coverage(),
             all.width(),
@@ -120,9 +121,17 @@ fn table(bars: &Bars) -> Table {
             format!("{:.3}", tally.index_width()),
         ]
     };
-    let head = ["values", "samples", "refused", "bar holds", "index holds", "half-width of the bar", "of the index"];
+    let head = [
+        "values",
+        "samples",
+        "refused",
+        "bar contains it",
+        "index contains it",
+        "half-width of the bar",
+        "of the index",
+    ];
     Table {
-        title: "Error bars and grid convergence index on values of known limit; half-widths are medians, as shares of the true error".to_owned(),
+        title: "Error bars and grid convergence index on values of known limit: how often they contain the true error; half-widths are medians, as shares of it".to_owned(),
         head: head.map(str::to_owned).to_vec(),
         rows: bars.laws.iter().chain(&bars.by_values).chain([&bars.declared]).map(row).collect(),
     }

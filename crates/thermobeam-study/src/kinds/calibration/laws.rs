@@ -84,11 +84,12 @@ impl Laws {
     pub(super) fn headline(found: &Comparison) -> String {
         let score = |rule: usize| &found.scores[rule][0];
         format!(
-            "29 laws, ±0.1: {:.0} % of the true and {:.2} % of the wrong claims pass, by least squares {:.0} and {:.1} %",
+            "at ±{} this rule passes {:.0} % of true and {} % of wrong claims, least squares {:.0} % and {} %",
+            CLAIMS[MIDDLE].0,
             100.0 * score(0).true_pass(MIDDLE),
-            100.0 * score(0).false_pass(MIDDLE),
+            few(score(0).false_pass(MIDDLE)),
             100.0 * score(1).true_pass(MIDDLE),
-            100.0 * score(1).false_pass(MIDDLE)
+            few(score(1).false_pass(MIDDLE))
         )
     }
 
@@ -109,7 +110,7 @@ impl Laws {
                 })
             });
             Table {
-                title: format!("Per cent of 29 laws, {}", SLICES[slice].name),
+                title: format!("Share of claims that pass or fail (%), 29 error laws, {}", SLICES[slice].name),
                 head: std::iter::once("rule".to_owned()).chain(head).collect(),
                 rows: RULES.iter().enumerate().map(row).collect(),
             }
@@ -122,7 +123,7 @@ impl Laws {
             let heads = HIDDEN_SHARES.map(|share| format!("{:.0} %", 100.0 * share));
             Table {
                 title: format!(
-                    "Per cent that pass although a term of lower order is so much of the finest error, {levels} levels, ±{}",
+                    "Share of tables that pass (%) although a term of lower order makes up so much of the finest error, {levels} levels, ±{}",
                     CLAIMS[claim].0
                 ),
                 head: std::iter::once("rule".to_owned()).chain(heads).collect(),
@@ -171,5 +172,21 @@ impl Laws {
                 &hidden,
             ),
         ]
+    }
+}
+
+/// A small share in per cent: 0 only where it is none.
+fn few(share: f64) -> String {
+    let percent = 100.0 * share;
+    let places = [1, 2, 3].into_iter().find(|places| percent >= 10f64.powi(-places)).unwrap_or(3);
+    if percent == 0.0 { "0".to_owned() } else { format!("{percent:.0$}", places as usize) }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_share_that_is_not_zero_does_not_look_like_it() {
+        let texts = [0.0, 0.0004, 0.102, 0.00123, 0.000_012].map(super::few);
+        assert_eq!(texts, ["0", "0.04", "10.2", "0.1", "0.001"]);
     }
 }

@@ -157,7 +157,7 @@ impl Kind for AnyOrderControls {
                 ("without a fault every study passes".to_owned(), format!("{right} of {all} pass"))
             } else {
                 detected += usize::from(right == all);
-                (format!("{name} is detected by every study"), format!("{right} of {all} studies fail"))
+                (format!("{name} is detected by every study"), format!("{right} of {all} studies notice it"))
             };
             checks.push(Check::that(right == all, claim, evidence));
         }

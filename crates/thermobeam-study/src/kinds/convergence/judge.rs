@@ -23,7 +23,7 @@ fn along_path(study: &Convergence, ran: &[Run], levels: &Levels) -> Outcome {
         Axis::Time => "the time step",
         Axis::Both => "the mesh width 1/n, refined together with the time step",
     };
-    let caption = format!("Errors over {what}, with the rates observed (lines) and the orders of theory (triangles).");
+    let caption = format!("Errors over {what}, with the orders of theory (triangles).");
     let figure = levels.figure(format!("{}-rates.svg", study.header.id), None, caption, &rates);
     Outcome {
         figures: vec![figure],

@@ -17,7 +17,7 @@
 //! [[case]]
 //! name = "long-steps"
 //! claim = "..."                # in words
-//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": a typed error
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
 //! drift = 1e-10                # optional: bound of the sum of all residuals, in units of the energy
 //! # and the tables of a scene
 //! [case.time]

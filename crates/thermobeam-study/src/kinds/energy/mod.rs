@@ -42,7 +42,7 @@ pub const ROW: KindRow = KindRow {
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
           cannot rise (Proposition 3.1). Scenes at the limits of every range, and random ones, test it where nobody would look.",
     judged: "Every step of every run: the energy must not rise and the balance must close, up to rounding errors. A run must end \
-             with its answer or, where the scene asks for it, with a typed error.",
+             with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
 };

@@ -6,6 +6,7 @@ use convergence_study::text::number::max_or_nan;
 
 use super::judge::{OfScene, difference, numbers};
 use super::{ExactExperiments, Shown};
+use crate::figures::looks;
 use crate::kinds::tables::Discretisation;
 use crate::run::any_order::phase_name;
 
@@ -114,6 +115,7 @@ pub(super) fn figures(study: &ExactExperiments, scenes: &[OfScene<'_>]) -> Vec<F
     let series = |points: &dyn Fn(&OfScene<'_>) -> Vec<(f64, f64)>| -> Vec<Series> {
         scenes.iter().map(|scene| Series { label: scene.name.to_owned(), points: points(scene) }).collect()
     };
+    let looks = || looks(scenes.iter().map(|scene| scene.name));
     let mut figures = vec![Figure {
         file: format!("{id}-tip.svg"),
         caption: "The free end of every experiment, to ten digits.".into(),
@@ -121,6 +123,7 @@ pub(super) fn figures(study: &ExactExperiments, scenes: &[OfScene<'_>]) -> Vec<F
             title: Some("Displacement of the free end".into()),
             y: Axis::linear("displacement u(1, t) (dimensionless)"),
             series: series(&|scene| scene.any_order[0].map(tip).unwrap_or_default()),
+            looks: looks(),
             ..History::default()
         }),
     }];
@@ -134,6 +137,7 @@ pub(super) fn figures(study: &ExactExperiments, scenes: &[OfScene<'_>]) -> Vec<F
                 title: Some("Error of the scenes' own scheme at their own resolution".into()),
                 y: Axis::log("error of u(1, t) (dimensionless)"),
                 series: series(&error_over_time),
+                looks: looks(),
                 ..History::default()
             }),
         });

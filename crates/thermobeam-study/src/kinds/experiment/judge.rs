@@ -124,7 +124,7 @@ fn energy_never_rises(runs: &Runs<'_>) -> Check {
     let each = runs.runs.iter().map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
     Check::that(
         runs.all(|_, run| run.largest_increase <= ROUND_OFF),
-        "the energy never rises, in none of the experiments",
+        "the energy rises in none of the experiments",
         format!("largest change in a step: {}", each.collect::<Vec<_>>().join(", ")),
     )
 }

@@ -155,6 +155,10 @@ fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f6
     runs.iter().map(curve).collect()
 }
 
+fn looks(runs: &Each<'_>) -> Vec<usize> {
+    crate::figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name))
+}
+
 fn obstacles(runs: &Each<'_>) -> Vec<Guide> {
     let obstacles = runs.first().and_then(|(e, _)| e.scene.obstacles);
     obstacles
@@ -169,6 +173,7 @@ fn energy(runs: &Each<'_>, span: Span) -> String {
     history(&History {
         y: Axis::linear("energy E (dimensionless)"),
         series: series(runs, span, |_, point| point.energy),
+        looks: looks(runs),
         guides: runs.iter().map(limit).collect(),
         ..History::default()
     })
@@ -176,13 +181,16 @@ fn energy(runs: &Each<'_>, span: Span) -> String {
 
 fn decay(runs: &Each<'_>) -> String {
     let series = series(runs, Span::UntilSteady, |experiment, point| point.energy - straight_energy(&experiment.scene));
-    history(&History { y: Axis::log("E − β²/(4ρ) (dimensionless)"), series, ..History::default() })
+    history(&History {
+        y: Axis::log("E − β²/(4ρ) (dimensionless)"), series, looks: looks(runs), ..History::default()
+    })
 }
 
 fn displacement(runs: &Each<'_>) -> String {
     history(&History {
         y: Axis::linear("tip displacement u(1, t) (dimensionless)"),
         series: series(runs, Span::Figure, |_, point| point.u_tip),
+        looks: looks(runs),
         guides: obstacles(runs),
         ..History::default()
     })
@@ -192,6 +200,7 @@ fn rotation(runs: &Each<'_>) -> String {
     history(&History {
         y: Axis::linear("tip rotation φ(1, t) (dimensionless)"),
         series: series(runs, Span::Figure, |_, point| point.phi_tip),
+        looks: looks(runs),
         ..History::default()
     })
 }

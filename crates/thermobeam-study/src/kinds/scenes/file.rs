@@ -4,7 +4,7 @@
 //! [[case]]
 //! name = "listed-nodes"
 //! claim = "..."                # in words
-//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": a typed error
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
 //! [case.answer]                # with `ends = "answer"` only: numbers as `run --format json` calls them
 //! within = 1e-9                # bound on the distance to each
 //! u_tip = -0.0408657198986

@@ -2,7 +2,7 @@
 
 use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
-use convergence_study::study::{Axis, Check, LevelErrors, Outcome, Quantity, Ran, Table};
+use convergence_study::study::{Axis, Check, Figure, LevelErrors, Outcome, Quantity, Ran, Table};
 
 use super::{Observable, Resolution, Run, Sample, SelfConvergence, Traced, figures};
 use crate::kinds::tables::Refine;
@@ -61,20 +61,35 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
     if !shown.is_empty() {
         tables.insert(0, levels::rate_table("Rates shown, not claimed: not needed for a pass", &shown));
     }
-    let both: Vec<(String, RateVerdict)> = rates.iter().chain(&shown).cloned().collect();
-    let to_reference = differences(study, ran, Reading::Reference, |_| true).figure(
-        format!("{}-errors.svg", study.header.id),
-        Some(format!("Differences to a run of any order: {}", study.scene.name)),
-        "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
-        &both,
-    );
     Outcome {
         levels: errors,
         tables,
-        figures: vec![to_reference, figures::tip(study, ran)],
+        figures: vec![to_reference(study, ran, &rates, &shown), figures::tip(study, ran)],
         quantities,
         ..Outcome::new(levels::summary(&rates), rates, checks)
     }
+}
+
+/// All differences to the reference; of those of which nothing is claimed, the legend says so.
+fn to_reference(
+    study: &SelfConvergence,
+    ran: &[Found],
+    claimed: &[(String, RateVerdict)],
+    shown: &[(String, RateVerdict)],
+) -> Figure {
+    let not_claimed = |name: &str| format!("{name} (not claimed)");
+    let mut rates = claimed.to_vec();
+    rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
+    let mut differences = differences(study, ran, Reading::Reference, |_| true);
+    for column in differences.columns.iter_mut().filter(|column| shown.iter().any(|(name, _)| *name == column.name)) {
+        column.name = not_claimed(&column.name);
+    }
+    differences.figure(
+        format!("{}-errors.svg", study.header.id),
+        Some(format!("Differences to a run of any order: {}", study.scene.name)),
+        "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
+        &rates,
+    )
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.

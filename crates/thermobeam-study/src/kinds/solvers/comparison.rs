@@ -126,8 +126,9 @@ fn figure(id: &str, found: Option<&Agreement>) -> Figure {
         series("Newton's method", curve(|found| &found.newton)),
     ];
     let phases = plots::Phases { label: "in contact".to_owned(), intervals: curve(|found| &found.contact) };
+    let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
+    let caption =
+        format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
     let svg = plots::iterations(&plots::Iterations { series, phases, ..plots::Iterations::default() });
-    let caption = "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method; shaded where the tip is \
-         in contact.";
-    Figure { file: format!("{id}-iterations.svg"), caption: caption.to_owned(), svg }
+    Figure { file: format!("{id}-iterations.svg"), caption, svg }
 }

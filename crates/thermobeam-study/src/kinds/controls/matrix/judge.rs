@@ -23,7 +23,7 @@ pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
             let failed = count(Verdict::Fail);
             faults += 1;
             detected += usize::from(failed > 0);
-            let evidence = format!("{failed} of {} studies fail", verdicts.len());
+            let evidence = format!("{failed} of {} studies notice it", verdicts.len());
             checks.push(Check::that(failed > 0, format!("{} is detected", fault.name()), evidence));
         }
         let cell = |verdict: Option<Verdict>| verdict.map_or("n/a", Verdict::name).to_owned();

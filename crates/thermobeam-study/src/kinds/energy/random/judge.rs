@@ -40,18 +40,17 @@ pub(super) fn judge(study: &RandomScenes, ran: &[Ran<usize, Batch>]) -> Outcome 
     let total = Total::of(study, &batches);
     let Total { scenes, ends, steps, exceptions, worst, .. } = &total;
     let checks = [vec![completion(ran, not_finite)], claims(&total)].concat();
+    let others = ends.iteration_limit + ends.not_finite;
     let summary = format!(
-        "{scenes} scenes, {steps} steps: {} answers, {} refused as indefinite, {} other errors; residual at most {:.1e} of the \
-         energy, {exceptions} above {CLOSED:.0e}",
-        ends.answers,
-        ends.indefinite,
-        ends.iteration_limit + ends.not_finite,
-        worst.residual,
+        "{scenes} scenes, {steps} steps: {} solved, {} refused (operator not definite), {} other failures; residual at most \
+         {:.1e} of the energy, {exceptions} above {CLOSED:.0e}",
+        ends.answers, ends.indefinite, others, worst.residual,
     );
     let headline = format!(
-        "{scenes} scenes: {} answers, {} typed errors; largest residual {:.1e} of the energy",
+        "{scenes} scenes: {} solved, {} refused (operator not definite){}; largest residual {:.1e} of the energy",
         ends.answers,
-        ends.errors(),
+        ends.indefinite,
+        if others > 0 { format!(", {others} other failures") } else { String::new() },
         worst.residual,
     );
     Outcome {
@@ -80,13 +79,13 @@ fn claims(total: &Total) -> Vec<Check> {
     vec![
         Check::that(
             ended == *scenes && *not_finite_levels == 0,
-            "every scene ends with finite numbers or a typed error",
+            "every scene is solved with finite numbers, or refused with a stated reason",
             format!("{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"),
         ),
         Check::that(
             *refused == 0 && others == 0,
             "a step is refused for an indefinite operator only, and never where β > -B (1 + 2ζ/dt)",
-            format!("{refused} definite operators refused, {others} other errors"),
+            format!("{refused} definite operators refused, {others} other failures"),
         ),
         Check::that(
             worst.risen <= 1.0,

@@ -4,7 +4,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::{self, Axis, Guide, Series};
 use convergence_study::study::levels::completion;
 use convergence_study::study::{Check, Figure, Outcome, Quantity, Ran, Table};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, plain_text};
 
 use super::{Bound, End, Figures, Found, Run, Runs, Sample, Worst};
 use crate::kinds::watch::of_allowed;
@@ -94,7 +94,7 @@ fn table(found: &[(&Run, &Found)]) -> Table {
         vec![
             run.name.clone(),
             run.elements().to_string(),
-            format!("{:e}", run.stepping.dt),
+            plain_text(run.stepping.dt),
             found.steps.to_string(),
             found.contact_steps.to_string(),
             found.end.name().to_owned(),
@@ -116,7 +116,7 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
     let series = |point: &dyn Fn(&Found, &Sample) -> (f64, f64)| {
         let drawn = found.iter().filter(|(run, _)| run.is_drawn);
         let curve = |(run, found): &(&Run, &Found)| Series {
-            label: run.name.split(',').next().unwrap_or_default().to_owned(),
+            label: scene(run).to_owned(),
             points: found.samples.iter().map(|sample| point(found, sample)).collect(),
         };
         drawn.map(curve).collect::<Vec<_>>()
@@ -133,14 +133,17 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
         let history = plots::History { x_label: "steps".to_owned(), y, series, guides, ..plots::History::default() };
         return vec![figure("drift", "Sum of the signed residuals of the energy balance up to each step.", history)];
     }
+    let looks = crate::figures::looks(found.iter().filter(|(run, _)| run.is_drawn).map(|(run, _)| scene(run)));
     let energy = plots::History {
         y: Axis::linear("energy E / initial energy"),
         series: series(&|found, sample| (sample.t, sample.energy / found.initial_energy)),
+        looks: looks.clone(),
         ..plots::History::default()
     };
     let balance = plots::History {
         y: Axis::log("residual / initial energy"),
         series: not_zero(series(&|_, sample| (sample.t, sample.residual))),
+        looks,
         guides: allowed(found, |run| match run.bound {
             Bound::Share(tolerance) => Some(tolerance),
             Bound::Rounding => None,
@@ -155,6 +158,11 @@ fn figures(study: &Runs, found: &[(&Run, &Found)]) -> Vec<Figure> {
             balance,
         ),
     ]
+}
+
+/// The name of a run without that of its scheme.
+fn scene(run: &Run) -> &str {
+    run.name.split(',').next().unwrap_or_default()
 }
 
 /// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.

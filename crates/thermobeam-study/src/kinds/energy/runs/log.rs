@@ -19,7 +19,7 @@ const SCALED: usize = 8;
 /// Runs to the last step, or to the step that fails.
 pub(super) fn run(run: &Run) -> Result<Found, CaseFailure> {
     let mut driver = Driver::new(run.problem(), run.stepping)?;
-    let mut log = Log::new(&mut driver, run.steps.div_ceil(SAMPLES));
+    let mut log = Log::new(&mut driver, run.steps);
     let ended = driver.run(run.steps, |step| {
         log.add(&step);
         ControlFlow::<()>::Continue(())
@@ -37,7 +37,9 @@ pub(super) fn run(run: &Run) -> Result<Found, CaseFailure> {
 /// What a run has shown so far.
 struct Log {
     watch: Watch,
-    /// Steps from one sample to the next.
+    /// Steps of the whole run.
+    last: usize,
+    /// Steps from one sample to the next; the last step is one in any case.
     every: usize,
     /// Largest residual since the last sample, in units of the initial energy.
     peak: f64,
@@ -45,7 +47,7 @@ struct Log {
 }
 
 impl Log {
-    fn new(driver: &mut Driver, every: usize) -> Self {
+    fn new(driver: &mut Driver, last: usize) -> Self {
         let (simulation, level) = driver.present();
         let watch = Watch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
@@ -60,7 +62,7 @@ impl Log {
             drift: 0.0,
             samples: vec![start],
         };
-        Self { watch, every, peak: 0.0, found }
+        Self { watch, last, every: last.div_ceil(SAMPLES), peak: 0.0, found }
     }
 
     fn add(&mut self, step: &Step<'_>) {
@@ -74,7 +76,7 @@ impl Log {
         let balance = simulation.balance(old, new);
         self.watch.step(&balance, scale, || simulation.rounding(old, new));
         self.peak = max_or_nan(self.peak, balance.residual.abs() / *initial_energy);
-        if *steps % self.every == 0 {
+        if *steps % self.every == 0 || *steps == self.last {
             let energy = simulation.energy(new).total();
             let (t, residual, drift) = (simulation.t(), self.peak, self.watch.drift);
             samples.push(Sample { step: *steps, t, energy, residual, drift });

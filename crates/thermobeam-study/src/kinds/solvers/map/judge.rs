@@ -1,7 +1,7 @@
 //! Claims, the table of boundaries, and what the baseline guards.
 
 use convergence_study::study::{Check, Quantity, Table};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, plain_text};
 use thermobeam::kirchhoff::BUCKLING;
 
 use super::super::Part;
@@ -77,26 +77,29 @@ impl Map {
 
     /// The contact's factor at the boundary found is 1, up to a share of γ.
     fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
-        let name = self.over.name();
+        let (name, value) = (self.over.name(), plain_text(value));
         let (crossing, predicted) = match *line {
             Boundary { found: Some(found), predicted: Some(predicted) } => (found, predicted),
             Boundary { found: None, predicted: None } => {
-                let claim = format!("{name} = {value:e}: no boundary on the map, as predicted");
+                let claim = format!("{name} = {value}: no boundary on the map, as predicted");
                 return Check::that(true, claim, "the fixed point behaves alike at both ends");
             }
             Boundary { found, .. } => {
                 let (where_to, not) = if found.is_some() { ("found", "predicted") } else { ("predicted", "found") };
-                let claim = format!("{name} = {value:e}: the fixed point fails from alpha = 1 on");
+                let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
                 return Check::that(false, claim, format!("a boundary is {where_to} on the map, but none is {not}"));
             }
         };
         let difference = 100.0 * (crossing.dt / predicted - 1.0);
         Check::that(
             (crossing.alpha - 1.0).abs() <= self.agreement + crossing.gamma,
-            format!("{name} = {value:e}: the fixed point fails from alpha = 1 on"),
+            format!("{name} = {value}: the fixed point fails from alpha = 1 on"),
             format!(
-                "from dt = {:.4e} on, predicted {predicted:.4e} ({difference:+.2} %); alpha {:.4} there, gamma {:.1e}",
-                crossing.dt, crossing.alpha, crossing.gamma
+                "from dt = {} on, predicted {} ({difference:+.2} %); alpha {:.4} there, gamma {:.1e}",
+                plain_text(crossing.dt),
+                plain_text(predicted),
+                crossing.alpha,
+                crossing.gamma
             ),
         )
     }
@@ -107,7 +110,7 @@ impl Map {
             let Boundary { predicted, found } = **line;
             let difference = found.zip(predicted).map(|(at, predicted)| 100.0 * (at.dt / predicted - 1.0));
             vec![
-                format!("{value:e}"),
+                plain_text(*value),
                 cell(predicted.map(|dt| format!("{dt:.4e}"))),
                 cell(found.map(|at| format!("{:.4e}", at.dt))),
                 cell(difference.map(|percent| format!("{percent:+.3} %"))),

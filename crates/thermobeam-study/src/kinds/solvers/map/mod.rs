@@ -23,6 +23,7 @@ mod judge;
 mod row;
 
 use convergence_study::study::Case;
+use convergence_study::text::number::plain_text;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::simulation::{Initial, Problem};
@@ -133,7 +134,7 @@ impl Map {
         };
         let line = |&value: &f64| {
             let cost = (2 * boundary::HALVINGS * boundary::ITERATIONS) as f64 * elements(value);
-            Case { label: format!("boundary at {name} = {value:e}"), cost, data: Task::Boundary(value) }
+            Case { label: format!("boundary at {name} = {}", plain_text(value)), cost, data: Task::Boundary(value) }
         };
         self.row_values().into_iter().map(row).chain(self.lines.iter().map(line)).collect()
     }

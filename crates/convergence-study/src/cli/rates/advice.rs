@@ -15,11 +15,12 @@ const STOP: f64 = 0.5;
 ///
 /// * `levels`: coarsest first.
 /// * `step`: what the step is.
-pub(super) fn advice(judged: &Judged<'_>, levels: &[Level], step: &str) -> String {
+/// * `all_reversed`: whether all errors that are judged fall as the step grows.
+pub(super) fn words(judged: &Judged<'_>, levels: &[Level], step: &str, all_reversed: bool) -> String {
     let rates = &judged.rate.pairwise;
     let shown = match judged.rate.kind {
         Reason::ErrorGrows | Reason::WildRate | Reason::TooLow | Reason::NotAsymptotic | Reason::IntervalTooWide
-            if is_reversed(rates) && !is_of_count(step) =>
+            if all_reversed && !is_of_count(step) =>
         {
             Some(format!(
                 "The errors fall as `{step}` grows. Is it a count? Then give --dim D, 1 along an edge. If not: do the errors stand \
@@ -53,7 +54,8 @@ fn is_of_count(step: &str) -> bool {
     step.starts_with("1/") || step.contains("^(-1/")
 }
 
-fn is_reversed(rates: &[f64]) -> bool {
+/// Whether an error falls as the step grows.
+pub(super) fn is_reversed(rates: &[f64]) -> bool {
     rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0)
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::advice::{is_reversed, words};
 use super::{Findings, Judged};
 use crate::cli::screen;
 use crate::explain::{reason_text, section};
@@ -106,18 +107,18 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
 
 /// What the reasons mean for which columns do not pass, each once, and what to do next.
 fn advice(findings: &Findings<'_>) -> String {
-    let missed = findings.columns.iter().zip(&findings.table.columns);
-    let missed = missed.filter(|(column, _)| column.decides && column.rate.verdict != Verdict::Pass);
-    let claimed = missed.filter(|(column, _)| column.is_claimed());
-    let mut advice: Vec<(Reason, String)> = claimed
-        .map(|(column, (_, levels))| (column.rate.kind, super::advice::advice(column, levels, &findings.table.step)))
+    let claimed = || findings.columns.iter().zip(&findings.table.columns).filter(|(column, _)| column.is_claimed());
+    let all_reversed = claimed().all(|(column, _)| is_reversed(&column.rate.pairwise));
+    let missed = claimed().filter(|(column, _)| column.rate.verdict != Verdict::Pass);
+    let mut advice: Vec<(Reason, String)> = missed
+        .map(|(column, (_, levels))| (column.rate.kind, words(column, levels, &findings.table.step, all_reversed)))
         .collect();
     // The same words for several columns stand side by side.
-    advice.sort_by(|(a, words), (b, others)| (a.text(), words).cmp(&(b.text(), others)));
+    advice.sort_by(|(a, text), (b, other)| (a.text(), text).cmp(&(b.text(), other)));
     advice.dedup();
     let mut text = String::new();
-    for (reason, words) in advice {
-        section(&mut text, reason_text(reason).0, &words);
+    for (reason, means) in advice {
+        section(&mut text, reason_text(reason).0, &means);
     }
     text
 }

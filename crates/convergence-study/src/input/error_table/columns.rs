@@ -199,7 +199,7 @@ impl Reader<'_, '_> {
 
     /// Columns whose names are not those of errors and whose numbers are the same on all levels, or counts that grow.
     ///
-    /// None where no column is named like an error, but for counts: then names such as `u` and `p` are those of errors.
+    /// None where no column is named like an error, but for counts: then any name may be that of an error.
     fn unlike_errors(&self, errors: &[usize], columns: &[(String, Vec<Level>)]) -> Vec<String> {
         let is_named = |k: usize| self.meanings[k] == Meaning::Error || self.is_claimed(k);
         let some_named = errors.iter().any(|k| is_named(*k));

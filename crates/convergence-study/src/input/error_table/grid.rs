@@ -110,7 +110,7 @@ impl<'t> Grid<'t> {
     /// Finds separator, names and rows.
     pub(super) fn read(text: &'t str, file: &str) -> Result<Self, InputError> {
         if is_json(text) {
-            return Err(complaint(file, Some(Place { line: 1, column: 1 }), TABLE, "JSON"));
+            return Err(complaint(file, Some(Place { line: 1, column: 1 }), TABLE, "JSON, or lists in brackets"));
         }
         let (mut heads, separator, rows) = lines(text);
         let Some(first) = rows.first().map(|row| row.cells.len()) else {

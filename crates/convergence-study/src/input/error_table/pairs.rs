@@ -1,4 +1,4 @@
-//! Lines such as `h = 3.54E-01, E = 1.66E-01`: a name before each number, the same ones in each line.
+//! Lines such as `h = 3.54E-01, E = 1.66E-01` or `h: 3.54E-01 E: 1.66E-01`: a name before each number, the same ones in each line.
 
 use super::cells::Cell;
 use super::complaint;
@@ -21,7 +21,7 @@ pub(super) fn read<'t>(text: &'t str, file: &str) -> Result<Option<Grid<'t>>, In
     let expected = format!("{} with a number behind each, as in line {line}", texts(&first));
     let mut rows = vec![];
     for (line, text) in lines() {
-        let begins = || text.split_once('=').is_some_and(|(name, _)| name.trim() == names[0].text);
+        let begins = || text.split_once(['=', ':']).is_some_and(|(name, _)| name.trim() == names[0].text);
         let refuse = |found: &str| Err(complaint(file, Some(Place { line, column: 1 }), &expected, found));
         match pairs(text) {
             Some(pairs) if pairs.iter().map(|(name, _)| name.text).eq(names.iter().map(|name| name.text)) => {
@@ -40,7 +40,7 @@ fn pairs(line: &str) -> Option<Pairs<'_>> {
     let mut pairs = vec![];
     let mut rest = line;
     while !rest.trim().is_empty() {
-        let (name, behind) = rest.split_once('=')?;
+        let (name, behind) = rest.split_once(['=', ':'])?;
         let begin = behind.trim_start();
         let end = begin.find(|c: char| c.is_whitespace() || matches!(c, ',' | ';')).unwrap_or(begin.len());
         let (value, behind) = begin.split_at(end);

@@ -100,7 +100,8 @@ const COUNTS: [(u8, &[&str]); 4] = [
 /// What stands before a name to say that it is counted.
 const COUNTED: [&str; 7] = ["numberof", "number", "num", "nb", "nr", "no", "n"];
 const INDICES: [&str; 11] = ["", "row", "index", "cycle", "level", "lvl", "refinement", "ref", "i", "k", "l"];
-const RATES: [&str; 10] = ["rate", "rates", "order", "eoc", "roc", "slope", "orders", "red", "reduction", "conv"];
+const RATES: [&str; 12] =
+    ["rate", "rates", "order", "eoc", "roc", "slope", "orders", "red", "reduction", "conv", "ratio", "ratios"];
 const COSTS: [&str; 32] = [
     "iterations",
     "iteration",
@@ -157,6 +158,21 @@ const ERROR_WORDS: [&str; 15] = [
     "dev",
     "abs",
     "rel",
+];
+/// Unknowns, by which their errors are often named.
+const FIELDS: [&str; 12] = [
+    "u",
+    "v",
+    "w",
+    "p",
+    "velocity",
+    "pressure",
+    "displacement",
+    "temperature",
+    "stress",
+    "flux",
+    "solution",
+    "gradient",
 ];
 /// Words that make `order` the name of a method.
 const METHODS: [&str; 10] = ["first", "second", "third", "fourth", "fifth", "low", "lower", "high", "higher", "scheme"];
@@ -221,7 +237,7 @@ fn by_words(name: &str) -> Meaning {
     }
     let is_norm = || {
         NORMS.iter().any(|part| joined.contains(part))
-            || words().any(|word| ERROR_WORDS.contains(&word))
+            || words().any(|word| ERROR_WORDS.contains(&word) || FIELDS.contains(&word))
             || lower.contains('|')
     };
     let otherwise = || if is_norm() { Meaning::Error } else { Meaning::Unknown };
@@ -290,7 +306,7 @@ mod tests {
             ),
             (Meaning::Count(1), "N|n|nx|ny|sqrt(N)"),
             (Meaning::Count(3), "dofs|ndofs|n_dofs|# dofs|kdofs|dofs [10^3]|num dofs"),
-            (Meaning::Rate, "rate|L2 order|order of L2|eoc(H1)|EOC error|eoc L2 [-]|L2...red.rate.log2"),
+            (Meaning::Rate, "rate|ratio|L2 order|order of L2|eoc(H1)|EOC error|eoc L2 [-]|L2...red.rate.log2"),
             (
                 Meaning::RateOrError,
                 "order 1|order_2|first order|2nd order|conv_error|error rate|rate (error)|err. red.",
@@ -303,7 +319,8 @@ mod tests {
             ),
             // Norms and functions whose names begin as counts, costs and logarithms do.
             (Meaning::Error, "nrm error|norm of m|lnorm|RMSE|iteration error|dofs error|time error"),
-            (Meaning::Unknown, "spam|u|p|nrm|Re(lambda)|logistic|login|1/cells|theta|n_u"),
+            (Meaning::Error, "u|p|grad u|velocity"),
+            (Meaning::Unknown, "spam|nrm|Re(lambda)|logistic|login|1/cells|theta|n_a"),
         ] {
             for name in names.split('|').filter(|name| !name.is_empty()) {
                 assert_eq!(meaning(name), means, "{name}");

@@ -25,11 +25,14 @@ fn a_table_is_read_coarse_to_fine_whatever_its_order_and_separator() {
 #[test]
 fn a_table_that_cannot_be_used_is_refused_with_its_place() {
     for (text, words) in [
-        ("", "t.csv: expected a row of names, such as `h L2 H1`, then rows of numbers, found an empty table"),
+        (
+            "",
+            "t.csv: expected a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`, found an empty table",
+        ),
         ("h\n0.1\n", "t.csv:1:1: expected a column of steps and at least one of errors, found one column"),
-        ("h,a,b,a\n", "t.csv:1:7: expected each name once, found `a` a second time"),
-        ("h,1\n", "t.csv:1:3: expected a name in the first row, found `1`"),
-        ("h,a\x1b[31m\n", "t.csv:1:3: expected a name without control characters, found `a [31m`"),
+        ("h,a,b,a\n0.1,1,2,3\n", "t.csv:1:7: expected each name once, found `a` a second time"),
+        ("h,1\n0.1,1\n", "t.csv:1:3: expected a name in the first row, found `1`"),
+        ("h,a\x1b[31m\n0.1,1\n", "t.csv:1:3: expected a name without control characters, found `a [31m`"),
         ("h,a\n0.1,x\n", "t.csv:2:5: a: expected a number, found `x`"),
         ("h,a\n0.1,1,2\n", "t.csv:2:1: expected 2 cells, one for each name, found 3 cells"),
         ("h,a\n-1,1\n", "t.csv:2:1: h: expected a step, a finite number > 0, found `-1`"),

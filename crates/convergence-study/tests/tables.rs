@@ -114,11 +114,13 @@ fn the_matrix_lists_every_table_with_its_options_and_result() {
 }
 
 #[test]
-fn tables_read_the_same_with_line_ends_of_windows_and_a_byte_order_mark() {
+fn tables_read_the_same_with_other_line_ends_and_a_byte_order_mark() {
     for sample in samples().iter().filter(|sample| !sample.is_refused) {
         let parse =
             |text: &str| RateTable::parse_with(text, "TABLE", &choice(sample.options)).map(|table| lines(&table));
-        let windows = parse(&format!("\u{feff}{}\r\n", sample.table.replace('\n', "\r\n")));
-        assert_eq!(format!("{windows:?}"), format!("{:?}", parse(&sample.table)), "{}", sample.title);
+        for end in ["\r\n", "\r"] {
+            let other = parse(&format!("\u{feff}{}{end}", sample.table.replace('\n', end)));
+            assert_eq!(format!("{other:?}"), format!("{:?}", parse(&sample.table)), "{end:?}: {}", sample.title);
+        }
     }
 }

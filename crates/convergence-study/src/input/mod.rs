@@ -69,6 +69,10 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     if bytes.len() as u64 > FILE_BYTES {
         return Err(fail(Complaint::TooLarge { allowed: FILE_BYTES }));
     }
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        let allowed = "UTF-8 text: save the file as UTF-8".to_owned();
+        return Err(fail(Complaint::NotAllowed { found: "UTF-16".to_owned(), allowed }));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();

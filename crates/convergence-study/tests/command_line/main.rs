@@ -1,6 +1,7 @@
 //! A project's command line as a shell sees it: this program is the project where `AS_PROJECT` is set, else its tests.
 
 mod changes;
+mod tables;
 
 use std::fs;
 use std::path::Path;
@@ -42,7 +43,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 24] = [
+const TESTS: [Test; 26] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -58,6 +59,8 @@ const TESTS: [Test; 24] = [
     ("rates_come_in_words_and_as_an_object", rates_come_in_words_and_as_an_object),
     ("levels_set_aside_are_marked", levels_set_aside_are_marked),
     ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
+    ("rates_says_how_it_read_a_table", tables::rates_says_how_it_read_a_table),
+    ("claims_that_contradict_each_other_are_refused", tables::claims_that_contradict_each_other_are_refused),
     ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
     (
         "a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result",

@@ -73,7 +73,9 @@ fn figure(findings: &Findings<'_>) -> String {
 /// * `picture`: where the figure goes, with the empty line below it.
 fn markdown(findings: &Findings<'_>, picture: &str) -> String {
     let mut page = format!("# Rates of {}\n\n", cell(&findings.source));
-    page += &format!("**{}**: {}\n\n{picture}", findings.verdict, sentence(findings));
+    page += &format!("**{}**: {}\n\n", findings.verdict, sentence(findings));
+    findings.table.notes.iter().for_each(|note| page += &format!("{}\n\n", cell(note)));
+    page += picture;
     if !picture.is_empty() && findings.columns.len() > DRAWN {
         page +=
             &format!("The figure shows {DRAWN} of {} columns, those with a claim first.\n\n", findings.columns.len());

@@ -12,6 +12,8 @@ pub(super) struct Object<'a> {
     floor: f64,
     rates: Vec<Rate<'a>>,
     not_errors: Vec<NotErrors<'a>>,
+    /// How the table was read, where the names did not decide.
+    notes: &'a [String],
 }
 
 /// As in `study --format json`, the column's name for the norm's; a number that is none is `null`.
@@ -64,6 +66,7 @@ impl<'a> Object<'a> {
             floor: findings.floor,
             rates: rates.map(|(judged, (_, levels))| Rate::new(judged, levels)).collect(),
             not_errors: not_errors.collect(),
+            notes: &findings.table.notes,
         }
     }
 }
@@ -82,7 +85,7 @@ impl<'a> Rate<'a> {
             interval: rate.interval,
             extrapolated: rate.extrapolated,
             verdict: rate.verdict.name(),
-            reason: if judged.is_claimed() { &rate.reason } else { "no order is claimed" },
+            reason: if judged.is_claimed() { &rate.reason } else { judged.reason() },
             decides: judged.decides,
             levels: levels.iter().map(|level| LevelObject { step: level.step, error: level.error }).collect(),
             set_aside: aside.map(|aside| SetAside { level: aside.level, because: aside.because.text() }).collect(),

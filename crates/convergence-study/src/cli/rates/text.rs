@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::advice::{is_reversed, words};
 use super::{Findings, Judged};
 use crate::cli::screen;
 use crate::explain::{reason_text, section};
@@ -76,7 +77,10 @@ fn line(judged: &Judged<'_>) -> String {
 
 /// The errors with the rates beside them, a verdict for each column, and that of all.
 pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
-    let mut text = if quiet { String::new() } else { errors(findings) };
+    let mut text: String = findings.table.notes.iter().map(|note| format!("{note}\n")).collect();
+    if !quiet {
+        text += &errors(findings);
+    }
     for judged in &findings.columns {
         let is_told = !quiet || (judged.decides && judged.rate.verdict != Verdict::Pass);
         if is_told {
@@ -103,13 +107,18 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
 
 /// What the reasons mean for which columns do not pass, each once, and what to do next.
 fn advice(findings: &Findings<'_>) -> String {
+    let claimed = || findings.columns.iter().zip(&findings.table.columns).filter(|(column, _)| column.is_claimed());
+    let all_reversed = claimed().all(|(column, _)| is_reversed(&column.rate.pairwise));
+    let missed = claimed().filter(|(column, _)| column.rate.verdict != Verdict::Pass);
+    let mut advice: Vec<(Reason, String)> = missed
+        .map(|(column, (_, levels))| (column.rate.kind, words(column, levels, &findings.table.step, all_reversed)))
+        .collect();
+    // The same words for several columns stand side by side.
+    advice.sort_by(|(a, text), (b, other)| (a.text(), text).cmp(&(b.text(), other)));
+    advice.dedup();
     let mut text = String::new();
-    let missed = findings.columns.iter().filter(|column| column.decides && column.rate.verdict != Verdict::Pass);
-    let mut reasons: Vec<Reason> = missed.filter(|column| column.is_claimed()).map(|column| column.rate.kind).collect();
-    reasons.sort_by_key(|reason| reason.text());
-    reasons.dedup();
-    for (name, means) in reasons.into_iter().map(reason_text) {
-        section(&mut text, name, means);
+    for (reason, means) in advice {
+        section(&mut text, reason_text(reason).0, &means);
     }
     text
 }
@@ -130,18 +139,22 @@ pub(super) fn sentence(findings: &Findings<'_>) -> String {
 /// Step, and each error with its rate and mark, coarsest level first.
 fn errors(findings: &Findings<'_>) -> String {
     let table = findings.table;
-    let mut text = format!("{:>12}", table.step);
-    let rate_width: Vec<usize> = findings.columns.iter().map(|judged| places(judged) + 5).collect();
+    // Two blanks at least before each name.
+    let wide = |name: &str, least: usize| least.max(name.chars().count() + 2);
+    let first = wide(&table.step, 12);
+    let widths: Vec<[usize; 2]> =
+        findings.columns.iter().map(|judged| [wide(judged.name, 16), places(judged) + 5]).collect();
+    let mut text = format!("{:>first$}", table.step);
     let rate_name = "rate";
-    for ((name, _), width) in table.columns.iter().zip(&rate_width) {
-        let _ = write!(text, "{name:>16}{rate_name:>width$}");
+    for ((name, _), [width, rate]) in table.columns.iter().zip(&widths) {
+        let _ = write!(text, "{name:>width$}{rate_name:>rate$}");
     }
     text.push('\n');
     for level in 0..table.columns.first().map_or(0, |(_, levels)| levels.len()) {
-        let mut line = format!("{:>12.4e}", table.columns[0].1[level].step);
-        for (((_, levels), judged), width) in table.columns.iter().zip(&findings.columns).zip(&rate_width) {
+        let mut line = format!("{:>first$.4e}", table.columns[0].1[level].step);
+        for (((_, levels), judged), [width, rate]) in table.columns.iter().zip(&findings.columns).zip(&widths) {
             let error = format!("{:.4e}{:1}", levels[level].error, mark(judged, level));
-            let _ = write!(line, "{error:>16}{:>width$}", pairwise(judged, level));
+            let _ = write!(line, "{error:>width$}{:>rate$}", pairwise(judged, level));
         }
         let _ = writeln!(text, "{}", line.trim_end());
     }

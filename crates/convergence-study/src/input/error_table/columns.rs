@@ -2,6 +2,7 @@
 
 use super::cells::Cell;
 use super::grid::Grid;
+use super::names::{self, name};
 use super::number::number;
 use super::words::{Meaning, meaning};
 use super::{RateTable, check_names, complaint, shown};
@@ -16,6 +17,8 @@ pub struct Choice {
     pub step: Option<String>,
     /// The columns of errors.
     pub columns: Option<Vec<String>>,
+    /// Columns of which an order is claimed by name: none of them is taken for the step.
+    pub claimed: Vec<String>,
     /// Dimension D > 0 of what a count counts: h = count^(-1/D).
     pub dim: Option<f64>,
 }
@@ -26,17 +29,27 @@ type NotErrors = Vec<(String, &'static str)>;
 /// Most names that a message lists.
 const LISTED: usize = 12;
 
+/// Largest distance of a rate as it is written from the rate of two errors: half a unit of one decimal.
+const ROUNDED_RATE: f64 = 0.05;
+
 /// A grid and what is asked of it.
-struct Reader<'g, 't> {
-    grid: &'g Grid<'t>,
-    meanings: Vec<Meaning>,
+pub(super) struct Reader<'g, 't> {
+    pub(super) grid: &'g Grid<'t>,
+    /// As messages show them.
+    pub(super) names: Vec<String>,
+    pub(super) meanings: Vec<Meaning>,
     file: &'g str,
-    choice: &'g Choice,
+    pub(super) choice: &'g Choice,
+    /// Which columns `--columns` and `--order` name.
+    claimed: Vec<usize>,
+    /// Whether the table has a decimal comma.
+    has_comma: bool,
 }
 
 /// Reads the step and the errors that are meant.
 pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let by_name: Vec<Meaning> = grid.names.iter().map(|cell| meaning(&name(*cell))).collect();
+    let names: Vec<String> = grid.names.iter().map(|cell| name(*cell)).collect();
+    let by_name: Vec<Meaning> = names.iter().map(|name| meaning(name)).collect();
     let named = |k: usize| match (by_name[k], grid.names[k].text) {
         // Nameless are the number of the row and, behind an error, its rate.
         (_, "") => !(grid.has_dash(k) || (k == 0 && grid.counts_rows(0))),
@@ -45,7 +58,15 @@ pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateT
     };
     check_names(grid, named, file)?;
     let meanings = by_name.iter().enumerate().map(|(k, by_name)| meant(grid, k, *by_name)).collect();
-    Reader { grid, meanings, file, choice }.read()
+    let wanted = choice.columns.iter().flatten().chain(&choice.claimed);
+    let claimed = wanted.filter_map(|name| names::position(names.iter().map(String::as_str), name)).collect();
+    let has_comma = grid.decimal_comma
+        && grid
+            .rows
+            .iter()
+            .flat_map(|row| &row.cells)
+            .any(|cell| cell.text.contains(',') && number(cell.text, true).is_some());
+    Reader { grid, names, meanings, file, choice, claimed, has_comma }.read()
 }
 
 /// What a column holds, by its name and, where that may be either, by its numbers.
@@ -59,148 +80,79 @@ fn meant(grid: &Grid<'_>, column: usize, by_name: Meaning) -> Meaning {
     }
 }
 
-/// A name without the markup of mathematics.
-fn name(cell: Cell<'_>) -> String {
-    let text = cell.text;
-    if let Some((_, text)) = text.strip_prefix("\\multicolumn").and_then(|rest| rest.rsplit_once('{')) {
-        return text.trim_end_matches('}').trim().trim_matches('$').to_owned();
-    }
-    let strip = |text: &str, mark: &str| text.strip_prefix(mark)?.strip_suffix(mark).map(str::to_owned);
-    let text = ["**", "`", "$"].iter().fold(text.to_owned(), |text, mark| strip(&text, mark).unwrap_or(text));
-    if text.contains('\\') {
-        text.replace("\\_", "_").replace("\\|", "|").replace("\\#", "#").replace("\\Delta ", "Δ")
-    } else {
-        text
-    }
-}
-
 impl Reader<'_, '_> {
     fn read(&self) -> Result<RateTable, InputError> {
-        let step = self.step()?;
-        let count = matches!(self.meanings[step], Meaning::Count(_))
-            || (self.choice.dim.is_some() && self.meanings[step] != Meaning::Step);
-        let dim = self.dim(step, count)?;
-        let (errors, not_errors) = self.errors(step)?;
-        let name = name(self.grid.names[step]);
-        let label = match dim {
-            Some(1.0) => format!("1/{name}"),
-            Some(dim) => format!("{name}^(-1/{dim})"),
-            None => name,
-        };
+        let (step, note) = self.step()?;
+        let dim = self.dim(step)?;
         let steps =
             (0..self.grid.rows.len()).map(|row| self.step_at(row, step, dim)).collect::<Result<Vec<f64>, _>>()?;
         // The judge wants the coarsest level first.
         let mut order: Vec<usize> = (0..steps.len()).collect();
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
+        self.each_step_once(step, &steps, &order)?;
+        let (errors, not_errors) = self.errors(step, &steps, &order)?;
         let mut columns: Vec<(String, Vec<Level>)> =
-            errors.iter().map(|&k| (self.name(k), Vec::with_capacity(steps.len()))).collect();
+            errors.iter().map(|&k| (self.name(k).to_owned(), Vec::with_capacity(steps.len()))).collect();
         for row in order {
             for ((_, levels), &column) in columns.iter_mut().zip(&errors) {
                 let error = self.number(row, column).ok_or_else(|| self.no_number(row, column))?;
                 levels.push(Level { step: steps[row], error });
             }
         }
-        Ok(RateTable { step: label, columns, not_errors })
+        let unclaimed = self.unlike_errors(&errors, &columns);
+        Ok(RateTable { step: self.label(step, dim), columns, not_errors, unclaimed, notes: note.into_iter().collect() })
     }
 
-    fn name(&self, column: usize) -> String {
-        name(self.grid.names[column])
+    pub(super) fn name(&self, column: usize) -> &str {
+        &self.names[column]
+    }
+
+    pub(super) fn is_claimed(&self, column: usize) -> bool {
+        self.claimed.contains(&column)
     }
 
     /// The column of that name.
-    fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
-        let names = || (0..self.grid.names.len()).map(|k| self.name(k));
-        names().position(|name| name == wanted).ok_or_else(|| {
-            let known: Vec<String> = names().filter(|name| !name.is_empty()).take(LISTED + 1).collect();
+    pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
+        let names = || self.names.iter().map(String::as_str);
+        names::position(names(), wanted).ok_or_else(|| {
+            let known: Vec<String> =
+                names().filter(|name| !name.is_empty()).take(LISTED + 1).map(str::to_owned).collect();
             let suggestion = nearest(wanted, known.iter().map(String::as_str)).map(str::to_owned);
             let found = format!("{}{}", shown(wanted), did_you_mean(&suggestion));
             self.refuse(&format!("a column for {option}: {}", listed(&known)), &found)
         })
     }
 
-    /// The column of the step: the one asked for, named like a step, or like a count, or else the first.
-    fn step(&self) -> Result<usize, InputError> {
-        if let Some(wanted) = &self.choice.step {
-            return self.find(wanted, "--step");
-        }
-        let of = |wanted: &dyn Fn(Meaning) -> bool| -> Vec<usize> {
-            let all = self.meanings.iter().enumerate();
-            all.filter(|(k, meaning)| wanted(**meaning) && !self.is_constant(*k)).map(|(k, _)| k).collect()
-        };
-        let is_excluded =
-            |k: &usize| self.choice.columns.as_ref().is_some_and(|errors| errors.contains(&self.name(*k)));
-        let mut steps = of(&|meaning| meaning == Meaning::Step);
-        steps.retain(|k| !is_excluded(k));
-        match steps[..] {
-            [only] => return Ok(only),
-            [] => {}
-            _ => {
-                let names: Vec<String> = steps.iter().map(|k| self.name(*k)).collect();
-                return Err(self.refuse("one column of steps, or --step COLUMN", &listed(&names)));
-            }
-        }
-        let rank = |k: &usize| match self.meanings[*k] {
-            Meaning::Count(rank) => rank,
-            _ => u8::MAX,
-        };
-        if let Some(count) = of(&|meaning| matches!(meaning, Meaning::Count(_))).into_iter().min_by_key(rank) {
-            return Ok(count);
-        }
-        let first =
-            self.meanings.iter().position(|meaning| matches!(meaning, Meaning::Step | Meaning::Unknown)).unwrap_or(0);
-        if self.choice.dim.is_none() && self.counts(first) {
-            let found = format!("`{}` with whole numbers, which counts have", self.name(first));
-            return Err(self.refuse("a column of steps; --step COLUMN says which, --dim D that it counts", &found));
-        }
-        Ok(first)
+    fn each_step_once(&self, step: usize, steps: &[f64], order: &[usize]) -> Result<(), InputError> {
+        let Some(twice) = order.windows(2).find(|two| steps[two[0]] == steps[two[1]]) else { return Ok(()) };
+        let line = |row: usize| self.grid.rows[row].line;
+        let (name, text) = (self.name(step), self.cell(twice[1], step).text);
+        let found = format!("`{name}` = {text} in lines {} and {}", line(twice[0]), line(twice[1]));
+        let place = Place { line: line(twice[1]), column: self.cell(twice[1], step).column };
+        Err(complaint(self.file, Some(place), "each step once: give one table at a time", &found))
     }
 
-    fn is_constant(&self, column: usize) -> bool {
-        let mut cells = self.grid.rows.iter().map(|row| row.cells[column].text);
-        self.grid.rows.len() > 1 && cells.next().is_some_and(|first| cells.all(|cell| cell == first))
-    }
-
-    /// Whether all numbers are whole and some are not small.
-    fn counts(&self, column: usize) -> bool {
-        let value = |row| self.number(row, column);
-        let rows = || 0..self.grid.rows.len();
-        rows().all(|row| value(row).is_some_and(|value| value >= 1.0 && value.fract() == 0.0))
-            && rows().any(|row| value(row).is_some_and(|value| value > 1.0))
-    }
-
-    /// The dimension for a column that counts; `None` for a step.
-    fn dim(&self, step: usize, count: bool) -> Result<Option<f64>, InputError> {
-        let name = self.name(step);
-        match self.choice.dim {
-            Some(dim) if count => Ok(Some(dim)),
-            Some(_) => Err(self.refuse("no --dim, which is for counts such as `cells`", &format!("the step `{name}`"))),
-            // Steps in time have one dimension.
-            None if count && matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt") => {
-                Ok(Some(1.0))
-            }
-            None if count => {
-                let expected =
-                    format!("--dim D for h = {name}^(-1/D), with D = 1 for cells along an edge, or --step COLUMN");
-                Err(self.refuse(&expected, &format!("the count `{name}` and no step")))
-            }
-            None => Ok(None),
+    /// The columns of errors that `--columns` names.
+    fn chosen(&self, wanted: &[String], step: usize) -> Result<Vec<usize>, InputError> {
+        let errors: Vec<usize> = wanted.iter().map(|name| self.find(name, "--columns")).collect::<Result<_, _>>()?;
+        if let Some(twice) = errors.iter().enumerate().find(|(k, column)| errors[..*k].contains(column)) {
+            return Err(
+                self.refuse("each column of --columns once", &format!("`{}` a second time", self.name(*twice.1)))
+            );
+        }
+        if errors.contains(&step) {
+            return Err(self.refuse("errors for --columns", &format!("the step `{}`", self.name(step))));
+        }
+        match errors.iter().find(|k| self.meanings[**k] == Meaning::Logarithm) {
+            Some(logarithm) => Err(self.logarithm(*logarithm)),
+            None => Ok(errors),
         }
     }
 
     /// The columns of errors, and those that are none.
-    fn errors(&self, step: usize) -> Result<(Vec<usize>, NotErrors), InputError> {
+    fn errors(&self, step: usize, steps: &[f64], order: &[usize]) -> Result<(Vec<usize>, NotErrors), InputError> {
         if let Some(wanted) = &self.choice.columns {
-            let errors: Vec<usize> =
-                wanted.iter().map(|name| self.find(name, "--columns")).collect::<Result<_, _>>()?;
-            if let Some(twice) = errors.iter().enumerate().find(|(k, column)| errors[..*k].contains(column)) {
-                return Err(
-                    self.refuse("each column of --columns once", &format!("`{}` a second time", self.name(*twice.1)))
-                );
-            }
-            if errors.contains(&step) {
-                return Err(self.refuse("errors for --columns", &format!("the step `{}`", self.name(step))));
-            }
-            return Ok((errors, vec![]));
+            return Ok((self.chosen(wanted, step)?, vec![]));
         }
         let (mut errors, mut others) = (vec![], vec![]);
         for (k, meaning) in self.meanings.iter().enumerate().filter(|(k, _)| *k != step) {
@@ -210,13 +162,16 @@ impl Reader<'_, '_> {
                 Meaning::Index => "the number of the row",
                 Meaning::Rate => "a rate",
                 Meaning::Cost => "a cost",
-                Meaning::Unknown => {
+                Meaning::RateOrError if self.repeats_rates(k, steps, order) => "a rate",
+                Meaning::Logarithm if self.repeats_logarithm(k) => "a logarithm",
+                Meaning::Logarithm => return Err(self.logarithm(k)),
+                Meaning::Unknown | Meaning::Error | Meaning::RateOrError => {
                     errors.push(k);
                     continue;
                 }
             };
             let name = self.name(k);
-            others.push((if name.is_empty() { format!("column {}", k + 1) } else { name }, why));
+            others.push((if name.is_empty() { format!("column {}", k + 1) } else { name.to_owned() }, why));
         }
         if errors.is_empty() {
             let names: Vec<String> = others.iter().map(|(name, why)| format!("`{name}` ({why})")).collect();
@@ -225,12 +180,48 @@ impl Reader<'_, '_> {
         Ok((errors, others))
     }
 
+    fn logarithm(&self, column: usize) -> InputError {
+        self.refuse("the values, not their logarithms", &format!("`{}`", self.name(column)))
+    }
+
+    /// Whether the numbers of a column are the rates or the reductions of an error in the table, from the second level on.
+    fn repeats_rates(&self, column: usize, steps: &[f64], order: &[usize]) -> bool {
+        let is_error = |k: &usize| matches!(self.meanings[*k], Meaning::Unknown | Meaning::Error);
+        let repeats = |error: usize, two: &[usize]| {
+            let reduction = self.number(two[0], error)? / self.number(two[1], error)?;
+            let rate = reduction.ln() / (steps[two[0]] / steps[two[1]]).ln();
+            let written = self.number(two[1], column)?;
+            Some([rate, reduction].iter().any(|value| (written - value).abs() <= ROUNDED_RATE))
+        };
+        let mut errors = (0..self.names.len()).filter(is_error);
+        order.len() > 2 && errors.any(|error| order.windows(2).all(|two| repeats(error, two) == Some(true)))
+    }
+
+    /// Columns whose names are not those of errors and whose numbers are the same on all levels, or counts that grow.
+    ///
+    /// None where no column is named like an error, but for counts: then any name may be that of an error.
+    fn unlike_errors(&self, errors: &[usize], columns: &[(String, Vec<Level>)]) -> Vec<String> {
+        let is_named = |k: usize| self.meanings[k] == Meaning::Error || self.is_claimed(k);
+        let some_named = errors.iter().any(|k| is_named(*k));
+        let grows = |levels: &[Level]| levels.windows(2).all(|two| two[0].error < two[1].error);
+        let is_unlike = |(k, (_, levels)): &(&usize, &(String, Vec<Level>))| {
+            levels.len() > 2
+                && self.meanings[**k] == Meaning::Unknown
+                && !self.is_claimed(**k)
+                && ((some_named && self.is_constant(**k)) || (self.counts(**k) && grows(levels)))
+        };
+        let unlike: Vec<String> =
+            errors.iter().zip(columns).filter(is_unlike).map(|(_, (name, _))| name.clone()).collect();
+        if unlike.len() == errors.len() { vec![] } else { unlike }
+    }
+
     fn cell(&self, row: usize, column: usize) -> Cell<'_> {
         self.grid.rows[row].cells[column]
     }
 
-    fn number(&self, row: usize, column: usize) -> Option<f64> {
-        number(self.cell(row, column).text, self.grid.decimal_comma)
+    pub(super) fn number(&self, row: usize, column: usize) -> Option<f64> {
+        let text = self.cell(row, column).text;
+        number(text, self.grid.decimal_comma).filter(|_| !(self.has_comma && has_points_of_thousands(text)))
     }
 
     /// The step of a row, a finite number > 0.
@@ -254,6 +245,10 @@ impl Reader<'_, '_> {
             "a number; Fortran writes stars where the field is too narrow"
         } else if text.contains(',') && self.grid.decimal_comma {
             "a number; its comma may be that of decimals or of thousands"
+        } else if self.has_comma && has_points_of_thousands(text) {
+            "a number; its point may be that of decimals or of thousands, for others have decimal commas"
+        } else if text.ends_with(')') && text.contains(" (") {
+            "a number; what stands in parentheses behind it needs a column of its own"
         } else {
             "a number"
         };
@@ -262,18 +257,31 @@ impl Reader<'_, '_> {
 
     fn at(&self, row: usize, column: usize, expected: &str, found: &str) -> InputError {
         let place = Place { line: self.grid.rows[row].line, column: self.cell(row, column).column };
-        InputError { field: Some(self.name(column)), ..complaint(self.file, Some(place), expected, found) }
+        InputError { field: Some(self.name(column).to_owned()), ..complaint(self.file, Some(place), expected, found) }
     }
 
     /// A complaint about the row of names.
-    fn refuse(&self, expected: &str, found: &str) -> InputError {
+    pub(super) fn refuse(&self, expected: &str, found: &str) -> InputError {
         let column = self.grid.names.first().map_or(1, |cell| cell.column);
         complaint(self.file, Some(Place { line: self.grid.line, column }), expected, found)
     }
 }
 
+/// `1.024`, in a table of decimal commas: 1024 as well as 1.024.
+fn has_points_of_thousands(text: &str) -> bool {
+    let is_digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    let mut groups = text.trim_start_matches(['+', '-']).split('.');
+    let first = groups.next().unwrap_or("");
+    let mut groups = groups.peekable();
+    is_digits(first)
+        && first.len() <= 3
+        && !first.starts_with('0')
+        && groups.peek().is_some()
+        && groups.all(|group| group.len() == 3 && is_digits(group))
+}
+
 /// Names in a message, not too many of them.
-fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     if names.is_empty() {
         return "none".to_owned();
     }

@@ -80,7 +80,9 @@ impl Shape {
             };
             let index_name = below.map(|below| below.cells(separator)).filter(|below| below.len() == 1);
             if cells.len() == width {
-                let is_rate = |(cell, dash): (&Cell<'_>, &bool)| !dash || meaning(cell.text) == Meaning::Rate;
+                let is_rate = |(cell, dash): (&Cell<'_>, &bool)| {
+                    !dash || matches!(meaning(cell.text), Meaning::Rate | Meaning::RateOrError)
+                };
                 if separator != Separator::Blanks || cells.iter().zip(dashed).all(is_rate) {
                     return Some(cells);
                 }
@@ -107,14 +109,13 @@ impl Shape {
 impl<'t> Grid<'t> {
     /// Finds separator, names and rows.
     pub(super) fn read(text: &'t str, file: &str) -> Result<Self, InputError> {
+        if is_json(text) {
+            return Err(complaint(file, Some(Place { line: 1, column: 1 }), TABLE, "JSON, or lists in brackets"));
+        }
         let (mut heads, separator, rows) = lines(text);
         let Some(first) = rows.first().map(|row| row.cells.len()) else {
-            // Names alone are a table of no levels.
-            let head = heads.iter().rev().find(|head| !head.is_comment);
-            let head = head.ok_or_else(|| {
-                complaint(file, None, "a row of names, such as `h L2 H1`, then rows of numbers", "an empty table")
-            })?;
-            return Ok(Self { line: head.line, names: head.cells(separator), rows, decimal_comma: false });
+            let pairs = super::pairs::read(text, file)?;
+            return pairs.ok_or_else(|| without_numbers(file, &heads, separator));
         };
         // Where the rate of the coarsest level is left blank its row is shorter than the others.
         let width = if separator == Separator::Blanks {
@@ -133,6 +134,10 @@ impl<'t> Grid<'t> {
             indexed: grid.counts_rows(0),
             dashed: (0..width).map(|column| grid.holds_rates(column)).collect(),
         };
+        if let Some((line, names)) = numbered(&heads, width) {
+            (grid.line, grid.names) = (line, names);
+            return grid.rows_match(file).map(|()| grid);
+        }
         for (k, head) in heads.iter().enumerate() {
             let below = heads.get(k + 1).filter(|below| !below.is_comment && !head.is_comment);
             if let Some(names) = shape.names_of(head, below, separator) {
@@ -141,9 +146,11 @@ impl<'t> Grid<'t> {
                 // Below the names come numbers, or the name of the index alone.
                 let words = |head: &&Head<'_>| !head.is_comment && head.cells(separator).len() == width;
                 if let Some(row) = heads[k + 1..].iter().find(words).filter(|_| !head.is_comment && width > 1) {
-                    let cell = row.cells(separator)[0];
+                    let cells = row.cells(separator);
+                    let cell = cells.iter().find(|cell| !cell.text.is_empty()).unwrap_or(&cells[0]);
                     let place = Place { line: row.line, column: cell.column };
-                    return Err(complaint(file, Some(place), "a number", &shown(cell.text)));
+                    let expected = "a number below the names, of which one row is read";
+                    return Err(complaint(file, Some(place), expected, &shown(cell.text)));
                 }
                 return Ok(grid);
             }
@@ -162,7 +169,9 @@ impl<'t> Grid<'t> {
                 let written = |row: &Row<'_>| row.cells.iter().filter(|cell| !cell.text.is_empty()).count();
                 let row = self.rows.iter().find(|row| written(row) != names).unwrap_or(row);
                 let expected = format!("{}, one for each name", plural(names, "cell"));
-                complaint(file, Some(place(row)), &expected, &plural(written(row), "cell"))
+                let bracketed = row.cells.iter().any(|cell| cell.text.starts_with('('));
+                let hint = if bracketed { "; numbers in parentheses need a column with a name" } else { "" };
+                complaint(file, Some(place(row)), &expected, &(plural(written(row), "cell") + hint))
             }
             None => {
                 let expected = "a name in the first row, such as `h L2 H1`";
@@ -234,6 +243,45 @@ impl<'t> Head<'t> {
 /// `1 cell`, `2 cells`.
 pub(super) fn plural(count: usize, thing: &str) -> String {
     if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
+}
+
+/// What a file must have.
+const TABLE: &str = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
+
+/// Whether a text begins as JSON does.
+fn is_json(text: &str) -> bool {
+    let mut marks = text.chars().filter(|c| !c.is_whitespace());
+    let (first, second) = (marks.next(), marks.next());
+    matches!(first, Some('{' | '[')) && matches!(second, Some('"' | '{' | '['))
+}
+
+/// What is wrong where no row has numbers.
+fn without_numbers(file: &str, heads: &[Head<'_>], separator: Separator) -> InputError {
+    let mut rows = heads.iter().filter(|head| !head.is_comment).map(|head| (head, head.cells(separator)));
+    let Some((first, names)) = rows.next() else { return complaint(file, None, TABLE, "an empty table") };
+    let is_number = |cell: &Cell<'_>| number(cell.text, separator.leaves_commas()).is_some();
+    // A row that would be one of numbers, but for a cell.
+    if let Some((head, cells)) = rows.find(|(_, cells)| cells.len() == names.len() && cells.iter().any(is_number))
+        && let Some(cell) = cells.iter().find(|cell| !is_number(cell))
+    {
+        return complaint(file, Some(Place { line: head.line, column: cell.column }), "a number", &shown(cell.text));
+    }
+    let found = format!("no row of numbers, but {}", shown(first.text.trim()));
+    complaint(file, Some(Place { line: first.line, column: 1 }), TABLE, &found)
+}
+
+/// The names of `# 1: cells`, `# 2: dofs`, ..., and the line of the first; `None` where they are not as many as columns.
+fn numbered<'t>(heads: &[Head<'t>], width: usize) -> Option<(usize, Vec<Cell<'t>>)> {
+    let mut comments: Vec<&Head<'t>> = heads.iter().filter(|head| head.is_comment).collect();
+    comments.sort_by_key(|head| head.line);
+    let name = |head: &&Head<'t>| {
+        let (number, name) = head.text.split_once(':')?;
+        let column = head.before + number.chars().count() + 2 + name.chars().take_while(|c| c.is_whitespace()).count();
+        Some((number.trim().parse::<usize>().ok()?, head.line, Cell { column, text: name.trim() }))
+    };
+    let named: Vec<(usize, usize, Cell<'t>)> = comments.iter().filter_map(name).collect();
+    let in_order = named.iter().enumerate().all(|(k, (number, ..))| *number == k + 1);
+    (named.len() == width && in_order).then(|| (named[0].1, named.into_iter().map(|(.., name)| name).collect()))
 }
 
 /// Lines before the first row of numbers, the separator, and the rows.

@@ -9,16 +9,21 @@
 //! ```
 //!
 //! Commas, semicolons, tabs, blanks, the bars of Markdown or `&` of LaTeX separate the cells; `TABLES.md` shows the formats that are read. One column
-//! is the step, every other an error, but for those that by their name hold rates, counts, costs or the number of the row. Rows may have any
-//! order. `NaN` and `inf` are accepted as errors; a column with one of them fails.
+//! is the step, every other an error, but for those that by their name hold rates, counts, costs or the number of the row. Where no name shows the
+//! step it is the first column, unless that is named like an error. Rows may have any order, each with a step of its own. `NaN` and `inf` are
+//! accepted as errors; a column with one of them fails.
 
 mod cells;
 mod columns;
 mod grid;
+mod names;
 mod number;
+mod pairs;
 mod spans;
+mod step;
 mod words;
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
 use std::path::Path;
@@ -27,6 +32,7 @@ use crate::input::{self, Complaint, InputError, Place};
 use crate::judge::verdict::{Judge, Level, RateVerdict};
 pub use columns::Choice;
 use grid::Grid;
+pub(crate) use names::position;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +43,10 @@ pub struct RateTable {
     pub columns: Vec<(String, Vec<Level>)>,
     /// Columns that are no errors, each with the reason.
     pub not_errors: Vec<(String, &'static str)>,
+    /// Columns that an order claimed of all does not mean: nothing in their names says that they are errors, and they do not fall with the step.
+    pub unclaimed: Vec<String>,
+    /// How the table was read, where the names did not decide.
+    pub notes: Vec<String>,
 }
 
 impl RateTable {
@@ -75,7 +85,9 @@ impl RateTable {
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
         // Spreadsheets put a byte order mark in front.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let grid = Grid::read(text, file_name)?;
+        // Line ends of the first Macintosh.
+        let text = if text.contains('\n') { Cow::from(text) } else { text.replace('\r', "\n").into() };
+        let grid = Grid::read(&text, file_name)?;
         columns::read(&grid, file_name, choice)
     }
 

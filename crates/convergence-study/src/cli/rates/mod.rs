@@ -78,7 +78,7 @@ impl Judged<'_> {
 
     /// The judge reports an unusable order; here none was given.
     fn reason(&self) -> &str {
-        if self.is_claimed() { self.rate.kind.text() } else { "no order is claimed" }
+        if self.is_claimed() { self.rate.kind.brief() } else { "no order is claimed" }
     }
 }
 

@@ -45,7 +45,7 @@ fn worst(changes: &[&Change], link: Link<'_>) -> String {
         let Change { study, movement, .. } = change;
         vec![link(study), count.to_string(), cell(&change.subject()), cell(&movement.to_string()), times(movement)]
     };
-    let head = ["study", "numbers", "the worst of them", "change", "of its tolerance"];
+    let head = ["study", "numbers", "the worst of them", "change", "times its tolerance"];
     let order = "The worst number of each study; first those that moved by the largest multiple of their tolerance.";
     format!("## Moved from the baseline\n\n{order}\n\n{}\n", table(&head, studies.iter().map(row).collect()))
 }
@@ -61,7 +61,7 @@ fn times(movement: &Movement) -> String {
     if weight == 0.0 || !weight.is_finite() {
         return "-".to_owned();
     }
-    format!("{} times", short_text(weight))
+    short_text(weight)
 }
 
 /// How they are accepted, or why they cannot be.

@@ -131,12 +131,12 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
     groups.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// From the lowest to the highest of several rates, with the digits that the most certain of them has in its table.
+/// From the lowest to the highest of several rates, with digits that all of them have in their table.
 pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
     let known: Vec<(f64, usize)> = rates
         .filter_map(|rate| Some((rate.fitted?, rate.interval.map_or(3, |ends| interval_places(ends, RATE_PLACES)))))
         .collect();
-    let Some(places) = known.iter().map(|(_, places)| *places).max() else { return "no rate".to_owned() };
+    let Some(places) = known.iter().map(|(_, places)| *places).min() else { return "no rate".to_owned() };
     let end = |pick: fn(f64, f64) -> f64| known.iter().map(|(rate, _)| *rate).reduce(pick).unwrap_or(f64::NAN);
     let [low, high] = [end(f64::min), end(f64::max)].map(|rate| decimals(rate, places));
     if low == high { low } else { format!("{low} to {high}") }

@@ -183,8 +183,8 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
     let cells = |line: &str| line.split(" | ").map(|cell| cell.trim_matches(['|', ' ']).to_owned()).collect::<Vec<_>>();
     let row = |cells: [&str; 5]| cells.map(str::to_owned).to_vec();
     let moved_by = |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");
-    assert_eq!(cells(lines[4]), row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000 times"]));
-    assert_eq!(cells(lines[5]), row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500 times"]));
+    assert_eq!(cells(lines[4]), row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000"]));
+    assert_eq!(cells(lines[5]), row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500"]));
     // Each thing is parted from the next one by an empty line, or it is taken for one paragraph.
     assert_eq!(lines[6..10], ["", "If it is meant: `cargo xtask verify --bless`.", "", "<details>"]);
     assert_eq!(lines[10], "<summary>all 4 numbers</summary>");
@@ -194,6 +194,13 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
     // A comment has no sections to link to.
     let digest = with(&studies, |findings| Findings { changes: Some(&changes), ..*findings }.digest());
     assert!(digest.contains("| b-1.0 |") && !digest.contains("]("), "{digest}");
+}
+
+#[test]
+fn a_number_that_moved_by_little_is_shown_with_the_digits_that_moved() {
+    let movement = Movement::Moved { from: 0.008_482_598_7, to: 0.008_482_598_4, tolerance: 1e-8 };
+    let told = "moved from 0.0084825987 to 0.0084825984, by -3.5e-6 %, tolerated 1e-6 %";
+    assert_eq!(movement.to_string(), told);
 }
 
 #[test]

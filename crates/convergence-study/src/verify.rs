@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::Findings;
+use crate::report::{Findings, SeeAlso};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
@@ -318,10 +318,18 @@ impl Verification {
 fn report_files(project: &Project, found: &Verification, request: &Request) -> io::Result<(ReportSet, String)> {
     let Request { scope, reports: folder, .. } = request;
     let command = scope.command(project);
-    let has_full = matches!(scope, Scope::Tier(Tier::Quick, _)) && folder.join("full/README.md").is_file();
-    let see_also = has_full.then_some(("the report on the full tier", "full"));
+    let see_also = see_also(scope, folder);
     let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
     let findings = found.findings(project, scope, &command);
     let files = Findings { see_also, provenance: Some(&provenance), ..findings }.files()?;
     Ok((files, record::json(&provenance)?))
+}
+
+/// The report on the full tier beside that on the quick one. Its page is not committed: a fresh checkout has its Markdown alone.
+fn see_also(scope: &Scope, folder: &Path) -> Option<SeeAlso<'static>> {
+    let (readme, page) = ("full/README.md", "full/index.html");
+    let has = |file: &str| folder.join(file).is_file();
+    let page = if has(page) { page } else { readme };
+    let is_quick = matches!(scope, Scope::Tier(Tier::Quick, _));
+    (is_quick && has(readme)).then_some(SeeAlso { title: "the report on the full tier", readme, page })
 }

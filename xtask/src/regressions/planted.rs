@@ -204,7 +204,7 @@ mod tests {
         }
     }
 
-    const PRINTED: &str = "theorem-3.4-space: fail\n  velocity: rate 1.000, claimed 2 ± 0.005: too low\n  shear: x\n\n\
+    const PRINTED: &str = "theorem-3.4-space: fail\n  velocity: 1.000 (0.999 to 1.001), claimed 2 ± 0.005: too low\n  shear: x\n\n\
                            negative-controls: inconclusive\n  a: b\n\n\
                            baseline: equilibria: u(1) moved from 1 to 2\nbaseline: equilibria: and 7 more; --verbose lists all\n\
                            fail: 2 of 47 studies do not pass\n";
@@ -213,7 +213,7 @@ mod tests {
     fn what_is_printed_is_told_apart_by_study() {
         let noticed = Noticed { is_well: false, lines: lines(PRINTED) };
         assert_eq!((noticed.lines.len(), noticed.studies()), (5, 3));
-        assert_eq!(noticed.first(), "theorem-3.4-space: velocity: rate 1.000, claimed 2 ± 0.005: too low");
+        assert_eq!(noticed.first(), "theorem-3.4-space: velocity: 1.000 (0.999 to 1.001), claimed 2 ± 0.005: too low");
         for (study, says) in
             [("theorem-3.4-space", "shear"), ("equilibria", "u(1) moved"), ("negative-controls", "a: b")]
         {

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Write};
 
 use crate::judge::verdict::Verdict;
-use crate::report::Findings;
+use crate::report::{Findings, summary};
 use crate::store::regular;
 use crate::text::visible::{self, visible};
 
@@ -45,7 +45,7 @@ fn annotations(findings: &Findings<'_>) -> String {
     let bad = findings.finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
     let studies = bad.map(|finished| {
         let outcome = &finished.outcome;
-        annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &outcome.summary)
+        annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &summary(outcome))
     });
     let changes = findings.moves().iter().map(|change| annotation("baseline", &change.to_string()));
     capped(studies.chain(changes).collect())

@@ -6,16 +6,22 @@ use crate::text::visible::visible;
 /// Changes of a study that are listed one by one.
 const LISTED: usize = 3;
 
-/// One line for each change of a claim. Of numbers one line each, too; of a study with many, their number and those of most
+/// Claims that changed, under a head. Of numbers one line each, too; of a study with many, their number and those of most
 /// weight, unless all are wanted.
 pub(super) fn lines(changes: &[Change], all: bool) -> String {
     let studies = changes.chunk_by(|one, next| one.study == next.study);
-    studies.map(|of_study| of_one_study(of_study, all)).collect()
+    let numbers: String = studies.map(|of_study| of_one_study(of_study, all)).collect();
+    let claims: String = changes.iter().filter(|change| change.movement.needs_a_reason()).map(claim).collect();
+    if claims.is_empty() { numbers } else { format!("{numbers}claims changed\n{claims}") }
+}
+
+fn claim(change: &Change) -> String {
+    format!("  {}\n", visible(&change.words()))
 }
 
 fn of_one_study(changes: &[Change], all: bool) -> String {
-    let (claims, numbers): (Vec<_>, Vec<_>) = changes.iter().partition(|change| change.movement.is_of_claims());
-    each(claims) + &if all || numbers.len() <= LISTED { each(numbers) } else { condensed(numbers) }
+    let numbers: Vec<&Change> = changes.iter().filter(|change| !change.movement.needs_a_reason()).collect();
+    if all || numbers.len() <= LISTED { each(numbers) } else { condensed(numbers) }
 }
 
 fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {

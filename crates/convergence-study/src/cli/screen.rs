@@ -9,17 +9,49 @@ use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
 use crate::text::visible::visible;
 
+/// Between two columns.
+const GAP: &str = "  ";
+
+/// Least width to which a column is cut: less is worse than a line that wraps.
+const LEAST: usize = 12;
+
 /// Rows under a head, in columns; cells without control characters.
 pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
+    table_within(None, head, rows)
+}
+
+/// The same, the last column cut so that no line is wider.
+///
+/// * `width`: columns of the terminal; `None` where nothing is cut.
+pub fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<String>]) -> String {
     let head: Vec<String> = head.iter().map(|title| visible(title)).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| visible(cell)).collect()).collect();
+    let measured = Columns::of(&head, &rows);
+    let others = (0..measured.count().saturating_sub(1)).map(|column| measured.width(column) + GAP.len()).sum();
+    let room = width.map(|width| width.saturating_sub(others).max(LEAST));
+    let fitted = |mut row: Vec<String>| {
+        if let (Some(room), Some(last)) = (room, row.last_mut()) {
+            *last = cut(last, room);
+        }
+        row
+    };
+    let (head, rows) = (fitted(head), rows.into_iter().map(fitted).collect::<Vec<_>>());
     let columns = Columns::of(&head, &rows);
     let colours = colours();
     let line = |row: &Vec<String>| {
         let cells: Vec<String> = columns.pad(row).map(|cell| if colours { coloured(cell) } else { cell }).collect();
-        cells.join("  ").trim_end().to_owned() + "\n"
+        cells.join(GAP).trim_end().to_owned() + "\n"
     };
     std::iter::once(&head).chain(&rows).map(line).collect()
+}
+
+/// Text of at most so many characters; what is cut off is an ellipsis.
+fn cut(text: &str, room: usize) -> String {
+    if text.chars().count() <= room {
+        return text.to_owned();
+    }
+    let kept: String = text.chars().take(room.saturating_sub(1)).collect();
+    kept.trim_end().to_owned() + "…"
 }
 
 /// A verdict as a word, in its colour.
@@ -52,4 +84,23 @@ fn coloured(cell: String) -> String {
         _ => return cell,
     };
     format!("\x1b[{colour}m{cell}\x1b[0m")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::table_within;
+
+    #[test]
+    fn the_last_column_is_cut_at_the_width_and_never_wrapped() {
+        let rows = [["a", "0.01", &"long and longer ".repeat(5)], ["longer-id", "0.20", "short"]]
+            .map(|row| row.map(str::to_owned).to_vec());
+        let table = |width| table_within(width, &["study", "seconds", "key numbers"], &rows);
+        let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
+        assert_eq!(widest(&table(Some(40))), 40);
+        assert_eq!(table(Some(40)).lines().nth(1), Some("a             0.01  long and longer lon…"));
+        assert!(table(Some(40)).ends_with("longer-id     0.20  short\n"));
+        assert!(!table(None).contains('…') && widest(&table(None)) > 80);
+        // A terminal too narrow for the other columns.
+        assert_eq!(table(Some(10)).lines().nth(1), Some("a             0.01  long and lo…"));
+    }
 }

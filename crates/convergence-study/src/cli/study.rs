@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{tables, text_of_failures};
+use crate::report::{summary, tables, text_of_failures};
 use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
 use crate::store::record::{self, Precision, Record};
@@ -108,7 +108,7 @@ fn text(finished: &Finished) -> String {
         "{}: {verdict}, {seconds:.2} s\n{}\n{}\n",
         header.id,
         visible(&header.claim),
-        visible(&outcome.summary)
+        visible(&summary(outcome))
     );
     for table in tables(finished) {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();

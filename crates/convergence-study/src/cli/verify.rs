@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
@@ -33,7 +34,7 @@ pub struct Arguments {
     /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// Every number that is not what it was, not only the worst of each study
+    /// Every study, also where some fail, and every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
     #[command(flatten)]
@@ -96,11 +97,11 @@ pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     }
 }
 
-/// What did not pass, what moved, what became of the blessing, the table, where the reports are, and the verdict last.
+/// The table, where the reports are, what differs from the baseline, what became of the blessing, what did not pass, and the
+/// verdict last: a terminal shows the end.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
     let quiet = arguments.flags.quiet;
-    let mut text = text_of_failures(&found.finished);
-    text += &moved::lines(&found.changes, arguments.verbose);
+    let mut text = moved::lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
         Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::lines(&refusal.to_string())),
@@ -110,18 +111,37 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
         }
         None => {}
     }
-    if !quiet {
-        let rows: Vec<Vec<String>> = found.finished.iter().map(row).collect();
-        let table = screen::table(&["study", "verdict", "seconds", "key numbers"], &rows);
-        let gap = if text.is_empty() { "" } else { "\n" };
-        text += &format!("{gap}{table}\n");
-        let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
-        text += &format!("report: {page}, {readme}\n");
-        if matches!(request.scope, Scope::Selection(_)) {
-            text += "a selection leaves the committed report as it is\n";
-        }
+    let gap = if text.is_empty() { "" } else { "\n" };
+    let mut whole = if quiet { String::new() } else { overview(found, request, arguments.verbose) + gap };
+    whole += &text;
+    let failures = text_of_failures(&found.finished);
+    if !(failures.is_empty() || whole.is_empty()) {
+        whole.push('\n');
     }
-    text + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)))
+    whole += &failures;
+    whole + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)))
+}
+
+/// The table of studies, without those that pass where something fails, and where the reports are.
+fn overview(found: &Verification, request: &Request, verbose: bool) -> String {
+    let all = verbose || found.verdict == Verdict::Pass;
+    let is_shown = |finished: &&Finished| all || finished.outcome.verdict != Verdict::Pass;
+    let rows: Vec<Vec<String>> = found.finished.iter().filter(is_shown).map(row).collect();
+    let mut text = match rows[..] {
+        [] => String::new(),
+        _ => screen::table_within(screen::width(), &["study", "verdict", "seconds", "key numbers"], &rows),
+    };
+    match found.finished.len() - rows.len() {
+        0 => {}
+        1 => text += "1 study passes (--verbose lists it)\n",
+        passing => text += &format!("{passing} studies pass (--verbose lists them)\n"),
+    }
+    let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
+    text += &format!("\nreport: {page}, {readme}\n");
+    if matches!(request.scope, Scope::Selection(_)) {
+        text += "a selection leaves the committed report as it is\n";
+    }
+    text
 }
 
 fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {

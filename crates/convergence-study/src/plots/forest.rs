@@ -21,6 +21,8 @@ const HEADING: f64 = 30.0;
 /// Room above and below the rows, in px.
 const TOP: f64 = 96.0;
 const BOTTOM: f64 = 66.0;
+/// Between the rates of a study and the numbers beside them, in px.
+const CLEAR: f64 = 16.0;
 /// Widest label, in px; a longer one is cut.
 const LABELS: f64 = 300.0;
 
@@ -53,6 +55,8 @@ pub struct ForestRow {
     pub label: String,
     /// Its rates.
     pub rates: Vec<ForestRate>,
+    /// Numbers to stand beside them, such as those of the rates that fail; may be empty.
+    pub note: String,
 }
 
 /// Studies that claim the same sort of thing.
@@ -89,7 +93,10 @@ pub fn forest(figure: &Forest) -> String {
             pen.text(&group.label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Start, INK);
             pen.line(&[(12.0, top + HEADING - 5.0), (plot.right, top + HEADING - 5.0)], GRID, style::THIN);
             top += HEADING;
-            for row in &group.rows {
+            for (k, row) in group.rows.iter().enumerate() {
+                if k > 0 {
+                    pen.line(&[(12.0, top), (plot.right, top)], GRID, 0.5 * style::THIN);
+                }
                 draw_row(pen, row, &plot, top);
                 top += row_height(row);
             }
@@ -130,9 +137,13 @@ fn legend(pen: &Pen<'_>) {
 
 fn scale(pen: &Pen<'_>, plot: &Rect) {
     pen.rect(Rect { left: px(plot, -1.0), right: px(plot, 1.0), ..*plot }, SHADE);
-    for (value, label) in
-        [(-2.0, "-2"), (-1.0, "order - tolerance"), (0.0, "order claimed"), (1.0, "order + tolerance"), (2.0, "+2")]
-    {
+    for (value, label) in [
+        (-2.0, "\u{2212}2"),
+        (-1.0, "order \u{2212} tolerance"),
+        (0.0, "order claimed"),
+        (1.0, "order + tolerance"),
+        (2.0, "+2"),
+    ] {
         let x = px(plot, value);
         pen.line(&[(x, plot.top), (x, plot.bottom)], if value == 0.0 { MUTED } else { GRID }, style::THIN);
         pen.text(label, (x, plot.bottom + 16.0), NOTE_SIZE, Anchor::Middle, INK);
@@ -150,6 +161,36 @@ fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     for (k, rate) in row.rates.iter().enumerate() {
         draw_rate(pen, rate, plot, first + PITCH * k as f64);
     }
+    draw_note(pen, row, plot, (top + 0.5 * height, ink));
+}
+
+/// What is written beside the rates of a study, on the side where there is room.
+fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBColor)) {
+    let note = note(row);
+    if note.is_empty() {
+        return;
+    }
+    let drawn = || row.rates.iter().flat_map(|rate| rate.rate.into_iter().chain(rate.interval.into_iter().flatten()));
+    let ends = drawn().filter(|value| value.is_finite()).map(|value| px(plot, value));
+    let (left, right) = ends.fold((plot.right, plot.left), |(left, right), x| (x.min(left), x.max(right)));
+    let width = text_width(&note, NOTE_SIZE);
+    let (start, anchor) = match right + CLEAR + width < plot.right {
+        true => (right + CLEAR, Anchor::Start),
+        false => (left - CLEAR, Anchor::End),
+    };
+    pen.text(&note, (start, y), NOTE_SIZE, anchor, ink);
+}
+
+/// The note of the row, and how many of its rates there are not.
+fn note(row: &ForestRow) -> String {
+    let missing = row.rates.iter().filter(|rate| rate.rate.is_none_or(|value| !value.is_finite())).count();
+    let without = match missing {
+        0 => String::new(),
+        all if all == row.rates.len() => "no rate".to_owned(),
+        some => format!("{some} without a rate"),
+    };
+    let parts = [row.note.clone(), without];
+    parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join("; ")
 }
 
 fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
@@ -157,12 +198,23 @@ fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
     let finite = |value: &f64| value.is_finite();
     if let Some([low, high]) = rate.interval.filter(|ends| ends.iter().all(finite)) {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
+        // An interval that goes on beyond the frame; where the rate does, it has an arrow of its own.
+        let is_within = rate.rate.is_some_and(|value| value.abs() <= REACH);
+        for end in [low, high].into_iter().filter(|end| is_within && end.abs() > REACH) {
+            tick(pen, (px(plot, end), y), end.signum(), colour);
+        }
     }
     match rate.rate.filter(finite) {
         Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 2.4, colour),
         Some(value) => arrow(pen, (px(plot, value) - 8.0 * value.signum(), y), value.signum(), colour),
-        None => pen.text("no rate", (plot.right - 4.0, y), NOTE_SIZE, Anchor::End, colour),
+        None => {}
     }
+}
+
+/// A small triangle with its point on the frame.
+fn tick(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
+    let back = x - 5.0 * direction;
+    pen.polygon(&[(x, y), (back, y - 2.5), (back, y + 2.5)], colour);
 }
 
 /// A triangle that points beyond the plot.
@@ -198,7 +250,7 @@ mod tests {
             interval: Some([rate - half, rate + half]),
             judged,
         };
-        ForestRow { label: label.into(), rates: rates.iter().map(rate).collect() }
+        ForestRow { label: label.into(), rates: rates.iter().map(rate).collect(), note: String::new() }
     }
 
     #[test]
@@ -207,7 +259,7 @@ mod tests {
         let rows = vec![
             row("sound", &[(0.1, 0.2, Judged::Pass), (0.0, 0.1, Judged::Pass)]),
             row("lost-order", &[(-20.0, 0.1, Judged::Fail)]),
-            ForestRow { label: "none".into(), rates: vec![none] },
+            ForestRow { label: "none".into(), rates: vec![none; 3], note: String::new() },
         ];
         let figure = Forest { title: "All rates".into(), groups: vec![ForestGroup { label: "space".into(), rows }] };
         let svg = forest(&figure);
@@ -217,6 +269,52 @@ mod tests {
         // Two sound rates and three entries of the legend; the lost order is no disc.
         assert_eq!(svg.matches("<circle").count(), 5, "{svg}");
         assert_eq!(svg.matches("<polygon").count(), 2);
+        // Said once of a study, not once of a rate.
+        assert_eq!(svg.matches("no rate").count(), 1);
+        assert!(svg.contains("\u{2212}2") && !svg.contains("\n-2\n"));
+    }
+
+    #[test]
+    fn numbers_stand_beside_the_rates_where_there_is_room() {
+        let x_of = |svg: &str, text: &str| -> f64 {
+            let before = &svg[..svg.find(text).unwrap_or_else(|| panic!("{text} in {svg}"))];
+            let tag = &before[before.rfind("<text").unwrap()..];
+            tag.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+        };
+        let missing = ForestRate { rate: None, interval: None, judged: Judged::Fail };
+        let mut low = row("low", &[(-20.0, 0.1, Judged::Fail), (0.0, 0.1, Judged::Pass)]);
+        low.rates.push(missing);
+        low.note = "1.000, claimed 2".into();
+        let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Judged::Fail)]) };
+        let figure =
+            Forest { title: String::new(), groups: vec![ForestGroup { label: "g".into(), rows: vec![low, high] }] };
+        let svg = forest(&figure);
+        // In tenths of px: the arrow at the right rim begins at 8650.
+        let (beside, before) = (x_of(&svg, "1.000, claimed 2; 1 without a rate"), x_of(&svg, "3.000, claimed 2"));
+        let middle = x_of(&svg, "order claimed");
+        assert!(beside > middle && before < 8650.0, "{beside} {before} {middle}");
+    }
+
+    #[test]
+    fn an_interval_that_the_frame_cuts_has_a_small_arrow() {
+        let count = |half: f64| {
+            let rows = vec![row("a", &[(0.5, half, Judged::Inconclusive)])];
+            let groups = vec![ForestGroup { label: "g".into(), rows }];
+            forest(&Forest { title: String::new(), groups }).matches("<polygon").count()
+        };
+        // One is that of the legend.
+        assert_eq!([count(1.0), count(2.0), count(5.0)], [1, 2, 3]);
+    }
+
+    #[test]
+    fn studies_are_parted_by_a_line() {
+        let lines = |count: usize| {
+            let rows = vec![row("a", &[(0.0, 0.1, Judged::Pass)]); count];
+            let figure = Forest { title: String::new(), groups: vec![ForestGroup { label: "g".into(), rows }] };
+            forest(&figure).matches("<polyline").count()
+        };
+        // The interval, and a line between this study and the one before.
+        assert_eq!(lines(4) - lines(3), 2);
     }
 
     #[test]

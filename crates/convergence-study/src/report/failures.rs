@@ -1,15 +1,18 @@
 //! What did not pass, with its reasons: the first thing to read, on the page, in Markdown and on the terminal.
 
+use std::cmp::Reverse;
+use std::collections::HashSet;
+
 use super::html::{escape, phrase};
 use super::markdown::{anchor, cell, text};
 use super::page::badge;
+use super::words::summary;
 use crate::input::visible;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::case::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
-use crate::text::number::{plain_text, rate_text};
 
 /// Reasons listed of one study; its section has all of them.
 const MOST_REASONS: usize = 8;
@@ -25,21 +28,34 @@ pub struct NotPassed {
     pub reasons: Vec<String>,
 }
 
-/// The studies that did not pass: failed ones first, then inconclusive ones.
+/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because others
+/// did not.
 pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
-    let of = |verdict: Verdict| finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
-    of(Verdict::Fail).chain(of(Verdict::Inconclusive)).map(reasons).collect()
+    in_order(finished).into_iter().map(reasons).collect()
+}
+
+/// The same, whole.
+pub(super) fn in_order(finished: &[Finished]) -> Vec<&Finished> {
+    let mut studies: Vec<&Finished> =
+        finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass).collect();
+    let ids: HashSet<&str> = studies.iter().map(|study| study.header.id.as_str()).collect();
+    studies.sort_by_key(|study| (names_another(study, &ids), Reverse(study.outcome.verdict)));
+    studies
+}
+
+/// Whether a check that does not pass names another study that does not pass.
+fn names_another(Finished { header, outcome, .. }: &Finished, ids: &HashSet<&str>) -> bool {
+    let is_of_an_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-');
+    let names = |check: &Check| {
+        let words = check.evidence.split(|c: char| !is_of_an_id(c)).map(|word| word.trim_end_matches('.'));
+        words.into_iter().any(|word| word != header.id && ids.contains(word))
+    };
+    outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass).any(names)
 }
 
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
-    let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass).map(|(name, rate)| {
-        // With an interval the reason has the claim, too.
-        let claimed = match rate.interval {
-            Some(_) => String::new(),
-            None => format!(", claimed {} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
-        };
-        format!("{name}: rate {}{claimed}: {}", rate_text(rate.fitted), rate.reason)
-    });
+    let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
+    let rates = rates.map(|(name, rate)| format!("{name}: {}", rate.line()));
     // That cases are missing is said with their reasons.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
     let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass && !is_said(check));
@@ -49,7 +65,7 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
     let cases = cases.into_iter().map(|line| format!("case {line}"));
     let mut reasons: Vec<String> = cases.chain(rates).chain(checks).collect();
     if reasons.is_empty() {
-        reasons.push(outcome.summary.clone());
+        reasons.push(summary(outcome));
     }
     let more = reasons.len().saturating_sub(MOST_REASONS);
     if more > 0 {

@@ -1,10 +1,12 @@
 //! The picture of all judged rates at the head of a report.
 
+use super::words::range;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::plots::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
+use crate::text::number::order_text;
 
 /// The name of its file.
 ///
@@ -49,7 +51,31 @@ pub(super) fn grouped<'f>(project: &Project, finished: &'f [Finished]) -> Vec<(&
 
 fn row(study: &Finished) -> Option<ForestRow> {
     let rates: Vec<ForestRate> = study.outcome.rates.iter().map(|(_, rate)| relative(rate)).collect();
-    (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates })
+    let note = failed(study);
+    (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates, note })
+}
+
+/// Claims that a picture has room for beside the rates of one study.
+const MOST_CLAIMS: usize = 2;
+
+/// The rates that fail, those of one order together: `1.000 to 1.004, claimed 2`; empty where none does.
+fn failed(study: &Finished) -> String {
+    let failed = || study.outcome.rates.iter().map(|(_, rate)| rate).filter(|rate| is_a_failed_rate(rate));
+    let mut orders: Vec<f64> = vec![];
+    for rate in failed() {
+        if !orders.contains(&rate.order) {
+            orders.push(rate.order);
+        }
+    }
+    let one = |order: &f64| {
+        format!("{}, claimed {}", range(failed().filter(|rate| rate.order == *order)), order_text(*order))
+    };
+    let more = if orders.len() > MOST_CLAIMS { "; \u{2026}" } else { "" };
+    orders.iter().take(MOST_CLAIMS).map(one).collect::<Vec<_>>().join("; ").replace('-', "\u{2212}") + more
+}
+
+fn is_a_failed_rate(rate: &RateVerdict) -> bool {
+    rate.verdict == Verdict::Fail && rate.fitted.is_some()
 }
 
 /// A rate in units of its tolerance.

@@ -5,12 +5,14 @@
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
+use super::forest;
 use crate::study::outcome::Figure;
 
 /// Converts a piece of the report; pictures are put in place.
 pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     let mut events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut kept = Vec::new();
+    let mut links = Links::default();
     // What is written ahead of a table is its title.
     let mut title = String::new();
     while let Some(event) = events.next() {
@@ -22,7 +24,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                     Some(picture) => kept.push(Event::Html(picture.into())),
                     None => {
                         kept.push(Event::Start(Tag::Paragraph));
-                        kept.extend(inner.into_iter().filter_map(tamed));
+                        kept.extend(inner.into_iter().filter_map(|event| links.tamed(event)));
                         kept.push(Event::End(TagEnd::Paragraph));
                     }
                 }
@@ -37,7 +39,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                 title = without_own_tags(&text).trim().to_owned();
                 kept.push(Event::Html(text));
             }
-            other => kept.extend(tamed(other)),
+            other => kept.extend(links.tamed(other)),
         }
     }
     let mut html = String::new();
@@ -45,12 +47,24 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     html
 }
 
-/// An event without the power to load, to link or to run anything.
-fn tamed(event: Event<'_>) -> Option<Event<'_>> {
-    match event {
-        Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
-        Event::Start(Tag::Image { .. } | Tag::Link { .. }) | Event::End(TagEnd::Image | TagEnd::Link) => None,
-        other => Some(other),
+/// The links that are open: whether each leads to a place of the page.
+#[derive(Default)]
+struct Links(Vec<bool>);
+
+impl Links {
+    /// An event without the power to load anything, to leave the page or to run anything.
+    fn tamed<'e>(&mut self, event: Event<'e>) -> Option<Event<'e>> {
+        match event {
+            Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
+            Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => None,
+            Event::Start(Tag::Link { ref dest_url, .. }) => {
+                let stays = dest_url.starts_with('#');
+                self.0.push(stays);
+                stays.then_some(event)
+            }
+            Event::End(TagEnd::Link) => self.0.pop().unwrap_or(false).then_some(event),
+            other => Some(other),
+        }
     }
 }
 
@@ -78,8 +92,10 @@ fn plain(events: &[Event<'_>]) -> String {
 fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
     let [Event::Start(Tag::Image { dest_url, .. }), .., Event::End(TagEnd::Image)] = paragraph else { return None };
     let figure = figures.iter().find(|figure| dest_url.strip_prefix("figures/") == Some(figure.file.as_str()))?;
+    // The picture of all rates has too many words to be read small.
+    let class = if figure.file == forest::FILE { "scroll wide" } else { "scroll" };
     Some(format!(
-        "<figure class=\"scroll\" tabindex=\"0\" aria-label=\"{}\">\n{}</figure>\n",
+        "<figure class=\"{class}\" tabindex=\"0\" aria-label=\"{}\">\n{}</figure>\n",
         escape(&figure.caption),
         figure.svg
     ))
@@ -127,8 +143,8 @@ mod tests {
             assert!(!html.contains("<script") && !html.contains("<img"), "{html}");
             assert!(html.contains("&lt;"), "{html}");
         }
-        let html = html("[a](javascript:b) ![c](http://d/e.svg) <http://f>", &[]);
-        assert_eq!(html, "<p>a c http://f</p>\n");
+        let html = html("[a](javascript:b) ![c](http://d/e.svg) <http://f> [g](#h) [i](j#k)", &[]);
+        assert_eq!(html, "<p>a c http://f <a href=\"#h\">g</a> i</p>\n");
     }
 
     #[test]

@@ -18,12 +18,17 @@ fn escape(raw: &str, in_table: bool) -> String {
     let mut in_code = false;
     let mut escaped = String::with_capacity(raw.len());
     let mut rest = raw.chars().peekable();
+    let mut before = ' ';
     while let Some(c) = rest.next() {
         let c = if c.is_control() { ' ' } else { c };
+        // Within a word it is no markup.
+        let is_within = before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
+        let is_markup = matches!(c, '\\' | '*' | '`' | '[' | ']') || (c == '_' && !is_within);
+        before = c;
         let opens_a_tag = c == '<' && rest.peek().is_some_and(|next| next.is_alphabetic() || "/!?".contains(*next));
         if c == '`' && has_code {
             in_code = !in_code;
-        } else if (c == '|' && in_table) || (!in_code && (opens_a_tag || matches!(c, '\\' | '*' | '`'))) {
+        } else if (c == '|' && in_table) || (!in_code && (opens_a_tag || is_markup)) {
             escaped.push('\\');
         }
         escaped.push(c);
@@ -72,6 +77,9 @@ mod tests {
             ("one ` only *", "one \\` only \\*"),
             ("back\\slash|", "back\\\\slash\\|"),
             ("two\nlines", "two lines"),
+            ("[a](b) ![c]", "\\[a\\](b) !\\[c\\]"),
+            ("u_t, _x_ and __y", "u_t, \\_x\\_ and \\_\\_y"),
+            ("`a[0]_`", "`a[0]_`"),
         ] {
             assert_eq!(cell(raw), written, "{raw}");
         }

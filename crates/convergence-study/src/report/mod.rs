@@ -4,6 +4,7 @@
 //! given, and is not to be committed.
 
 mod badge;
+mod changes;
 mod errors;
 mod failures;
 mod forest;
@@ -34,7 +35,7 @@ pub use failures::{NotPassed, not_passed, text_of_failures};
 pub use history::history;
 pub use section::markdown;
 pub use tables::tables;
-pub use words::{blessing, can_be_blessed, key_numbers, sentence};
+pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};
 
 /// What is reported on.
 #[derive(Debug, Clone, Copy)]
@@ -51,10 +52,21 @@ pub struct Findings<'f> {
     pub changes: Option<&'f [Change]>,
     /// The verdict on all.
     pub verdict: Verdict,
-    /// Another report to point to: its title, and the path of its folder from this one's.
-    pub see_also: Option<(&'f str, &'f str)>,
+    /// Another report to point to.
+    pub see_also: Option<SeeAlso<'f>>,
     /// Where the run comes from: for the page alone.
     pub provenance: Option<&'f Provenance>,
+}
+
+/// Another report, by paths from the folder of this one.
+#[derive(Debug, Clone, Copy)]
+pub struct SeeAlso<'f> {
+    /// What it is.
+    pub title: &'f str,
+    /// Its Markdown, which is committed.
+    pub readme: &'f str,
+    /// What the page links to: its page, or its Markdown where there is no page.
+    pub page: &'f str,
 }
 
 /// Bytes of the longest comment: GitHub takes 65536 characters.
@@ -69,8 +81,9 @@ impl Findings<'_> {
         let changes = self.moves().iter().map(Change::to_string).collect();
         let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
         let mut set = ReportSet::default();
-        set.add("README.md", self.readme())?;
-        set.add("index.html", self.page())?;
+        let rates = forest::figure(self.project, self.finished);
+        set.add("README.md", self.readme_with(rates.as_ref()))?;
+        set.add("index.html", page::page(self, rates.as_ref()))?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", record::json(&record)?)?;
         set.add("junit.xml", junit(self.project.name, self.finished, self.changes).map_err(io::Error::other)?)?;
@@ -80,7 +93,7 @@ impl Findings<'_> {
                 set.add(*name, figure.svg.as_str())?;
             }
         }
-        if let Some(figure) = forest::figure(self.project, self.finished) {
+        if let Some(figure) = &rates {
             set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
         }
         for figure in self.figures() {
@@ -100,24 +113,33 @@ impl Findings<'_> {
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
     pub fn readme(&self) -> String {
-        let link = |id: &str| format!("[{}](#{})", cell(id), markdown::anchor(id));
+        self.readme_with(forest::figure(self.project, self.finished).as_ref())
+    }
+
+    /// * `rates`: the picture of all rates.
+    fn readme_with(&self, rates: Option<&Figure>) -> String {
+        let link = |id: &str| self.linked(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
         page += &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.command);
-        if let Some((title, folder)) = self.see_also {
-            page += &format!(" See also [{}]({folder}/README.md).", text(title));
+        if let Some(SeeAlso { title, readme, .. }) = self.see_also {
+            page += &format!(" See also [{}]({readme}).", text(title));
         }
-        page += &format!("\n\n{}{}", failures::markdown(self.finished, true), self.moved());
-        if let Some(figure) = forest::figure(self.project, self.finished) {
-            page += &section::figure(&figure);
-        }
+        page += &format!("\n\n{}{}", failures::markdown(self.finished, true), changes::parts(self, &link).concat());
+        page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
+    /// A study's id in Markdown; a link to its section where it has one.
+    fn linked(&self, id: &str, anchor: &str) -> String {
+        let has_a_section = self.finished.iter().any(|finished| finished.header.id == id);
+        if has_a_section { format!("[{}](#{anchor})", cell(id)) } else { cell(id) }
+    }
+
     /// The same as one page that needs nothing else.
     pub fn page(&self) -> String {
-        page::page(self)
+        page::page(self, forest::figure(self.project, self.finished).as_ref())
     }
 
     /// What of the report fits on one page of a continuous integration and in a comment: no links, no sections.
@@ -128,7 +150,8 @@ impl Findings<'_> {
         let passes = self.finished.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
         let folded =
             section::folded(&format!("{passes} of {} studies pass", self.finished.len()), &self.overview(cell), false);
-        let parts = [failures::markdown(self.finished, false), self.moved() + "\n", folded];
+        let failures = failures::markdown(self.finished, false);
+        let parts = [vec![failures], changes::parts(self, &cell), vec![folded]].concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {
             if digest.len() + part.len() + too_long.len() > LONGEST {
@@ -170,23 +193,6 @@ impl Findings<'_> {
             format!("\n**{}**\n\n{table}", text(group))
         };
         forest::grouped(self.project, self.finished).into_iter().map(table).collect()
-    }
-
-    /// What moved away from the baseline; nothing where nothing did.
-    fn moved(&self) -> String {
-        if self.moves().is_empty() {
-            return String::new();
-        }
-        let row =
-            |change: &Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
-        let rows = self.moves().iter().map(row).collect();
-        let table = section::untitled(&["study", "what", "change"], rows, "numbers");
-        let bless = if can_be_blessed(self.finished) {
-            format!("\nIf it is meant: `{}`.\n", blessing(self.project, self.command, self.finished, self.moves()))
-        } else {
-            String::new()
-        };
-        format!("\n## Moved from the baseline\n\n{table}{bless}")
     }
 
     /// Errors in long form, one a line.

@@ -12,6 +12,14 @@
     return [study, [...parts, rows.get(study.id).textContent].join(" ").toLowerCase()];
   }));
 
+  const groups = [...document.querySelectorAll("tr.group")];
+  // Taken once: sorting moves the rows.
+  const members = new Map(groups.map(group => {
+    const rows = [];
+    for (let row = group.nextElementSibling; row?.dataset.study; row = row.nextElementSibling) rows.push(row);
+    return [group, rows];
+  }));
+
   const filter = () => {
     const wanted = search.value.toLowerCase().split(/\s+/).filter(Boolean);
     let shown = 0;
@@ -21,6 +29,7 @@
       study.hidden = rows.get(study.id).hidden = !fits;
       shown += fits;
     }
+    for (const group of groups) group.hidden = members.get(group).every(row => row.hidden);
     count.textContent = shown === studies.length ? "" : `${shown} of ${studies.length} studies`;
   };
   search.addEventListener("input", filter);

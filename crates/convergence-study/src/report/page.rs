@@ -2,12 +2,13 @@
 //!
 //! Its elements are closed as XML wants it, so that tests can read it.
 
-use super::Findings;
 use super::html::{escape, html, phrase};
 use super::words::key_numbers;
-use super::{failures, forest, section};
+use super::{Findings, SeeAlso};
+use super::{changes, failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
+use crate::study::outcome::Figure;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
 /// What makes pictures answer the pointer.
@@ -18,10 +19,14 @@ const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), PI
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The page: verdicts first, then the studies, folded but for those that do not pass.
-pub(super) fn page(findings: &Findings<'_>) -> String {
-    let studies: String = findings.finished.iter().map(|finished| study(finished, &findings.again(finished))).collect();
+///
+/// * `rates`: the picture of all rates.
+pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
+    let groups = groups(findings);
+    let listed = groups.iter().flat_map(|(_, studies)| studies);
+    let studies: String = listed.map(|finished| study(finished, &findings.again(finished))).collect();
     let title = format!("{}: verification report", findings.verdict);
-    let body = format!("{}<main>\n{}{}{studies}</main>\n", head(findings), front(findings), overview(findings));
+    let body = format!("{}<main>\n{}{}{studies}</main>\n", head(findings), front(findings, rates), overview(&groups));
     document(&title, &body, &SCRIPTS)
 }
 
@@ -41,30 +46,49 @@ pub(super) fn document(title: &str, body: &str, scripts: &[&str]) -> String {
 }
 
 fn head(findings: &Findings<'_>) -> String {
-    let mut head = format!(
-        "<header>\n<h1>Verification report</h1>\n<p class=\"verdict\">{} {}</p>\n\
-         <p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
+    format!(
+        "<header>\n<h1>Verification report</h1>\n<p class=\"verdict\">{} {}</p>\n</header>\n",
         badge(findings.verdict),
         phrase(&findings.sentence()),
-        escape(findings.command),
-    );
-    if let Some((title, folder)) = findings.see_also {
-        head += &format!(" See also <a href=\"{}/index.html\">{}</a>.", escape(folder), phrase(title));
-    }
-    head += "</p>\n";
-    if let Some(provenance) = findings.provenance {
-        let sentences: Vec<String> = provenance.sentences().iter().map(|sentence| escape(sentence)).collect();
-        head += &format!("<p class=\"provenance\">{}</p>\n", sentences.join(" "));
-    }
-    head + "</header>\n"
+    )
 }
 
-/// What did not pass, what moved, and all rates in one picture.
-fn front(findings: &Findings<'_>) -> String {
-    let figure = forest::figure(findings.project, findings.finished);
-    let picture = figure.as_ref().map(section::figure).unwrap_or_default();
-    let markdown = format!("{}\n{picture}", findings.moved());
-    failures::html(findings.finished) + &html(&markdown, figure.as_slice())
+/// What did not pass, what changed, where the report comes from, and all rates in one picture.
+fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
+    let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
+    let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
+    failures::html(findings.finished) + &html(&changes, &[]) + &origin(findings) + &picture.unwrap_or_default()
+}
+
+/// What wrote the report, which other one there is, and which commit, day and machine it comes from.
+fn origin(findings: &Findings<'_>) -> String {
+    let mut origin = format!(
+        "<p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
+        escape(findings.command)
+    );
+    if let Some(SeeAlso { title, page, .. }) = findings.see_also {
+        origin += &format!(" See also <a href=\"{}\">{}</a>.", escape(page), phrase(title));
+    }
+    origin += "</p>\n";
+    if let Some(provenance) = findings.provenance {
+        let sentences: Vec<String> = provenance.sentences().iter().map(|sentence| escape(sentence)).collect();
+        origin += &format!("<p class=\"provenance\">{}</p>\n", sentences.join(" "));
+    }
+    origin
+}
+
+/// Studies with their group, in the order of the page.
+type Groups<'f> = Vec<(&'f str, Vec<&'f Finished>)>;
+
+/// Those that did not pass, then the others by what they claim.
+fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
+    let mut groups = vec![("did not pass", failures::in_order(findings.finished))];
+    for (label, mut studies) in forest::grouped(findings.project, findings.finished) {
+        studies.retain(|study| study.outcome.verdict == Verdict::Pass);
+        groups.push((label, studies));
+    }
+    groups.retain(|(_, studies)| !studies.is_empty());
+    groups
 }
 
 pub(super) fn badge(verdict: Verdict) -> String {
@@ -72,7 +96,7 @@ pub(super) fn badge(verdict: Verdict) -> String {
 }
 
 /// All verdicts in one table, below the controls, which scripts bring to life.
-fn overview(findings: &Findings<'_>) -> String {
+fn overview(groups: &Groups<'_>) -> String {
     let row = |Finished { header, outcome, .. }: &Finished| {
         format!(
             "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -82,10 +106,11 @@ fn overview(findings: &Findings<'_>) -> String {
             id = escape(&header.id),
         )
     };
-    let rows: String = forest::grouped(findings.project, findings.finished)
-        .into_iter()
-        .flat_map(|(_, studies)| studies.into_iter().map(row))
-        .collect();
+    let group = |(label, studies): &(&str, Vec<&Finished>)| {
+        let rows: String = studies.iter().copied().map(row).collect();
+        format!("<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">{}</th></tr>\n{rows}", phrase(label))
+    };
+    let rows: String = groups.iter().map(group).collect();
     let options: String = [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail]
         .map(|verdict| format!("<option>{}</option>", verdict.name()))
         .concat();

@@ -3,6 +3,7 @@
 use super::html::phrase;
 use super::markdown::{cell, table, text};
 use super::tables::tables;
+use super::words::summary;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::outcome::{Figure, Table};
@@ -21,7 +22,7 @@ pub(super) fn section(finished: &Finished, again: &str) -> String {
 /// All of a section but heading and claim.
 pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished { header, outcome, .. } = finished;
-    let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&outcome.summary))];
+    let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&summary(outcome)))];
     let passes = outcome.verdict == Verdict::Pass;
     parts.extend(tables(finished).iter().map(|table| titled(table, passes)));
     parts.extend(outcome.figures.iter().map(figure));

@@ -17,8 +17,11 @@
 
   const sort = (table, column, direction) => {
     const body = table.tBodies[0];
-    const rows = [...body.rows];
-    for (const [place, row] of rows.entries()) row.dataset.place ??= place;
+    const all = [...body.rows];
+    for (const [place, row] of all.entries()) row.dataset.place ??= place;
+    // Sorted, the rows belong to no group any more.
+    table.classList.toggle("sorted", direction !== "none");
+    const rows = direction === "none" ? all : all.filter(row => row.className !== "group");
     const key = sorting(rows, column);
     const sign = direction === "descending" ? -1 : 1;
     rows.sort((a, b) => {

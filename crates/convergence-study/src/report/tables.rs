@@ -4,7 +4,7 @@ use super::errors;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
 use crate::study::outcome::{Check, Outcome, Table};
-use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text, plain_text};
+use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text};
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
 pub fn tables(Finished { outcome, failed_cases, .. }: &Finished) -> Vec<Table> {
@@ -24,7 +24,7 @@ fn rates(outcome: &Outcome) -> Table {
         let number = |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
         [
             norm.clone(),
-            format!("{} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
+            rate.claim(),
             number(rate.fitted),
             rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES)),
             number(rate.extrapolated),

@@ -1,11 +1,12 @@
 //! Verdicts in words, the same ones for report and terminal.
 
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
+use crate::study::levels;
 use crate::study::outcome::Outcome;
-use crate::text::number::{committed_rate, plain_text, rate_text};
+use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text};
 
 /// The verdict on a run in one line, without the verdict itself.
 ///
@@ -42,14 +43,21 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
     let is_new = |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { .. });
     let new = changes.iter().filter(is_new).count();
-    let claims = changes.iter().filter(|change| change.movement.is_of_claims() && !is_new(change)).count();
-    let count = |n: usize, what: &str| match n {
+    let claims = changes.iter().filter(|change| change.movement.is_of_one_claim()).count();
+    let deleted = changes.iter().filter(|change| matches!(change.movement, Movement::VanishedFile { .. })).count();
+    let count = |n: usize, [one, many]: [&str; 2]| match n {
         0 => None,
-        1 => Some(format!("1 {what} changed")),
-        n => Some(format!("{n} {what}s changed")),
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {many}")),
     };
     let new_ones = (new > 0).then(|| format!("{new} not yet in the baseline"));
-    let changed = [count(claims, "claim"), count(changes.len() - claims - new, "baseline value"), new_ones];
+    let values = changes.len() - claims - deleted - new;
+    let changed = [
+        count(deleted, ["study deleted", "studies deleted"]),
+        count(claims, ["claim changed", "claims changed"]),
+        count(values, ["baseline value changed", "baseline values changed"]),
+        new_ones,
+    ];
     match (changes.len(), guarded) {
         (0, 0) => "no baseline values".to_owned(),
         (0, n) => format!("all {n} baseline values unchanged"),
@@ -88,12 +96,58 @@ pub fn key_numbers(outcome: &Outcome) -> String {
     }
 }
 
+/// What a study says of itself in a sentence. Rates that do not pass are grouped there by reason and claim: a table has each of them.
+pub fn summary(outcome: &Outcome) -> String {
+    let each = levels::summary(&outcome.rates);
+    if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+        return outcome.summary.clone();
+    }
+    outcome.summary.replacen(&each, &grouped(&outcome.rates), 1)
+}
+
+/// The rates that do not pass, those of one reason and one claim together: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
+fn grouped(rates: &[(String, RateVerdict)]) -> String {
+    let mut groups: Vec<Vec<&(String, RateVerdict)>> = vec![];
+    for missed in rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass) {
+        let is_alike =
+            |(_, known): &(String, RateVerdict)| known.kind == missed.1.kind && known.claim() == missed.1.claim();
+        match groups.iter_mut().find(|group| is_alike(group[0])) {
+            Some(group) => group.push(missed),
+            None => groups.push(vec![missed]),
+        }
+    }
+    let one = |group: &Vec<&(String, RateVerdict)>| {
+        let (name, rate) = group[0];
+        if group.len() == 1 {
+            return format!("{name}: {}", rate.line());
+        }
+        let (found, claim, why) = (range(group.iter().map(|(_, rate)| rate)), rate.claim(), rate.kind.brief());
+        let count = format!("{} of {} rates", group.len(), rates.len());
+        match rate.kind {
+            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {found}, claimed {claim}"),
+            _ => format!("{count}: {found}, claimed {claim}: {why}"),
+        }
+    };
+    groups.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+/// From the lowest to the highest of several rates, with digits that all of them have in their table.
+pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
+    let known: Vec<(f64, usize)> = rates
+        .filter_map(|rate| Some((rate.fitted?, rate.interval.map_or(3, |ends| interval_places(ends, RATE_PLACES)))))
+        .collect();
+    let Some(places) = known.iter().map(|(_, places)| *places).min() else { return "no rate".to_owned() };
+    let end = |pick: fn(f64, f64) -> f64| known.iter().map(|(rate, _)| *rate).reduce(pick).unwrap_or(f64::NAN);
+    let [low, high] = [end(f64::min), end(f64::max)].map(|rate| decimals(rate, places));
+    if low == high { low } else { format!("{low} to {high}") }
+}
+
 /// The worst rate, and how far the others are from their orders at most.
 fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     // The last of the worst would do as well; the first is the one that the study names first.
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
     let fitted = worst.fitted.map_or_else(|| "without a rate".to_owned(), |fitted| rate_text(Some(fitted)));
-    let mut parts = vec![format!("{name} {fitted} (order {})", plain_text(worst.order))];
+    let mut parts = vec![format!("{name} {fitted} (order {})", order_text(worst.order))];
     let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1) {

@@ -185,7 +185,8 @@ impl Baseline {
     /// Every guarded number of these studies that is not what it was, and every claim: moved, changed, new or vanished.
     ///
     /// * `known`: the headers of all studies that there are, run or not: claims are compared for all of them, numbers for those
-    ///   that were run. A study of the baseline that is not among them has vanished; `None` where only a selection is of interest.
+    ///   that were run. A study of the baseline that is not among them was deleted, which is one change, its numbers included; `None`
+    ///   where only a selection is of interest.
     pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
@@ -198,8 +199,11 @@ impl Baseline {
         let others = known.unwrap_or_default().iter().filter(|header| !was_run(&header.id));
         changes.extend(others.flat_map(|header| self.changed_claims(header)));
         for id in self.vanished(known) {
-            changes.extend(self.claims.get(&id).and_then(|claims| claims::vanished(&id, claims)));
-            changes.extend(change::between(&id, self.studies.get(&id).unwrap_or(&none), &[]));
+            match self.claims.get(&id).and_then(|claims| claims::vanished(&id, claims)) {
+                // That its numbers are gone is said by this.
+                Some(deleted) => changes.push(deleted),
+                None => changes.extend(change::between(&id, self.studies.get(&id).unwrap_or(&none), &[])),
+            }
         }
         changes
     }

@@ -82,13 +82,38 @@ pub fn decimals(value: f64, places: usize) -> String {
 
 /// Any other number as reports show it: like an error where it is very small or large, plainly elsewhere.
 pub fn plain_text(value: f64) -> String {
-    let value = committed(value);
+    written(committed(value))
+}
+
+fn written(value: f64) -> String {
     let size = value.abs();
     if value.is_finite() && size != 0.0 && !(1e-3..1e6).contains(&size) {
         format!("{value:e}")
     } else {
         value.to_string()
     }
+}
+
+/// An order as it is claimed: four decimals, fewer where they are zeros: `2`, `0.6667`.
+pub fn order_text(order: f64) -> String {
+    let rounded = committed_rate(order);
+    if rounded == 0.0 { plain_text(order) } else { rounded.to_string() }
+}
+
+/// A number of which only the size matters, with two digits: `0.52`, `2.3e11`.
+pub fn short_text(value: f64) -> String {
+    written(reread(format!("{value:.1e}"), value))
+}
+
+/// Two numbers as [`plain_text`] has them; where they would look alike or almost alike, with as many digits as make them
+/// differ, and one more.
+pub fn pair_text(pair: [f64; 2]) -> [String; 2] {
+    let rounded = |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));
+    let differs = |digits: &usize| rounded(*digits)[0] != rounded(*digits)[1];
+    // Seventeen digits tell any two numbers apart.
+    let needed = (1..=17).find(differs).unwrap_or(1);
+    let plain = pair.map(plain_text);
+    if needed < DIGITS && plain[0] != plain[1] { plain } else { rounded(needed + 1).map(written) }
 }
 
 #[cfg(test)]
@@ -157,6 +182,27 @@ mod tests {
     }
 
     #[test]
+    fn two_numbers_that_differ_look_different() {
+        for (pair, texts) in [
+            ([1.0, 1.01], ["1", "1.01"]),
+            ([0.008_482_598_7, 0.008_482_598_4], ["0.0084825987", "0.0084825984"]),
+            ([1.994_05, 1.994_06], ["1.99405", "1.99406"]),
+            ([1.994_051, 1.994_059], ["1.994051", "1.994059"]),
+            ([1e-9, 1.000_000_2e-9], ["1e-9", "1.0000002e-9"]),
+            ([4.1e-15, 4.3e-15], ["4.1e-15", "4.3e-15"]),
+            ([3.0, 3.0], ["3", "3"]),
+        ] {
+            assert_eq!(pair_text(pair), texts);
+        }
+        assert_eq!(pair_text([f64::NAN, 1.0]), ["NaN", "1"]);
+    }
+
+    #[test]
+    fn an_order_has_four_decimals_at_most() {
+        assert_eq!([2.0, 2.0 / 3.0, 1.5, 1e-6, f64::NAN].map(order_text), ["2", "0.6667", "1.5", "1e-6", "NaN"]);
+    }
+
+    #[test]
     fn texts_of_numbers_are_short_and_name_nan() {
         assert_eq!(error_text(4.454_12e-8), "4.454e-8");
         assert_eq!(error_text(f64::NAN), "NaN");
@@ -164,6 +210,7 @@ mod tests {
         assert_eq!(rate_text(Some(1.99996)), "2.000");
         assert_eq!(rate_text(Some(-1e-9)), "0.000");
         assert_eq!(rate_text(None), "-");
+        assert_eq!([0.5249, 226_297_294_514.99, 2.2e-16, 0.0].map(short_text), ["0.52", "2.3e11", "2.2e-16", "0"]);
         assert_eq!(plain_text(1e-3), "0.001");
         assert_eq!(plain_text(2.5e-7), "2.5e-7");
         assert_eq!(plain_text(-0.0), "-0");

@@ -112,7 +112,10 @@ pub(crate) fn a_review_fails_where_a_study_does_and_nothing_differs() {
     ] {
         let (status, out, _) = texts(command(root.path(), arguments).env(ORDER, "2").output().unwrap());
         assert_eq!(status, Some(1), "{out}");
-        assert!(out.starts_with("one: fail\n  error: rate 1.000: ") && out.ends_with(end), "{out}");
+        assert!(
+            out.starts_with("one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low\n") && out.ends_with(end),
+            "{out}"
+        );
     }
 }
 

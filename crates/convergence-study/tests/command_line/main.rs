@@ -43,13 +43,16 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 26] = [
+const TESTS: [Test; 29] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
         a_changed_claim_fails_until_it_is_blessed_with_a_reason,
     ),
     ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
+    ("what_fails_is_printed_last_and_what_passes_is_counted", what_fails_is_printed_last_and_what_passes_is_counted),
+    ("a_deleted_study_is_one_change_and_is_named", a_deleted_study_is_one_change_and_is_named),
+    ("the_page_links_to_what_is_there_of_the_full_tier", the_page_links_to_what_is_there_of_the_full_tier),
     ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
     ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
     ("claims_and_ids_with_control_characters_are_refused", claims_and_ids_with_control_characters_are_refused),
@@ -160,7 +163,9 @@ fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
     let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true").output().unwrap());
     assert_eq!(status, Some(1));
     assert!(
-        out.contains(&format!("baseline: {change}\nif that is meant: powers verify --bless --reason TEXT\n")),
+        out.contains(
+            "claims changed\n  one: study.claim \"c\", now \"another claim\"\nif that is meant: powers verify --bless --reason TEXT\n"
+        ),
         "{out}"
     );
     assert!(out.contains(&format!("::error title=baseline::{change}\n")), "{out}");
@@ -184,7 +189,7 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     fs::write(&file, full(1.001)).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains("two: claim exponent: was 1, is 1.001\n"), "{out}");
+    assert!(status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"), "{out}");
     assert!(out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"), "{out}");
     // A blessing of the quick tier leaves the claim of a study that was not run as it was.
     assert_eq!(run(&root, &["verify", "--bless", "--reason", "x"]).0, Some(1));
@@ -192,7 +197,67 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0).replace("\"quick\"", "\"full\"")).unwrap();
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains(r#"one: claim study.tier: was "quick", is "full""#), "{out}");
+    assert!(status == Some(1) && out.contains("  one: study.tier \"quick\", now \"full\"\n"), "{out}");
+}
+
+/// The end of what is printed is what a terminal shows.
+fn what_fails_is_printed_last_and_what_passes_is_counted() {
+    let root = workspace(true);
+    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
+    assert_eq!(run(&root, &["verify", "one", "three", "--bless"]).0, Some(0));
+    let (status, out, _) = run(&root, &["verify"]);
+    let lines: Vec<&str> = out.lines().collect();
+    assert_eq!((status, lines.len()), (Some(1), 15), "{out}");
+    assert!(lines[0].starts_with("study  verdict") && lines[1].starts_with("two    fail"), "{out}");
+    assert_eq!(
+        lines[2..5],
+        ["2 studies pass (--verbose lists them)", "", "report: reports/index.html, reports/README.md"]
+    );
+    assert_eq!(lines[11..14], ["two: fail", "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low", ""]);
+    assert!(lines[14].starts_with("fail: 1 of 3 fail (two); "), "{out}");
+    let (_, out, _) = run(&root, &["verify", "--verbose"]);
+    assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("studies pass ("), "{out}");
+}
+
+fn a_deleted_study_is_one_change_and_is_named() {
+    let root = workspace(false);
+    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    fs::remove_file(root.path().join("studies/three.toml")).unwrap();
+    let (status, out, _) = run(&root, &["verify", "--quiet"]);
+    let said = "claims changed\n  three: deleted\nif that is meant: powers verify --bless --reason TEXT\n\
+                fail: the study passes; 1 study deleted\n";
+    assert_eq!((status, out.as_str()), (Some(1), said));
+    for file in ["README.md", "summary.md"] {
+        let page = fs::read_to_string(root.path().join("reports").join(file)).unwrap();
+        assert!(page.contains("; 1 study deleted\n"), "{page}");
+        assert!(page.contains("\n## Claims changed\n\n- three: deleted\n\n") && !page.contains("Moved from"), "{page}");
+    }
+    let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
+    assert!(page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"), "{page}");
+    let (status, out, _) = run(&root, &["review", "--accept", "three:study file", "--reason", "as one"]);
+    assert!(status == Some(0) && out.contains("1 accepted, nothing else differs"), "{out}");
+    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
+    assert!(baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(), "{baseline}");
+}
+
+fn the_page_links_to_what_is_there_of_the_full_tier() {
+    let root = workspace(false);
+    let page = || {
+        run(&root, &["verify", "--bless"]);
+        let read = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
+        (read("index.html"), read("README.md"))
+    };
+    assert!(!page().0.contains("full/"));
+    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    let (with, committed) = page();
+    assert!(with.contains("href=\"full/index.html\"") && committed.contains("](full/README.md)"), "{committed}");
+    // As in a fresh checkout: pages are not committed.
+    fs::remove_file(root.path().join("reports/full/index.html")).unwrap();
+    let (without, same) = page();
+    assert!(without.contains("href=\"full/README.md\"") && !without.contains("full/index.html"));
+    assert_eq!(same, committed);
 }
 
 fn an_unwritable_job_summary_keeps_the_exit_status() {
@@ -328,8 +393,8 @@ fn rates_come_in_words_and_as_an_object() {
     let with = |more: &[&str]| run(&root, &[&claims, more].concat());
     let (status, out, err) = with(&[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    assert!(out.contains("L2: pass: the rate agrees with the order; rate 2.000000 ± 0.0000005 from "), "{out}");
-    assert!(out.contains("other: inconclusive: no order is claimed; rate 0.000000 ± 0.0000005 from "), "{out}");
+    assert!(out.contains("L2: pass: 2.000000 ± 0.0000005, claimed 2 ± 0.05\n"), "{out}");
+    assert!(out.contains("other: inconclusive: 0.000000 ± 0.0000005: no order is claimed\n"), "{out}");
     assert!(out.contains("powers rates t: --order P") && !out.contains("xtask"), "{out}");
     assert!(out.ends_with("pass: 2 of 2 columns agree with their orders\n"), "{out}");
     assert_eq!(with(&["--all"]).0, Some(1));
@@ -337,11 +402,7 @@ fn rates_come_in_words_and_as_an_object() {
     // A rate that disagrees is shown all the same.
     let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
     assert_eq!(status, Some(1));
-    assert!(
-        out.starts_with("H1: fail: the rate is too low; rate 1.000000 ± 0.0000005 from ")
-            && out.contains("claimed 2 ± 0.05"),
-        "{out}"
-    );
+    assert!(out.starts_with("H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.05: too low\n"), "{out}");
     let (_, out, _) = with(&["--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((&object["schema"], &object["verdict"]), (&1.into(), &"pass".into()));

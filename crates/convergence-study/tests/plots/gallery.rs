@@ -266,12 +266,15 @@ pub(crate) fn all_rates() -> Forest {
         judged,
     };
     let none = ForestRate { rate: None, interval: None, judged: Judged::Inconclusive };
-    let row = |label: &str, rates: Vec<ForestRate>| ForestRow { label: label.into(), rates };
+    let row = |label: &str, rates: Vec<ForestRate>| ForestRow { label: label.into(), rates, note: String::new() };
     let space = vec![
         row("first-order", vec![rate(0.1, 0.2, Judged::Pass), rate(-0.3, 0.1, Judged::Pass)]),
-        row("lost-order", vec![rate(-20.0, 0.1, Judged::Fail), none]),
+        ForestRow {
+            note: "1.000, claimed 2".into(),
+            ..row("lost-order", vec![rate(-20.0, 0.1, Judged::Fail), none, none])
+        },
     ];
-    let time = vec![row("scattered", vec![rate(0.4, 1.1, Judged::Inconclusive)])];
+    let time = vec![row("scattered", vec![rate(0.4, 1.1, Judged::Inconclusive), rate(0.2, 3.0, Judged::Inconclusive)])];
     let group = |label: &str, rows| ForestGroup { label: label.into(), rows };
     Forest { title: "All rates".into(), groups: vec![group("space", space), group("time", time)] }
 }

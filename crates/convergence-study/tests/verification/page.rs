@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::{Convergence, ErrorSeries, convergence};
-use convergence_study::report::Findings;
+use convergence_study::report::{Findings, SeeAlso};
 use convergence_study::run::Finished;
 use convergence_study::study::outcome::Figure;
 use roxmltree::{Document, Node};
@@ -10,7 +10,8 @@ use roxmltree::{Document, Node};
 use crate::fake::{Does, PROJECT, finished, study};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
-    let see_also = Some(("the report on the full tier", "full"));
+    let title = "the report on the full tier";
+    let see_also = Some(SeeAlso { title, readme: "full/README.md", page: "full/index.html" });
     let command = "cargo xtask verify";
     Findings {
         project: &PROJECT,
@@ -66,7 +67,7 @@ fn with_class<'d>(document: &'d Document<'d>, class: &'d str) -> impl Iterator<I
 fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
     parsed(&page_of(&two()), |document| {
         let studies: Vec<_> = with_class(document, "study").collect();
-        assert_eq!(studies.iter().map(|study| study.attribute("id").unwrap()).collect::<Vec<_>>(), ["good-1.0", "bad"]);
+        assert_eq!(studies.iter().map(|study| study.attribute("id").unwrap()).collect::<Vec<_>>(), ["bad", "good-1.0"]);
         for study in &studies {
             let pictures = study.descendants().filter(|node| node.attribute("data-plot").is_some()).count();
             assert_eq!(pictures, 1);
@@ -76,8 +77,38 @@ fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
         assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
         let links: Vec<&str> = named(document, "a").filter_map(|link| link.attribute("href")).collect();
         // What did not pass stands first.
-        assert_eq!(links, ["full/index.html", "#bad", "#good-1.0", "#bad"]);
+        assert_eq!(links, ["#bad", "full/index.html", "#bad", "#good-1.0"]);
     });
+}
+
+#[test]
+fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
+    let mut studies = finished(
+        [("a", Does::Converge), ("b", Does::TooShort), ("c", Does::Converge), ("d", Does::Stay)]
+            .map(|(id, does)| study(id, does))
+            .into(),
+    );
+    for (finished, group) in studies.iter_mut().zip(["time", "time", "space", "space"]) {
+        finished.header.group = group.to_owned();
+    }
+    parsed(&page_of(&studies), |document| {
+        let body = named(document, "tbody").find(|body| body.children().any(|row| row.has_attribute("data-study")));
+        let rows = body.unwrap().children().filter(Node::is_element);
+        let label = |row: Node<'_, '_>| {
+            row.attribute("data-study").unwrap_or_else(|| row.first_child().unwrap().text().unwrap()).to_owned()
+        };
+        assert_eq!(rows.map(label).collect::<Vec<_>>(), ["did not pass", "d", "b", "time", "a", "space", "c"]);
+        let details: Vec<_> = with_class(document, "study").map(|study| study.attribute("id").unwrap()).collect();
+        assert_eq!(details, ["d", "b", "a", "c"]);
+    });
+}
+
+#[test]
+fn what_wrote_the_page_is_said_below_what_failed_and_one_picture_is_wide() {
+    let page = page_of(&two());
+    let place = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} in {page}"));
+    assert!(place("What did not pass") < place("Written by") && place("Written by") < place("class=\"scroll wide\""));
+    assert_eq!(page.matches("class=\"scroll wide\"").count(), 1);
 }
 
 #[test]
@@ -86,7 +117,7 @@ fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
     assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
     parsed(&page, |document| {
         let open: Vec<bool> = with_class(document, "study").map(|study| study.has_attribute("open")).collect();
-        assert_eq!(open, [false, true]);
+        assert_eq!(open, [true, false]);
         let badges: Vec<_> = document.descendants().filter_map(|node| node.attribute("class")).collect();
         assert_eq!(badges.iter().filter(|class| **class == "badge fail").count(), 4);
     });
@@ -134,6 +165,6 @@ fn a_long_table_is_folded_and_unfolded_where_the_study_does_not_pass() {
     parsed(&page_of(&studies), |document| {
         let folded = named(document, "details").filter(|node| node.attribute("class").is_none());
         let open: Vec<bool> = folded.map(|node| node.has_attribute("open")).collect();
-        assert_eq!(open, [false, true]);
+        assert_eq!(open, [true, false]);
     });
 }

@@ -1,9 +1,10 @@
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::report::{Findings, LONGEST, sentence, tables};
+use convergence_study::report::{Findings, LONGEST, not_passed, sentence, tables};
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::{Baseline, Change, Movement};
 use convergence_study::store::junit::junit;
-use convergence_study::study::outcome::{LevelErrors, Quantity, Table};
+use convergence_study::study::levels;
+use convergence_study::study::outcome::{LevelErrors, Table};
 use roxmltree::Document;
 
 use crate::fake::{Does, PROJECT, finished, study};
@@ -130,7 +131,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
         document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
     assert!(message.is_some(), "{text}");
     let page = with(&studies, |findings| findings.readme());
-    assert!(page.contains("a < b & \"c\"  [31m \\| ]]> next"), "{page}");
+    assert!(page.contains("a < b & \"c\"  \\[31m \\| \\]\\]> next"), "{page}");
 }
 
 #[test]
@@ -164,13 +165,94 @@ fn the_picture_for_the_front_page_has_a_name_of_its_own() {
     assert!(has_front(&studies));
 }
 
+fn moved(study: &str, name: &str, to: f64) -> Change {
+    let movement = Movement::Moved { from: 1.0, to, tolerance: 1e-3 };
+    Change { study: study.to_owned(), name: name.to_owned(), movement }
+}
+
 #[test]
-fn many_numbers_that_moved_are_folded() {
-    let mut studies = finished(vec![study("a", Does::Converge)]);
-    let one = studies[0].outcome.quantities[0].clone();
-    assert!(with(&studies, |findings| findings.readme()).contains("baseline\n\n| study"));
-    studies[0].outcome.quantities = (0..100).map(|i| Quantity { name: format!("q{i}"), ..one.clone() }).collect();
-    assert!(with(&studies, |findings| findings.readme()).contains("<summary>100 numbers</summary>"));
+fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
+    let studies = finished(vec![study("a", Does::Converge), study("b-1.0", Does::Converge)]);
+    let changes = [moved("a", "q0", 1.002), moved("a", "q1", 1.5), moved("a", "q2", 1.1), moved("b-1.0", "q", 4.0)];
+    let page =
+        |changes: &[Change]| with(&studies, |findings| Findings { changes: Some(changes), ..*findings }.readme());
+    let readme = page(&changes);
+    let section = readme.split("## Moved from the baseline\n\n").nth(1).unwrap();
+    let lines: Vec<&str> = section.lines().collect();
+    assert!(lines[0].starts_with("The worst number of each study; first those that moved by the largest multiple"));
+    let cells = |line: &str| line.split(" | ").map(|cell| cell.trim_matches(['|', ' ']).to_owned()).collect::<Vec<_>>();
+    let row = |cells: [&str; 5]| cells.map(str::to_owned).to_vec();
+    let moved_by = |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");
+    assert_eq!(cells(lines[4]), row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000"]));
+    assert_eq!(cells(lines[5]), row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500"]));
+    // Each thing is parted from the next one by an empty line, or it is taken for one paragraph.
+    assert_eq!(lines[6..10], ["", "If it is meant: `cargo xtask verify --bless`.", "", "<details>"]);
+    assert_eq!(lines[10], "<summary>all 4 numbers</summary>");
+    assert!(readme.contains("</details>\n\n![All 2 judged rates"), "{readme}");
+    let short = page(&changes[2..]);
+    assert!(!short.contains("<details>") && short.contains("`.\n\n![All 2 judged rates"), "{short}");
+    // A comment has no sections to link to.
+    let digest = with(&studies, |findings| Findings { changes: Some(&changes), ..*findings }.digest());
+    assert!(digest.contains("| b-1.0 |") && !digest.contains("]("), "{digest}");
+}
+
+#[test]
+fn a_number_that_moved_by_little_is_shown_with_the_digits_that_moved() {
+    let movement = Movement::Moved { from: 0.008_482_598_7, to: 0.008_482_598_4, tolerance: 1e-8 };
+    let told = "moved from 0.0084825987 to 0.0084825984, by -3.5e-6 %, tolerated 1e-6 %";
+    assert_eq!(movement.to_string(), told);
+}
+
+#[test]
+fn where_a_study_fails_the_report_says_that_nothing_is_blessed() {
+    let studies = finished(vec![study("a", Does::Stay)]);
+    let page = with(&studies, |findings| findings.readme());
+    let said = "\n\n`--bless` refuses until the studies that did not pass are mended.\n\n";
+    assert!(page.contains(said) && !page.contains("If it is meant"), "{page}");
+}
+
+#[test]
+fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
+    let mut studies =
+        finished(vec![study("a-controls", Does::Converge), study("b", Does::TooShort), study("c-1.0", Does::Stay)]);
+    let order = |studies: &[Finished]| not_passed(studies).into_iter().map(|study| study.id).collect::<Vec<_>>();
+    studies[0].outcome.verdict = Verdict::Fail;
+    studies[0].outcome.checks[0].verdict = Verdict::Fail;
+    for (evidence, expected) in [
+        ("1 of 2 pass; not c-1.0.", ["c-1.0", "b", "a-controls"]),
+        // Its own name, or a part of another word, is no cause.
+        ("a-controls: b-2, c-1.00", ["a-controls", "c-1.0", "b"]),
+    ] {
+        studies[0].outcome.checks[0].evidence = evidence.to_owned();
+        assert_eq!(order(&studies), expected, "{evidence}");
+    }
+}
+
+#[test]
+fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
+    let mut finished = judged(&[("L2", 1.0), ("H1", 1.001), ("L1", 3.0)], |_, _| false);
+    let steps = || (0..6).map(|level| 0.5_f64.powi(level + 3));
+    for ((_, rate), order) in finished.outcome.rates.iter_mut().zip([1.0, 1.001, 3.0]) {
+        *rate = judge_pairs(steps().map(|h| (h, h.powf(order))), 2.0, 0.01);
+    }
+    finished.outcome.verdict = Verdict::Fail;
+    finished.outcome.summary = levels::summary(&finished.outcome.rates);
+    let studies = [finished];
+    let together =
+        "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
+    let page = with(&studies, |findings| findings.readme());
+    assert!(page.contains(&format!("**fail**: {together}\n")), "{page}");
+    assert!(page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low\n"), "{page}");
+}
+
+#[test]
+fn a_claim_without_a_rate_and_an_order_with_many_digits_are_told_shortly() {
+    let mut finished = judged(&[("L2", 1.0)], |_, _| false);
+    let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
+    finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
+    finished.outcome.verdict = Verdict::Fail;
+    let reasons = not_passed(&[finished]).remove(0).reasons;
+    assert_eq!(reasons, ["L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite"]);
 }
 
 /// Errors of several names, each of its order, on levels of which each name may lack some.

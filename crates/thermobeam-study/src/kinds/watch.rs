@@ -1,6 +1,6 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, short_text};
 use thermobeam::energy::{Balance, Rounding};
 
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
@@ -54,6 +54,9 @@ pub(super) struct Watch {
 
 /// A share of what is allowed, in words.
 pub(super) fn of_allowed(share: f64) -> String {
+    if share > 1.0 {
+        return format!("{} times what is allowed", short_text(share));
+    }
     let share = if share < 0.01 && share > 0.0 { format!("{share:.0e}") } else { format!("{share:.2}") };
     format!("{share} of what is allowed")
 }

@@ -32,6 +32,12 @@ fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
         assert_eq!(outcome.verdict, Verdict::Fail);
         assert!(report(&outcome).contains("planted"));
     }
+    // The study that does not pass is named: the fault is there.
+    let mut broken = sound.clone();
+    if let Ok(judged) = &mut broken[0].found {
+        judged.verdict = Verdict::Fail;
+    }
+    assert!(report(&study.judge(&broken)).contains("0 of 1 pass; not any-order-coefficients"));
     assert_ne!(study.judge(&sound[1..]).verdict, Verdict::Pass);
     assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
 }

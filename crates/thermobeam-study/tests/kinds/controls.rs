@@ -39,7 +39,11 @@ fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_on
     let undetected: Vec<_> = blind.checks.iter().filter(|check| check.verdict == Verdict::Fail).collect();
     assert_eq!(undetected.len(), 1);
     assert!(undetected[0].claim.contains("rho"));
-    assert_eq!(study.judge(&replaced(rho, Fault::None)).verdict, Verdict::Fail);
+    let broken = study.judge(&replaced(rho, Fault::None));
+    assert_eq!(broken.verdict, Verdict::Fail);
+    // The studies that do not pass are named: the fault is there.
+    let honest = broken.checks.iter().find(|check| check.claim.starts_with("without a fault")).unwrap();
+    assert!(honest.evidence.contains(" pass; not ") && honest.evidence.contains("theorem-3.4-space"), "{honest:?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use super::text::{legend, mark, pairwise, rate, sentence};
+use super::text::{found, legend, mark, pairwise, rate, sentence};
 use super::{Findings, Judged};
 use crate::cli::github;
 use crate::judge::verdict::Aside;
@@ -83,11 +83,7 @@ fn markdown(findings: &Findings<'_>, picture: &str) -> String {
     page += &row(["column", "order claimed", "rate", "verdict", "reason"].map(str::to_owned));
     page += "| --- | --- | --- | --- | --- |\n";
     for judged in &findings.columns {
-        let claim = if judged.is_claimed() {
-            format!("{} ± {}", judged.rate.order, judged.rate.tolerance)
-        } else {
-            "-".to_owned()
-        };
+        let claim = if judged.is_claimed() { judged.rate.claim() } else { "-".to_owned() };
         let verdict = judged.rate.verdict.to_string();
         page += &row([cell(judged.name), claim, rate(judged), verdict, judged.reason().to_owned()]);
     }
@@ -136,7 +132,7 @@ fn cell(raw: &str) -> String {
 fn judged(findings: &Findings<'_>) -> Vec<junit::Judged> {
     let case = |judged: &Judged<'_>| {
         let claim = if judged.is_claimed() { format!(": order {}", judged.rate.order) } else { String::new() };
-        (judged.name.to_owned() + &claim, judged.rate.verdict, format!("{}; {}", judged.reason(), rate(judged)))
+        (judged.name.to_owned() + &claim, judged.rate.verdict, found(judged))
     };
     let cases: Vec<_> = findings.columns.iter().filter(|column| column.decides).map(case).collect();
     if cases.is_empty() { vec![("a claim".to_owned(), findings.verdict, sentence(findings))] } else { cases }

@@ -8,7 +8,7 @@ mod text;
 use std::collections::{BTreeMap, HashSet};
 use std::path::PathBuf;
 
-use crate::input::error_table::{Choice, RateTable, position};
+use crate::input::error_table::{Choice, RateTable, names::position};
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::project::Project;
 use crate::text::names::{did_you_mean, nearest};
@@ -83,7 +83,7 @@ impl Judged<'_> {
     /// The judge reports an unusable order; here none was given.
     fn reason(&self) -> &'static str {
         match (self.is_claimed(), self.is_unlike) {
-            (true, _) => self.rate.kind.text(),
+            (true, _) => self.rate.kind.brief(),
             (false, true) => "not meant by --order P, for it does not fall with the step; --order NAME=P judges it",
             (false, false) => "no order is claimed",
         }

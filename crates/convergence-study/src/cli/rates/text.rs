@@ -7,7 +7,7 @@ use super::{Findings, Judged};
 use crate::cli::screen;
 use crate::explain::{reason_text, section};
 use crate::judge::verdict::{Aside, Reason, Verdict};
-use crate::text::number::{decimals, interval_places, interval_text};
+use crate::text::number::{decimals, interval_places};
 
 /// Most decimals of a rate.
 const MOST_PLACES: usize = 6;
@@ -49,30 +49,27 @@ pub(super) fn pairwise(judged: &Judged<'_>, level: usize) -> String {
 
 /// The rate with its interval; that between the finest levels where there is no interval.
 pub(super) fn rate(judged: &Judged<'_>) -> String {
-    let (rate, places) = (judged.rate, places(judged));
-    match (rate.fitted, rate.interval) {
-        (Some(fitted), Some(interval)) => {
-            let (fitted, interval) = (decimals(fitted, places), interval_text(interval, MOST_PLACES));
-            let (first, last, levels) = (rate.used.start + 1, rate.used.end, rate.pairwise.len() + 1);
-            // A narrow interval begins with its middle.
-            let fitted = if interval.starts_with(&fitted) { String::new() } else { fitted + ", " };
-            format!("rate {fitted}{interval} from levels {first} to {last} of {levels}")
+    let finest = || judged.rate.pairwise.iter().rfind(|rate| rate.is_finite());
+    match (judged.rate.found(MOST_PLACES), finest()) {
+        (Some(found), _) => found,
+        (None, Some(finest)) => {
+            format!("{} between the finest levels that have one", decimals(*finest, places(judged)))
         }
-        _ => match rate.pairwise.iter().rfind(|rate| rate.is_finite()) {
-            Some(finest) => format!("rate {} between the finest levels that have one", decimals(*finest, places)),
-            None => "no rate".to_owned(),
-        },
+        (None, None) => "no rate".to_owned(),
     }
 }
 
-/// Verdict, reason, rate and claim of a column.
+/// Rate, claim, and the reason where that is not a pass.
+pub(super) fn found(judged: &Judged<'_>) -> String {
+    let claim = if judged.is_claimed() { format!(", claimed {}", judged.rate.claim()) } else { String::new() };
+    let passes = judged.rate.verdict == Verdict::Pass;
+    let reason = if passes { String::new() } else { format!(": {}", judged.reason()) };
+    format!("{}{claim}{reason}", rate(judged))
+}
+
+/// Verdict, rate, claim and reason of a column.
 fn line(judged: &Judged<'_>) -> String {
-    let claim = if judged.is_claimed() {
-        format!("; claimed {} ± {}", judged.rate.order, judged.rate.tolerance)
-    } else {
-        String::new()
-    };
-    format!("{}: {}: {}; {}{claim}\n", judged.name, screen::verdict(judged.rate.verdict), judged.reason(), rate(judged))
+    format!("{}: {}: {}\n", judged.name, screen::verdict(judged.rate.verdict), found(judged))
 }
 
 /// The errors with the rates beside them, a verdict for each column, and that of all.

@@ -16,7 +16,7 @@
 mod cells;
 mod columns;
 mod grid;
-mod names;
+pub(crate) mod names;
 mod number;
 mod pairs;
 mod spans;
@@ -32,7 +32,6 @@ use crate::input::{self, Complaint, InputError, Place};
 use crate::judge::verdict::{Judge, Level, RateVerdict};
 pub use columns::Choice;
 use grid::Grid;
-pub(crate) use names::position;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]

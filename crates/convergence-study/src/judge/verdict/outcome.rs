@@ -4,7 +4,7 @@ use std::{fmt, ops::Range};
 
 use super::reading::Reading;
 use crate::judge::power_law::PowerLaw;
-use crate::text::number::{RATE_PLACES, interval_text};
+use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text, order_text, plain_text};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -129,6 +129,17 @@ impl Reason {
     }
 }
 
+impl Reason {
+    /// The reason behind a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
+    pub fn brief(self) -> &'static str {
+        match self {
+            Self::TooLow => "too low",
+            Self::TooHigh => "too high",
+            other => other.text(),
+        }
+    }
+}
+
 /// A level without a say in the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct SetAside {
@@ -196,6 +207,32 @@ impl RateVerdict {
         Some(PowerLaw { rate: self.fitted?, constant: self.constant? })
     }
 
+    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` where that is narrow; `None` without one.
+    /// The levels follow where not all were used.
+    ///
+    /// * `most`: decimals at most.
+    pub fn found(&self, most: usize) -> Option<String> {
+        let (fitted, interval) = (self.fitted?, self.interval?);
+        let fitted = decimals(fitted, interval_places(interval, most));
+        let (first, last, levels) = (self.used.start + 1, self.used.end, self.pairwise.len() + 1);
+        let interval = interval_text(interval, most);
+        // A narrow interval begins with its middle.
+        let rate = if interval.contains(" ± ") { interval } else { format!("{fitted} ({interval})") };
+        let all = self.used == (0..levels);
+        Some(if all { rate } else { format!("{rate} from levels {first} to {last} of {levels}") })
+    }
+
+    /// What is claimed: `2 ± 0.05`.
+    pub fn claim(&self) -> String {
+        format!("{} ± {}", order_text(self.order), plain_text(self.tolerance))
+    }
+
+    /// Rate, claim and reason in a line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
+    pub fn line(&self) -> String {
+        let found = self.found(RATE_PLACES).unwrap_or_else(|| "no rate".to_owned());
+        format!("{found}, claimed {}: {}", self.claim(), self.kind.brief())
+    }
+
     /// Puts the verdict together, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
         let levels = reading.levels;
@@ -210,7 +247,11 @@ impl RateVerdict {
                 let (first, last) = (used.start + 1, used.end);
                 let rate = interval_text(interval, RATE_PLACES);
                 let found = format!("{text}: {rate} from levels {first} to {last} of {levels}");
-                if kind == Reason::ClaimUnusable { found } else { format!("{found}, claimed {order} ± {tolerance}") }
+                if kind == Reason::ClaimUnusable {
+                    found
+                } else {
+                    format!("{found}, claimed {} ± {}", order_text(order), plain_text(tolerance))
+                }
             }
             None => text,
         };

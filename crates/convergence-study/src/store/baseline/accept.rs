@@ -22,6 +22,7 @@ impl Baseline {
                 self.studies.get_mut(study).into_iter().for_each(|guarded| drop(guarded.remove(name)));
             }
             (Movement::VanishedFile { .. }, _) => {
+                self.studies.remove(study);
                 self.claims.get_mut(study).into_iter().for_each(|claims| claims::withdraw(claims, Some(reason)));
             }
             (_, None) => return Err(Refusal::NotRun { study: study.clone() }),

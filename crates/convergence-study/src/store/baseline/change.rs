@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::Guarded;
 use crate::study::outcome::Quantity;
-use crate::text::number::plain_text;
+use crate::text::number::{pair_text, plain_text};
 
 /// A guarded number or a claim that changed.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,25 @@ impl Change {
     /// What changed, in words: the quantity, or `claim PATH`.
     pub fn subject(&self) -> String {
         if self.movement.is_of_one_claim() { format!("claim {}", self.name) } else { self.name.clone() }
+    }
+
+    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; of anything else, as it is displayed.
+    pub fn words(&self) -> String {
+        let Self { study, name, movement } = self;
+        match movement {
+            Movement::VanishedFile { .. } => format!("{study}: deleted"),
+            Movement::Claim { from, to, entry } => {
+                let key = name.rsplit_once('.').map_or(name.as_str(), |(_, key)| key);
+                let what =
+                    entry.as_ref().map_or(format!("{study}: {name}"), |entry| format!("{study}, {entry}: {key}"));
+                match (from, to) {
+                    (Some(from), Some(to)) => format!("{what} {from}, now {to}"),
+                    (Some(from), None) => format!("{what} {from} removed"),
+                    (None, to) => format!("{what} {} added", to.as_deref().unwrap_or_default()),
+                }
+            }
+            _ => self.to_string(),
+        }
     }
 }
 
@@ -64,6 +83,8 @@ pub enum Movement {
         from: Option<String>,
         /// The value in the file; nothing where there is none.
         to: Option<String>,
+        /// What the entry of a list that holds the value is about, such as the norm of `expect[0]`; nothing where no value says so.
+        entry: Option<String>,
     },
     /// The baseline knows no claim of the study.
     NewFile {
@@ -88,7 +109,7 @@ impl Movement {
         matches!(self, Self::Claim { .. } | Self::NewFile { .. } | Self::VanishedFile { .. })
     }
 
-    /// Whether a blessing has to say why: a claim was changed or withdrawn.
+    /// Whether a blessing has to say why: a claim was changed, or withdrawn with its study.
     pub fn needs_a_reason(&self) -> bool {
         matches!(self, Self::Claim { .. } | Self::VanishedFile { .. })
     }
@@ -158,18 +179,19 @@ impl fmt::Display for Movement {
             Self::Tolerance { from, to } => write!(f, "has another tolerance: was {from:e}, is {to:e}"),
             Self::New { value } => write!(f, "is new: {}", plain_text(*value)),
             Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(*value)),
-            Self::Claim { from, to } => {
+            Self::Claim { from, to, .. } => {
                 let [from, to] = [from, to].map(|value| value.as_deref().unwrap_or("absent"));
                 write!(f, "was {from}, is {to}")
             }
             Self::NewFile { values } => write!(f, "is new: {values} values"),
-            Self::VanishedFile { values } => write!(f, "has vanished: had {values} values"),
+            Self::VanishedFile { values } => write!(f, "was deleted: it had {values} values"),
         }
     }
 }
 
 fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt::Result {
-    write!(f, "moved from {} to {}", plain_text(from), plain_text(to))?;
+    let [before, after] = pair_text([from, to]);
+    write!(f, "moved from {before} to {after}")?;
     let change = (to - from) / from.abs();
     if change.is_finite() {
         write!(f, ", by {}{}, tolerated {}", if change > 0.0 { "+" } else { "" }, percent(change), percent(tolerance))

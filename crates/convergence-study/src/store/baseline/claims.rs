@@ -40,11 +40,24 @@ pub(super) fn changes(header: &Header, blessed: Option<&Claims>) -> Vec<Change> 
     for (path, value) in settings {
         paths.entry(path).or_default()[1] = Some(value);
     }
-    let changed = paths.into_iter().filter(|(_, [from, to])| from != to);
+    let changed = paths.iter().map(|(path, values)| (*path, *values)).filter(|(_, [from, to])| from != to);
     let change = |(path, [from, to]): (&str, [Option<&str>; 2])| {
-        Change::new(id, path, Movement::Claim { from: from.map(str::to_owned), to: to.map(str::to_owned) })
+        let [from, to] = [from, to].map(|value| value.map(str::to_owned));
+        Change::new(id, path, Movement::Claim { from, to, entry: entry(path, &paths) })
     };
     changed.map(change).collect()
+}
+
+/// Keys by which an entry of a list says what it is about.
+const ENTRY_KEYS: [&str; 5] = ["norm", "error", "value", "quantity", "name"];
+
+/// What the entry of a list that holds a value is about, by another value of the same entry.
+///
+/// * `paths`: the former and the present value by path.
+fn entry(path: &str, paths: &BTreeMap<&str, [Option<&str>; 2]>) -> Option<String> {
+    let (entry, _) = path.rsplit_once('.').filter(|(entry, _)| entry.ends_with(']'))?;
+    let [from, to] = ENTRY_KEYS.iter().find_map(|key| paths.get(format!("{entry}.{key}").as_str()))?;
+    to.or(*from).map(|value| value.trim_matches('"').to_owned())
 }
 
 /// The change of a study whose file has vanished; nothing where its claims were withdrawn before.

@@ -19,6 +19,7 @@ use convergence_study::study::{Case, CaseFailure, Check, FromFile, Header, Kind,
 use convergence_study::text::number::max_or_nan;
 
 use super::fault::{coefficients, perturbed};
+use super::without_a_fault;
 use crate::kinds::any_order::{AnyOrder, Errors, Resolution};
 use crate::kinds::tables::Control;
 
@@ -153,13 +154,15 @@ impl Kind for AnyOrderControls {
             }
             rows.push(cells);
             let all = self.studies.len();
-            let (claim, evidence) = if coefficient.is_none() {
-                ("without a fault every study passes".to_owned(), format!("{right} of {all} pass"))
+            checks.push(if coefficient.is_none() {
+                let passes = |number: usize| of(number, None).is_some_and(|judged| judged.verdict == wanted);
+                let ids = self.studies.iter().map(|study| study.header().id.as_str()).enumerate();
+                without_a_fault(ids.map(|(number, id)| (id, passes(number))))
             } else {
                 detected += usize::from(right == all);
-                (format!("{name} is detected by every study"), format!("{right} of {all} studies notice it"))
-            };
-            checks.push(Check::that(right == all, claim, evidence));
+                let evidence = format!("{right} of {all} studies notice it");
+                Check::that(right == all, format!("{name} is detected by every study"), evidence)
+            });
         }
         let faults = self.coefficients.len();
         let headline = format!("{detected} of {faults} wrong coefficients detected");

@@ -17,7 +17,7 @@ mod untested;
 use std::path::Path;
 
 use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Header, KindRow, Study, reader};
+use convergence_study::study::{Check, Header, KindRow, Study, reader};
 
 pub use fault::Fault;
 pub(in crate::kinds) use untested::untested;
@@ -34,6 +34,17 @@ pub const ROW: KindRow = KindRow {
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
 };
+
+/// What is found of studies without a fault: how many pass, and which do not.
+fn without_a_fault<'s>(studies: impl Iterator<Item = (&'s str, bool)>) -> Check {
+    let (passing, others): (Vec<_>, Vec<_>) = studies.partition(|(_, passes)| *passes);
+    let others: Vec<&str> = others.into_iter().map(|(id, _)| id).collect();
+    let mut evidence = format!("{} of {} pass", passing.len(), passing.len() + others.len());
+    if !others.is_empty() {
+        evidence += &format!("; not {}", others.join(", "));
+    }
+    Check::that(others.is_empty(), "without a fault every study passes", evidence)
+}
 
 /// The tables of which a study file has one.
 const TABLES: [&str; 3] = ["controls", "any-order", "sensitivity"];

@@ -3,7 +3,7 @@
 use convergence_study::plots::{self, Axis, History, Series};
 use convergence_study::study::levels::completion;
 use convergence_study::study::{Check, Figure, Outcome, Quantity, Ran, Table};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, short_text};
 
 use super::{COUNTS, NUMBERS, Scenes, Shown, Whole};
 use crate::kinds::energy::End;
@@ -68,7 +68,7 @@ fn check(whole: &Whole, shown: &Shown) -> Check {
     let (name, distance) = farthest(whole, shown);
     let holds = shown.end == whole.end && (whole.end != End::Answer || distance <= whole.within);
     let evidence = if shown.end == End::Answer {
-        format!("{name} is {distance:.1e} from its answer, {:e} allowed", whole.within)
+        format!("{name} is {} from its answer, {:e} allowed", short_text(distance), whole.within)
     } else {
         format!("{} after {} steps", shown.end.name(), shown.counts[0])
     };

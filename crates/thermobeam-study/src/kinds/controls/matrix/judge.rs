@@ -5,6 +5,7 @@ use convergence_study::study::levels::completion;
 use convergence_study::study::{Check, Outcome, Ran, Table};
 
 use super::super::fault::{BROKEN, verdicts};
+use super::super::without_a_fault;
 use super::{Controls, Fault, LevelOf, Planted};
 
 type Levels = [Ran<LevelOf, Vec<Planted>>];
@@ -14,13 +15,11 @@ pub(super) fn judge(study: &Controls, ran: &Levels) -> Outcome {
     let (mut rows, mut detected, mut faults) = (vec![], 0, 0);
     for fault in Fault::all() {
         let verdicts: Vec<_> = (0..study.studies.len()).map(|k| verdict(study, k, fault, ran)).collect();
-        let count = |wanted: Verdict| verdicts.iter().filter(|verdict| **verdict == Some(wanted)).count();
         if fault == Fault::None {
-            let (passed, all) = (count(Verdict::Pass), verdicts.len());
-            let evidence = format!("{passed} of {all} pass");
-            checks.push(Check::that(passed == all, "without a fault every study passes", evidence));
+            let ids = study.studies.iter().map(|spec| spec.header.id.as_str());
+            checks.push(without_a_fault(ids.zip(verdicts.iter().map(|verdict| *verdict == Some(Verdict::Pass)))));
         } else {
-            let failed = count(Verdict::Fail);
+            let failed = verdicts.iter().filter(|verdict| **verdict == Some(Verdict::Fail)).count();
             faults += 1;
             detected += usize::from(failed > 0);
             let evidence = format!("{failed} of {} studies notice it", verdicts.len());

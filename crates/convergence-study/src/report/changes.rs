@@ -1,0 +1,87 @@
+//! What differs from the baseline, in Markdown: claims first and in full, then the numbers, of each study the worst.
+
+use super::Findings;
+use super::markdown::{cell, table, text};
+use super::section::folded;
+use super::words::{blessing, can_be_blessed};
+use crate::store::baseline::{Change, Movement};
+use crate::text::number::short_text;
+
+/// A study's id as it is written, a link where the text can have one.
+pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
+
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; each part is empty where it has nothing to
+/// say, and ends with an empty line.
+pub(super) fn parts(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
+        findings.moves().iter().partition(|change| change.movement.needs_a_reason());
+    vec![of_claims(&claims, link), worst(&numbers, link), acceptance(findings), all(&numbers)]
+}
+
+fn of_claims(changes: &[&Change], link: Link<'_>) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let line = |change: &&Change| {
+        let words = change.words();
+        let rest = words.strip_prefix(change.study.as_str()).unwrap_or(&words);
+        format!("- {}{}\n", link(&change.study), text(rest))
+    };
+    format!("## Claims changed\n\n{}\n", changes.iter().map(line).collect::<String>())
+}
+
+/// One row for each study: its worst number.
+fn worst(changes: &[&Change], link: Link<'_>) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let mut studies: Vec<(&Change, usize)> = changes
+        .chunk_by(|one, next| one.study == next.study)
+        .filter_map(|of_study| Some((heaviest(of_study)?, of_study.len())))
+        .collect();
+    // A stable order: of equals the first ones.
+    studies.sort_by(|(a, _), (b, _)| b.movement.weight().total_cmp(&a.movement.weight()));
+    let row = |(change, count): &(&Change, usize)| {
+        let Change { study, movement, .. } = change;
+        vec![link(study), count.to_string(), cell(&change.subject()), cell(&movement.to_string()), times(movement)]
+    };
+    let head = ["study", "numbers", "the worst of them", "change", "times its tolerance"];
+    let order = "The worst number of each study; first those that moved by the largest multiple of their tolerance.";
+    format!("## Moved from the baseline\n\n{order}\n\n{}\n", table(&head, studies.iter().map(row).collect()))
+}
+
+/// The first of the largest weight.
+fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
+    changes.iter().rev().copied().max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
+}
+
+/// By how many times its tolerance a number has moved, with two digits; a dash where that cannot be said.
+fn times(movement: &Movement) -> String {
+    let weight = movement.weight();
+    if weight == 0.0 || !weight.is_finite() {
+        return "-".to_owned();
+    }
+    short_text(weight)
+}
+
+/// How they are accepted, or why they cannot be.
+fn acceptance(findings: &Findings<'_>) -> String {
+    let Findings { project, command, finished, .. } = findings;
+    match findings.moves() {
+        [] => String::new(),
+        moves if can_be_blessed(finished) => {
+            format!("If it is meant: `{}`.\n\n", blessing(project, command, finished, moves))
+        }
+        _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
+    }
+}
+
+/// Every number, folded; nothing where the table above has them all.
+fn all(changes: &[&Change]) -> String {
+    if changes.chunk_by(|one, next| one.study == next.study).all(|of_study| of_study.len() == 1) {
+        return String::new();
+    }
+    let row = |change: &&Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
+    let lines = table(&["study", "what", "change"], changes.iter().map(row).collect());
+    folded(&format!("all {} numbers", changes.len()), &lines, false) + "\n"
+}

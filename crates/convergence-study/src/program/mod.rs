@@ -124,9 +124,15 @@ impl Kind for Program {
             return Ok(answer);
         }
         let answer = invocation.run(&expected)?;
-        // A result that cannot be kept costs the next run time, not this one its result.
-        let _ = store.put(&key, &invocation, &answer);
+        if answer.failure.is_none() {
+            // A result that cannot be kept costs the next run time, not this one its result.
+            let _ = store.put(&key, &invocation, &answer);
+        }
         Ok(answer)
+    }
+
+    fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
+        answer.failure.clone()
     }
 
     fn judge(&self, ran: &[Ran<Resolution, Answer>]) -> Outcome {

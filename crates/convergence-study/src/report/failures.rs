@@ -9,7 +9,7 @@ use crate::run::Finished;
 use crate::study::case::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
-use crate::text::number::{plain_text, rate_text};
+use crate::text::number::{RATE_PLACES, plain_text, rate_text};
 
 /// Reasons listed of one study; its section has all of them.
 const MOST_REASONS: usize = 8;
@@ -33,12 +33,14 @@ pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
 
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
     let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass).map(|(name, rate)| {
-        // With an interval the reason has the claim, too.
-        let claimed = match rate.interval {
-            Some(_) => String::new(),
-            None => format!(", claimed {} ± {}", plain_text(rate.order), plain_text(rate.tolerance)),
-        };
-        format!("{name}: rate {}{claimed}: {}", rate_text(rate.fitted), rate.reason)
+        match rate.interval {
+            // The reason has the claim, too.
+            Some(_) => format!("{name}: rate {}: {}", rate_text(rate.fitted), rate.reason),
+            None => {
+                let (found, order) = (rate.rate_in_words(RATE_PLACES), plain_text(rate.order));
+                format!("{name}: {found}, claimed {order} ± {}: {}", plain_text(rate.tolerance), rate.reason)
+            }
+        }
     });
     // That cases are missing is said with their reasons.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();

@@ -5,7 +5,7 @@ use crate::project::Project;
 use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
 use crate::study::outcome::Outcome;
-use crate::text::number::{committed_rate, plain_text, rate_text};
+use crate::text::number::{RATE_PLACES, committed_rate, plain_text, rate_text};
 
 /// The verdict on a run in one line, without the verdict itself.
 ///
@@ -92,7 +92,7 @@ pub fn key_numbers(outcome: &Outcome) -> String {
 fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     // The last of the worst would do as well; the first is the one that the study names first.
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
-    let fitted = worst.fitted.map_or_else(|| "without a rate".to_owned(), |fitted| rate_text(Some(fitted)));
+    let fitted = worst.fitted.map_or_else(|| worst.rate_in_words(RATE_PLACES), |fitted| rate_text(Some(fitted)));
     let mut parts = vec![format!("{name} {fitted} (order {})", plain_text(worst.order))];
     let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();

@@ -29,6 +29,11 @@ pub trait Kind: Send + Sync {
     /// [`CaseFailure`] where the computation did not complete.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
+    /// Why a result counts as a failed case although a part of it is kept: a number that was asked for is missing. `None` for a whole one.
+    fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
+        None
+    }
+
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
@@ -187,7 +192,7 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
     fn failure(&self, index: usize) -> Option<CaseFailure> {
         match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(Ok(_)) => None,
+            Some(Ok(found)) => self.kind.failure(found),
             Some(Err(failure)) => Some(failure.clone()),
             None => Some(never_run()),
         }

@@ -91,6 +91,15 @@ fn misbehave(token: &str, mode: &str) {
             println!(r#"{{"errors": {{"L2": NaN, "H1": 1.0}}}}"#);
             exit(0)
         }
+        "half" => {
+            println!(r#"{{"errors": {{"L2": NaN, "H1": {}}}, "values": {{"flux": 3.1}}}}"#, 3.0 / 16.0);
+            exit(0)
+        }
+        "cut" => {
+            println!("{}", answer(64));
+            println!(r#"{{"errors": {{"L2": 1e5, "H1": 1.0 }}"#);
+            exit(0)
+        }
         "missing" => {
             println!(r#"{{"errors": {{"H1": 1.0}}}}"#);
             exit(0)

@@ -35,6 +35,9 @@ const TESTS: &[Test] = &tests![
     a_value_is_judged_by_its_differences,
     a_grid_finds_both_orders,
     every_misbehaviour_is_one_line_and_leaves_nothing,
+    a_level_without_a_result_fails_and_the_others_have_a_rate,
+    what_is_finite_beside_a_nan_is_kept,
+    a_study_of_two_levels_has_the_rate_between_them,
     a_program_that_hangs_is_stopped_and_leaves_nothing,
     much_output_takes_little_memory,
     a_killed_harness_leaves_nothing,
@@ -248,11 +251,12 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
         ("status", "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh"),
         (
             "garbage",
-            "answered nothing: no line of its standard output is a JSON object; the last is `\u{fffd}\u{fffd}`",
+            "answered nothing: no line of its standard output is a JSON object; the last line is `\u{fffd}\u{fffd}`",
         ),
         ("silent", "answered nothing: its standard output is empty"),
         ("nan", "`L2` of its errors is NaN, infinite or null; expected a finite number"),
         ("missing", "its answer has no error `L2`; it has H1"),
+        ("cut", "it does not end on its line: print it with json.dumps(...) on one line"),
     ] {
         let line = complaint(&Place::new(mode, ""));
         let program = std::env::current_exe().unwrap();
@@ -273,6 +277,69 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
         assert_eq!(status, Some(0), "{mode}: {out}{err}");
         assert_eq!(place.running(), [""; 0]);
     }
+}
+
+fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
+    let place = Place::new("abort", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    for levels in ["[4, 8, 16, 32, 64]", "[1, 2, 4, 8, 16]", "[16, 32, 64, 128, 256]"] {
+        place.write_text(&text.replace("[4, 8, 16, 32, 64]", levels));
+        let (status, out, err) = place.study(&[]);
+        assert_eq!(status, Some(1), "{out}{err}");
+        assert!(out.contains("L2 2.0000 (order 2): 1 of 5 levels has no result: n = 16; 2.0000 ± 0.00005"), "{out}");
+        assert!(!out.contains("NaN") && out.contains("a level has no result"), "{out}");
+        let row = out.lines().find(|line| line.trim_start().starts_with("16 ")).unwrap();
+        assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["16", "-", "-", "-"], "{out}");
+    }
+    // Two of three levels have a result: no interval, but the rate between them.
+    place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
+    let (status, out, _) = place.study(&["--quiet"]);
+    let told =
+        "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
+    assert!(status == Some(1) && out.contains(told), "{out}");
+    // A value, which is judged by differences.
+    place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
+    let (status, out, _) = place.study(&["--out", "report"]);
+    assert!(
+        status == Some(1) && out.contains("value flux 2.0000 (order 2): 1 of 5 levels has no result: n = 16"),
+        "{out}"
+    );
+    place.write_text(&text);
+    assert_eq!(place.study(&["--out", "report"]).0, Some(1));
+    let drawn = fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
+    assert!(drawn.contains("n = 16: no result") && !drawn.contains("non-finite"), "{drawn}");
+    // On a grid.
+    let grid =
+        text.replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true").replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
+    place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("L2: 3 of 15 cases have no result; L2 p = 2.0"), "{out}");
+}
+
+fn what_is_finite_beside_a_nan_is_kept() {
+    let place = Place::new("half", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    assert!(out.contains("4 of 5 cases completed; n = 16: ") && out.contains("`L2` of its errors is NaN"), "{out}");
+    // The pair 32, 64 is finer than the NaN.
+    let told = "L2 rate 2.000 between the finest levels that have one (order 2): an error is NaN or infinite";
+    assert!(out.contains(told), "{out}");
+    let rates = out.lines().find(|line| line.starts_with("H1 ")).unwrap();
+    assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
+}
+
+fn a_study_of_two_levels_has_the_rate_between_them() {
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
+    let told = "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
+    let (status, out, _) = place.study(&["--quiet"]);
+    assert!(status == Some(1) && out.contains(told), "{out}");
+    let (status, out, _) = place.study(&[]);
+    let rates = out.lines().find(|line| line.starts_with("L2 ") && line.contains("2 ± 0.05")).unwrap();
+    assert!(status == Some(1) && rates.contains(" 2.000 ") && rates.contains("finest pair"), "{out}");
 }
 
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {

@@ -6,7 +6,7 @@ use super::{Findings, Judged};
 use crate::cli::screen;
 use crate::explain::{reason_text, section};
 use crate::judge::verdict::{Aside, Reason, Verdict};
-use crate::text::number::{decimals, interval_places, interval_text};
+use crate::text::number::{decimals, interval_places};
 
 /// Most decimals of a rate.
 const MOST_PLACES: usize = 6;
@@ -16,7 +16,8 @@ pub(super) fn mark(judged: &Judged<'_>, level: usize) -> &'static str {
     match judged.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
         Some(Aside::AtFloor) => "_",
         Some(Aside::PreAsymptotic) => "~",
-        None => "",
+        // A table has a number, or NaN, on every level.
+        Some(Aside::NoResult) | None => "",
     }
 }
 
@@ -48,20 +49,7 @@ pub(super) fn pairwise(judged: &Judged<'_>, level: usize) -> String {
 
 /// The rate with its interval; that between the finest levels where there is no interval.
 pub(super) fn rate(judged: &Judged<'_>) -> String {
-    let (rate, places) = (judged.rate, places(judged));
-    match (rate.fitted, rate.interval) {
-        (Some(fitted), Some(interval)) => {
-            let (fitted, interval) = (decimals(fitted, places), interval_text(interval, MOST_PLACES));
-            let (first, last, levels) = (rate.used.start + 1, rate.used.end, rate.pairwise.len() + 1);
-            // A narrow interval begins with its middle.
-            let fitted = if interval.starts_with(&fitted) { String::new() } else { fitted + ", " };
-            format!("rate {fitted}{interval} from levels {first} to {last} of {levels}")
-        }
-        _ => match rate.pairwise.iter().rfind(|rate| rate.is_finite()) {
-            Some(finest) => format!("rate {} between the finest levels that have one", decimals(*finest, places)),
-            None => "no rate".to_owned(),
-        },
-    }
+    judged.rate.rate_in_words(MOST_PLACES)
 }
 
 /// Verdict, reason, rate and claim of a column.

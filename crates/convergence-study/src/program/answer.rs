@@ -24,6 +24,9 @@ pub struct Answer {
     /// Why the case has failed all the same: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
+    /// Whether it is that of an earlier run.
+    #[serde(skip)]
+    pub kept: bool,
 }
 
 /// A number that a study needs of every answer.
@@ -138,6 +141,7 @@ impl Answer {
             dt: step("dt")?,
             work: step("work")?,
             failure: None,
+            kept: false,
         };
         Ok((answer, complaint))
     }

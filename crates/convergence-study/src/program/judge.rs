@@ -11,6 +11,10 @@ use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Ran};
 type Run = Ran<Resolution, Answer>;
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
+    if let Some(mixed) = mixed_steps(study, ran) {
+        let check = Check::that(false, "every level answers its step, or none does", mixed.clone());
+        return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
+    }
     let levels = levels(study, ran);
     let mut outcome = if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) };
     // What was answered is finite. Not every answer has every number, and a case that failed fails its check; a number that was guarded and is there no more
@@ -87,6 +91,24 @@ fn completion(ran: &[Run]) -> Check {
         Ran { case: Case { label: case.label.clone(), cost: case.cost, data: () }, found }
     };
     levels::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+}
+
+/// Which levels answer a step that the rates need, where others do not: nominal steps are no substitute for these.
+fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
+    let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
+    let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
+        let labels = |has: bool| {
+            let answered = ran.iter().filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
+            answered.map(|ran| ran.case.label.as_str()).collect::<Vec<_>>().join("; ")
+        };
+        let [with, without] = [true, false].map(labels);
+        let is_mixed = !with.is_empty() && !without.is_empty();
+        let expected = format!("expected {name} in the answers of all levels or of none");
+        is_mixed.then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
+    };
+    let h = || space.then(|| mixed("h", |answer| answer.h)).flatten();
+    let dt = || (time && (study.refine.grid || !space)).then(|| mixed("dt", |answer| answer.dt)).flatten();
+    h().or_else(dt)
 }
 
 /// The step of a case: the one that the program reports, else the nominal one.

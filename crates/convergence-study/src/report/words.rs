@@ -40,7 +40,8 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
-    let is_new = |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { .. });
+    let is_new =
+        |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { guarded: 0, .. });
     let new = changes.iter().filter(is_new).count();
     let claims = changes.iter().filter(|change| change.movement.is_of_claims() && !is_new(change)).count();
     let count = |n: usize, what: &str| match n {

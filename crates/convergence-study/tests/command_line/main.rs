@@ -42,12 +42,13 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 24] = [
+const TESTS: [Test; 25] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
         a_changed_claim_fails_until_it_is_blessed_with_a_reason,
     ),
+    ("a_study_with_a_near_extension_is_named", a_study_with_a_near_extension_is_named),
     ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
     ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
     ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
@@ -143,6 +144,19 @@ fn verify_ends_with_0_1_or_2() {
     fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
     let (status, _, err) = run(&root, &["verify"]);
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
+}
+
+fn a_study_with_a_near_extension_is_named() {
+    let root = workspace(false);
+    let write = |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
+    write("two.TOML", &study("two", "c", 0.5));
+    write("notes.tml", "# [study]\n");
+    write("three.txt", &study("three", "c", 0.5));
+    let told = "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
+    for (arguments, status) in [(&["verify", "--bless"][..], 0), (&["verify", "--quiet"], 0), (&["list"], 0)] {
+        let (ended, _, err) = run(&root, arguments);
+        assert_eq!((ended, err.as_str()), (Some(status), told), "{arguments:?}");
+    }
 }
 
 fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {

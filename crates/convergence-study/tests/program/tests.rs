@@ -13,7 +13,8 @@ use tempfile::TempDir;
 
 use crate::kept::{
     a_kept_result_depends_on_each_file_that_its_command_names, a_kept_result_depends_on_the_directory,
-    a_killed_harness_leaves_whole_results, garbage_among_kept_results_is_computed_anew,
+    a_kept_result_depends_on_the_program_found_through_path, a_killed_harness_leaves_whole_results,
+    garbage_among_kept_results_is_computed_anew, kept_results_are_counted_and_never_blessed,
     kept_results_are_used_until_something_changes, results_that_cannot_be_kept_are_judged,
 };
 use crate::solver;
@@ -38,11 +39,15 @@ const TESTS: &[Test] = &tests![
     a_level_without_a_result_fails_and_the_others_have_a_rate,
     what_is_finite_beside_a_nan_is_kept,
     a_study_of_two_levels_has_the_rate_between_them,
+    steps_that_only_some_levels_answer_are_refused,
+    the_seconds_of_a_study_are_those_that_passed,
     a_program_that_hangs_is_stopped_and_leaves_nothing,
     much_output_takes_little_memory,
     a_killed_harness_leaves_nothing,
     an_interrupted_harness_leaves_nothing,
     kept_results_are_used_until_something_changes,
+    a_kept_result_depends_on_the_program_found_through_path,
+    kept_results_are_counted_and_never_blessed,
     a_kept_result_depends_on_each_file_that_its_command_names,
     a_kept_result_depends_on_the_directory,
     garbage_among_kept_results_is_computed_anew,
@@ -109,7 +114,7 @@ impl Place {
         self.folder.path().to_str().unwrap()
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(std::env::current_exe().unwrap());
         command.args(arguments).current_dir(self.folder.path()).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
         command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
@@ -156,7 +161,7 @@ impl Place {
     }
 }
 
-fn texts(output: Output) -> (Option<i32>, String, String) {
+pub(crate) fn texts(output: Output) -> (Option<i32>, String, String) {
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     (output.status.code(), out, err)
 }
@@ -330,6 +335,23 @@ fn what_is_finite_beside_a_nan_is_kept() {
     assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
 }
 
+fn steps_that_only_some_levels_answer_are_refused() {
+    let (status, out, err) = Place::new("own-step", "").study(&[]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    let told = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
+    assert!(out.contains(told) && !out.contains("Rates"), "{out}");
+}
+
+fn the_seconds_of_a_study_are_those_that_passed() {
+    let place = Place::new("sleep", "");
+    let start = Instant::now();
+    let (status, out, _) = place.study(&["--jobs", "5"]);
+    let passed = start.elapsed().as_secs_f64();
+    let seconds: f64 = out.lines().next().unwrap().split(' ').rev().nth(1).unwrap().parse().unwrap();
+    // Each of the five cases takes 0.4 s.
+    assert!(status == Some(0) && (0.4..passed + 0.01).contains(&seconds), "{passed}: {out}");
+}
+
 fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
@@ -434,7 +456,11 @@ fn what_a_study_file_may_get_wrong_is_named() {
 
 /// A project with the study `studies/s.toml`.
 fn project(mode: &str) -> Place {
-    let place = Place::new(mode, "");
+    project_of(Place::new(mode, ""))
+}
+
+/// The same of a study that has been written.
+pub(crate) fn project_of(place: Place) -> Place {
     let root = place.folder.path();
     fs::write(root.join("Cargo.toml"), "").unwrap();
     fs::create_dir(root.join("studies")).unwrap();

@@ -15,8 +15,9 @@ use tempfile::TempDir;
 
 use changes::{
     a_damaged_line_of_a_journal_is_named, a_review_fails_where_a_study_does_and_nothing_differs,
-    blessings_at_once_are_all_kept, changes_are_accepted_one_some_or_all_with_a_reason,
-    records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
+    a_study_with_a_near_extension_is_named, blessings_at_once_are_all_kept,
+    changes_are_accepted_one_some_or_all_with_a_reason, records_are_compared_with_0_1_or_2,
+    runs_are_journaled_and_shown_as_page_and_badge,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -144,19 +145,6 @@ fn verify_ends_with_0_1_or_2() {
     fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
     let (status, _, err) = run(&root, &["verify"]);
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
-}
-
-fn a_study_with_a_near_extension_is_named() {
-    let root = workspace(false);
-    let write = |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
-    write("two.TOML", &study("two", "c", 0.5));
-    write("notes.tml", "# [study]\n");
-    write("three.txt", &study("three", "c", 0.5));
-    let told = "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
-    for (arguments, status) in [(&["verify", "--bless"][..], 0), (&["verify", "--quiet"], 0), (&["list"], 0)] {
-        let (ended, _, err) = run(&root, arguments);
-        assert_eq!((ended, err.as_str()), (Some(status), told), "{arguments:?}");
-    }
 }
 
 fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {

@@ -8,8 +8,9 @@ use crate::study::{KindRow, Study};
 use crate::text::names::nearest;
 
 /// Every reason, for listing.
-pub(crate) const REASONS: [Reason; 19] = [
+pub(crate) const REASONS: [Reason; 20] = [
     Reason::Agrees,
+    Reason::NoResult,
     Reason::NonFiniteError,
     Reason::NegativeError,
     Reason::ErrorGrows,
@@ -34,6 +35,10 @@ pub(crate) const REASONS: [Reason; 19] = [
 pub(crate) fn reason_text(reason: Reason) -> (&'static str, &'static str) {
     match reason {
         Reason::Agrees => ("agrees", "The whole interval of the rate lies within the tolerance of the order."),
+        Reason::NoResult => (
+            "no-result",
+            "A case failed, or its answer lacks the error. The rate is that of the levels that have one; it decides nothing. Mend that case.",
+        ),
         Reason::NonFiniteError => (
             "non-finite",
             "An error is NaN or infinite: a case broke down, or did not come to its end. Mend that case.",

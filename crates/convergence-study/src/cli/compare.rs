@@ -131,8 +131,12 @@ fn sentence(comparison: &Comparison) -> String {
     let of_studies = comparison.studies.iter().filter(|study| study.reason.is_some()).map(|study| study.change);
     let found: Vec<Change> = norms().filter(|change| *change != Change::Same).chain(of_studies).collect();
     let count = |change: Change| found.iter().filter(|known| **known == change).count();
-    let [worse, better] = [count(Change::Worse), count(Change::Better)];
+    let [worse, better, not_proven] = [Change::Worse, Change::Better, Change::NotProven].map(count);
     let same = norms().filter(|change| *change == Change::Same).count();
+    let not_proven = if not_proven == 0 { String::new() } else { format!(", {not_proven} not proven") };
     let studies = comparison.studies.len();
-    format!("{}: {worse} worse, {better} better, {same} the same, in {studies} studies\n", comparison.change.name())
+    format!(
+        "{}: {worse} worse, {better} better, {same} the same{not_proven}, in {studies} studies\n",
+        comparison.change.name()
+    )
 }

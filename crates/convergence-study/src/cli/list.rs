@@ -60,6 +60,7 @@ const NARROWEST: usize = 24;
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
+    workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
     let earlier = Earlier::read(&root)?;

@@ -69,8 +69,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let meant = selection::select(&headers, *tier, ids, &format!("{} list", project.command))?;
     let scope = scope(*tier, ids, &all);
-    let studies: Vec<Box<dyn Study>> =
+    let mut studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
+    // What is accepted was computed by the programs as they are.
+    studies.iter_mut().for_each(|study| study.compute_anew());
     let (effort, reports) = (flags.effort(limits.case_limit), root.join("reports"));
     let request = Request { scope, effort, bless: false, reason: None, root, reports };
     let watched = Watched::new(&studies, !flags.quiet);

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::run::Progress;
+use crate::run::{Progress, Spent};
 use crate::study::Study;
 
 use crate::cli::interrupt;
@@ -52,6 +52,12 @@ impl Watched {
     pub fn clear(&self) {
         self.bar.clear();
     }
+}
+
+/// How many results are those of an earlier run; `None` where none is.
+pub fn kept(spent: &Spent) -> Option<String> {
+    let Spent { cases, kept, .. } = spent;
+    (*kept > 0).then(|| format!("{kept} of {cases} cases kept from an earlier run"))
 }
 
 fn sentence(done: &[String], count: usize) -> String {

@@ -17,7 +17,7 @@ use super::flags::Flags;
 use super::github;
 use super::history::Journal;
 use super::output::{self, Format};
-use crate::cli::running::{Limits, Watched};
+use crate::cli::running::{Limits, Watched, kept};
 use crate::cli::screen;
 
 /// Run study files from anywhere
@@ -103,9 +103,10 @@ fn no_test_of(untested: &[Untested]) -> String {
 fn text(finished: &Finished) -> String {
     let Finished { header, outcome, spent, .. } = finished;
     let verdict = screen::verdict(outcome.verdict);
-    let seconds = spent.busy.as_secs_f64();
+    let seconds = spent.wall.as_secs_f64();
+    let kept = kept(spent).map_or(String::new(), |kept| format!(", {kept}"));
     let mut text = format!(
-        "{}: {verdict}, {seconds:.2} s\n{}\n{}\n",
+        "{}: {verdict}, {seconds:.2} s{kept}\n{}\n{}\n",
         header.id,
         visible(&header.claim),
         visible(&summary(outcome))

@@ -15,7 +15,7 @@ use super::exit::Outcome;
 use super::flags::Flags;
 use super::history::Journal;
 use crate::cli::output::Format;
-use crate::cli::running::{Limits, Watched};
+use crate::cli::running::{Limits, Watched, kept};
 use crate::cli::screen;
 use crate::cli::workspace;
 use crate::cli::{github, moved, output, selection};
@@ -54,14 +54,19 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     arguments.journal.check()?;
     let all = workspace::studies(project, &root)?;
+    workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
     let meant = selection::select(&headers, arguments.tier, &arguments.ids, &list)?;
     let scope = scope(arguments.tier, &arguments.ids, &all);
-    let studies: Vec<Box<dyn Study>> =
+    let mut studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
     let Arguments { bless, reason, .. } = arguments;
+    if *bless {
+        // What is blessed was computed by the programs as they are.
+        studies.iter_mut().for_each(|study| study.compute_anew());
+    }
     let flags = &arguments.flags;
     let effort = flags.effort(arguments.limits.case_limit);
     let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
@@ -135,6 +140,9 @@ fn overview(found: &Verification, request: &Request, verbose: bool) -> String {
         0 => {}
         1 => text += "1 study passes (--verbose lists it)\n",
         passing => text += &format!("{passing} studies pass (--verbose lists them)\n"),
+    }
+    for Finished { header, spent, .. } in &found.finished {
+        text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
     }
     let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
     text += &format!("\nreport: {page}, {readme}\n");

@@ -4,16 +4,17 @@
 //! reason.
 //!
 //! 1. *Order.* Both rates are read by [the rule](crate::judge::verdict). They differ where their intervals have no point in common and the rates are more than
-//!    [`ORDER_SHIFT`] apart, or where the claim passed and fails now.
+//!    [`ORDER_SHIFT`] apart, or where the claim passed and does not pass now.
 //! 2. *Constant.* `log(e_new / e_old)` at the same step has a mean and a Student interval over the levels that are asymptotic in both records. Where the levels
 //!    differ, the old error is interpolated between its neighbours, linearly in logarithms; with Δ the change of the pairwise rate there and x the distance of
 //!    the neighbours in log h, this is off by no more than Δ x / 8 for smooth data, and twice as much is added to the interval. The errors differ
 //!    where the whole interval, or the ratio of every level with its doubt, lies on one side of 1 ± [`WITHIN`]; the latter for ratios that scatter too much for
-//!    a narrow interval. They are the same where the whole interval lies within; else no difference is proven.
+//!    a narrow interval. At a step that both records have, errors are deterministic: one that is larger by more than [`WITHIN`] is worse, whatever the order and the
+//!    others say, and is named. They are the same where all of these lie within, or the whole interval does; else no difference is proven, nor that there is none.
 //! 3. *Work.* The work that the smallest error takes that both have reached, interpolated likewise, with what the interval of the errors leaves of
 //!    doubt. It differs where its whole interval lies beyond 1 ± [`WORK_WITHIN`]: seconds are no counts.
 //!
-//! An error that was there and is negative or not finite now is worse. So is a study that passed and fails although no error of it is worse. What only one record
+//! An error that was there and is negative or not finite now is worse. So is a study with a worse verdict although no error of it is worse. What only one record
 //! has is named, and changes nothing. Errors that are not above the floor have no say, as everywhere.
 
 mod norm;
@@ -39,38 +40,30 @@ pub const WORK_WITHIN: f64 = 0.05;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Change {
+    /// The same.
+    Same,
+    /// The data prove neither a difference nor that there is none.
+    #[serde(rename = "not proven")]
+    NotProven,
     /// Better.
     Better,
-    /// No difference that the data prove.
-    Same,
     /// Worse.
     Worse,
 }
 
 impl Change {
-    /// `same`, `better` or `worse`.
+    /// `same`, `not proven`, `better` or `worse`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Better => "better",
             Self::Same => "same",
+            Self::NotProven => "not proven",
             Self::Worse => "worse",
         }
     }
 
-    /// Worse where one is, else better where one is.
     fn of_all(changes: impl IntoIterator<Item = Self>) -> Self {
-        let (mut worse, mut better) = (false, false);
-        for change in changes {
-            worse |= change == Self::Worse;
-            better |= change == Self::Better;
-        }
-        if worse {
-            Self::Worse
-        } else if better {
-            Self::Better
-        } else {
-            Self::Same
-        }
+        changes.into_iter().max().unwrap_or(Self::Same)
     }
 }
 
@@ -141,20 +134,17 @@ pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
 }
 
 fn compare_study(old: &StudyRecord, new: &StudyRecord, settings: &Settings) -> Study {
-    let (norms, mut notes) = norm::compare_all(old, new, settings);
+    let (norms, notes) = norm::compare_all(old, new, settings);
     let own = Change::of_all(norms.iter().map(|norm| norm.change));
     let verdicts = (old.verdict, new.verdict);
     let (change, reason) = match verdicts {
-        (Verdict::Pass | Verdict::Inconclusive, Verdict::Fail) if own != Change::Worse => {
-            (Change::Worse, Some(format!("the verdict was {}, is fail: {}", old.verdict, new.summary)))
+        (was, is) if is > was && own != Change::Worse => {
+            (Change::Worse, Some(format!("the verdict was {was}, is {is}: {}", new.summary)))
         }
-        (Verdict::Fail, Verdict::Pass) if own == Change::Same => {
+        (Verdict::Fail, Verdict::Pass) if own < Change::Better => {
             (Change::Better, Some(format!("the verdict was fail, is pass: {}", new.summary)))
         }
         _ => (own, None),
     };
-    if verdicts == (Verdict::Pass, Verdict::Inconclusive) {
-        notes.push(format!("the verdict was pass, is inconclusive: {}", new.summary));
-    }
     Study { id: new.id.clone(), change, reason, norms, notes }
 }

@@ -7,6 +7,7 @@ use super::{Change, ORDER_SHIFT, Settings, WORK_WITHIN};
 use crate::judge::fit::Quantiles;
 use crate::judge::verdict::{FEWEST_LEVELS, Verdict};
 use crate::store::record::{LevelRecord, RateRecord, StudyRecord};
+use crate::text::number::plain_text;
 
 /// An error in both records.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,6 +50,13 @@ pub struct Ratio {
     pub extremes: [f64; 2],
     /// Levels that it rests on.
     pub levels: usize,
+}
+
+impl Ratio {
+    fn words(&self, what: &str) -> String {
+        let Self { ratio, interval: [low, high], levels, .. } = self;
+        format!("{what} at the same step: {ratio:.4} times, {low:.4} to {high:.4} from {}", counted(*levels))
+    }
 }
 
 /// Compares all errors and rates of a study.
@@ -123,7 +131,10 @@ impl<'a> Pair<'a> {
         let used = [0, 1].map(|k| self.used(k));
         let error = self.errors(&used);
         let work = self.work(&used, error);
-        let found = self.lost().or_else(|| self.order(&lines)).unwrap_or_else(|| self.cost(error, work));
+        let order = self.order(&lines);
+        let lower = order.clone().filter(|(change, _)| *change == Change::Worse);
+        let found = self.lost().or(lower).or_else(|| self.larger(error)).or(order);
+        let found = found.unwrap_or_else(|| self.cost(error, work));
         Norm { norm: self.name.to_owned(), change: found.0, reason: found.1, lines, error, work }
     }
 
@@ -158,30 +169,64 @@ impl<'a> Pair<'a> {
             }
         }
         let [old, new] = [self.rates[0]?, self.rates[1]?];
-        let failed = old.verdict == Verdict::Pass && new.verdict == Verdict::Fail;
-        failed.then(|| (Change::Worse, format!("the claimed order passed and fails: {}", new.reason)))
+        let passed_before = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
+        let words = || format!("the claimed order was pass, is {}: {}", new.verdict, new.reason);
+        passed_before.then(|| (Change::Worse, words()))
+    }
+
+    /// The errors at steps that both records have, each as new over old; those that are not above the floor count as the floor.
+    ///
+    /// Errors are deterministic: at the same step nothing but a change of the program makes them differ.
+    fn at_common_steps(&self) -> Vec<(String, f64)> {
+        let floor = self.settings.judge.floor();
+        let at_least = |error: f64| error.max(floor);
+        let one = |point: &Point| {
+            let before = self.series[0].same_level(point, &self.series[1])?.level.error;
+            let ratio = at_least(point.level.error) / at_least(before);
+            // Two zeros without a floor are the same.
+            Some((label(&point.parameters), if ratio.is_nan() { 1.0 } else { ratio }))
+        };
+        let usable = |point: &&Point| point.level.error >= 0.0;
+        self.series[1].points.iter().filter(usable).filter_map(one).collect()
+    }
+
+    /// Errors that are larger: as a whole, or at one step that both records have.
+    fn larger(&self, error: Option<Ratio>) -> Option<(Change, String)> {
+        let within = 1.0 + self.settings.within;
+        let whole = error.filter(|error| error.interval[0] > within || error.extremes[0] > within);
+        if let Some(error) = whole {
+            return Some((Change::Worse, error.words("errors larger")));
+        }
+        let common = self.at_common_steps();
+        let larger: Vec<_> = common.iter().filter(|(_, ratio)| *ratio > within).collect();
+        let (level, ratio) = larger.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (count, all) = (larger.len(), counted(common.len()));
+        Some((
+            Change::Worse,
+            format!("errors larger at {count} of {all} that both have: {level}: {} times", plain_text(*ratio)),
+        ))
     }
 
     fn cost(&self, error: Option<Ratio>, work: Option<Ratio>) -> (Change, String) {
         let within = 1.0 + self.settings.within;
+        let common = self.at_common_steps();
+        let all_within = !common.is_empty() && common.iter().all(|(_, ratio)| *ratio >= 1.0 / within);
         let Some(error) = error else {
+            if all_within {
+                return (
+                    Change::Same,
+                    format!("errors the same or not above the floor, from {}", counted(common.len())),
+                );
+            }
             let why = if self.series.iter().all(|series| series.points.is_empty()) {
                 "no errors are recorded, only rates"
             } else {
                 "no errors above the floor at steps that both have reached"
             };
-            return (Change::Same, format!("order the same, as far as it is known; {why}"));
+            return (Change::NotProven, format!("no difference of orders is proven; {why}"));
         };
-        let words = |what: &str| {
-            let Ratio { ratio, interval: [low, high], levels, .. } = error;
-            format!("{what} at the same step: {ratio:.4} times, {low:.4} to {high:.4} from {}", counted(levels))
-        };
-        let [least, most] = error.extremes;
-        if error.interval[0] > within || least > within {
-            return (Change::Worse, words("errors larger"));
-        }
-        if error.interval[1] < 1.0 / within || most < 1.0 / within {
-            return (Change::Better, words("errors smaller"));
+        if error.interval[1] < 1.0 / within || error.extremes[1] < 1.0 / within {
+            return (Change::Better, error.words("errors smaller"));
         }
         match work {
             Some(Ratio { ratio, interval: [low, _], .. }) if low > 1.0 + WORK_WITHIN => {
@@ -190,10 +235,10 @@ impl<'a> Pair<'a> {
             Some(Ratio { ratio, interval: [_, high], .. }) if high < 1.0 / (1.0 + WORK_WITHIN) => {
                 (Change::Better, format!("the same error takes {ratio:.3} times the work"))
             }
-            _ if error.interval[0] >= 1.0 / within && error.interval[1] <= within => {
-                (Change::Same, words("errors the same"))
+            _ if all_within || (error.interval[0] >= 1.0 / within && error.interval[1] <= within) => {
+                (Change::Same, error.words("errors the same"))
             }
-            _ => (Change::Same, words("no difference of errors is proven")),
+            _ => (Change::NotProven, error.words("no difference of errors is proven")),
         }
     }
 

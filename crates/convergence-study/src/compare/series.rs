@@ -47,6 +47,19 @@ impl Series {
         Self { points: having.iter().enumerate().map(point).collect(), is_sequence }
     }
 
+    /// The point of this series at the step of a point of another: the same parameters, or where both have steps the same step.
+    pub(super) fn same_level(&self, point: &Point, other: &Self) -> Option<&Point> {
+        let both_have_steps = self.is_sequence && other.is_sequence;
+        let is_same = |known: &&Point| {
+            if both_have_steps {
+                (known.level.step / point.level.step).ln().abs() <= SAME_STEP
+            } else {
+                known.parameters == point.parameters
+            }
+        };
+        self.points.iter().find(is_same).filter(|known| known.level.error >= 0.0)
+    }
+
     pub(super) fn levels(&self) -> Vec<Level> {
         self.points.iter().map(|point| point.level).collect()
     }

@@ -49,6 +49,8 @@ pub struct Convergence {
     pub floor: Option<Guide>,
     /// Everything right of this step is shaded, with the text above it.
     pub beyond: Option<(f64, String)>,
+    /// Lines under the legend, such as what has no result.
+    pub notes: Vec<String>,
 }
 
 impl ErrorSeries {
@@ -82,6 +84,7 @@ pub fn convergence(figure: &Convergence) -> String {
         y: Axis::log(&*figure.y_label),
         guides: figure.floor.clone().into_iter().collect(),
         beyond: figure.beyond.clone(),
+        notes: figure.notes.clone(),
         ..Xy::default()
     };
     for (k, series) in figure.series.iter().enumerate() {

@@ -5,9 +5,10 @@ use serde_json::{Map, Value};
 use thiserror::Error;
 
 use crate::input::shorten;
+use crate::study::CaseFailure;
 use crate::text::visible::visible;
 
-/// The numbers of one case, all finite. Names are sorted, and harmless on a terminal.
+/// The numbers of one case; NaN where it answered that. Names are sorted, and harmless on a terminal.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Answer {
     /// Errors by name.
@@ -20,6 +21,12 @@ pub struct Answer {
     pub dt: Option<f64>,
     /// Unknowns, operations, seconds: what the program counts; > 0.
     pub work: Option<f64>,
+    /// Why the case has failed all the same: a number is NaN or missing. The others count.
+    #[serde(skip)]
+    pub failure: Option<CaseFailure>,
+    /// Whether it is that of an earlier run.
+    #[serde(skip)]
+    pub kept: bool,
 }
 
 /// A number that a study needs of every answer.
@@ -62,16 +69,34 @@ pub(super) enum AnswerError {
     Missing { what: &'static str, name: String, there: String },
 }
 
-/// The object that a line is, or why it is none. Lines that do not begin with `{` and end with `}` are no candidates: `None`.
+/// Why a line that begins with `{` is no object.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NearMiss {
+    /// In words, with what to do.
+    pub(super) reason: String,
+    /// Whether it looks like an answer: no object before it is the last one. `{iteration 3}` does not.
+    pub(super) is_answer: bool,
+}
+
+/// The object that a line is, or why it is none; `None` for lines that do not begin with `{`.
 ///
 /// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is no number.
-pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, String>> {
+pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, NearMiss>> {
     let line = line.trim();
-    if !(line.starts_with('{') && line.ends_with('}')) {
-        return None;
-    }
+    let inside = line.strip_prefix('{')?.trim_start();
     let read = serde_json::from_str(line).or_else(|_| serde_json::from_str(&with_null_for_nan(line)));
-    Some(read.map_err(|error| error.to_string()))
+    let near_miss = |error: serde_json::Error| {
+        let is_dict = inside.starts_with('\'') && ["'errors'", "'values'"].iter().any(|key| inside.contains(key));
+        let reason = if inside.starts_with('\'') {
+            "single quotes are not those of JSON: print it with json.dumps(...) on one line".to_owned()
+        } else if error.is_eof() {
+            "it does not end on its line: print it with json.dumps(...) on one line".to_owned()
+        } else {
+            error.to_string()
+        };
+        NearMiss { reason, is_answer: inside.is_empty() || inside.starts_with('"') || is_dict }
+    };
+    Some(read.map_err(near_miss))
 }
 
 /// The text with `null` for every NaN and infinity outside of strings.
@@ -100,28 +125,34 @@ fn with_null_for_nan(line: &str) -> String {
 }
 
 impl Answer {
-    /// Reads an answer; what it does not know is ignored.
-    pub(super) fn read(object: &Map<String, Value>) -> Result<Self, AnswerError> {
+    /// Reads an answer; what it does not know is ignored. An error or a value that is no finite number is NaN.
+    ///
+    /// * Returns it with the first complaint about such a number.
+    pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<AnswerError>), AnswerError> {
         let step = |name: &'static str| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
             object.get(name).map(read).transpose()
         };
-        Ok(Self {
-            errors: table(object, "errors")?,
-            values: table(object, "values")?,
+        let mut complaint = None;
+        let answer = Self {
+            errors: table(object, "errors", &mut complaint)?,
+            values: table(object, "values", &mut complaint)?,
             h: step("h")?,
             dt: step("dt")?,
             work: step("work")?,
-        })
+            failure: None,
+            kept: false,
+        };
+        Ok((answer, complaint))
     }
 
-    /// The number of that name; NaN where there is none.
-    pub(super) fn number(&self, expected: &Expected) -> f64 {
+    /// The number of that name; `None` where there is none.
+    pub(super) fn number(&self, expected: &Expected) -> Option<f64> {
         let among = match expected {
             Expected::Error(_) => &self.errors,
             Expected::Value(_) => &self.values,
         };
-        among.iter().find(|(known, _)| known == expected.name()).map_or(f64::NAN, |(_, number)| *number)
+        among.iter().find(|(known, _)| known == expected.name()).map(|(_, number)| *number)
     }
 
     /// Refuses an answer that lacks a number that the study expects.
@@ -145,15 +176,23 @@ impl Answer {
     }
 }
 
-fn table(object: &Map<String, Value>, name: &'static str) -> Result<Vec<(String, f64)>, AnswerError> {
+fn table(
+    object: &Map<String, Value>,
+    name: &'static str,
+    complaint: &mut Option<AnswerError>,
+) -> Result<Vec<(String, f64)>, AnswerError> {
     let Some(value) = object.get(name) else { return Ok(vec![]) };
     let entries = value.as_object().ok_or_else(|| AnswerError::NoTable { name, found: written(value) })?;
     let entry = |(key, value): (&String, &Value)| {
         let key = visible(key);
-        let value = number(&format!("`{key}` of its {name}"), value, "a finite number", |_| true)?;
-        Ok((key, value))
+        let read = number(&format!("`{key}` of its {name}"), value, "a finite number", |_| true);
+        let value = read.unwrap_or_else(|error| {
+            complaint.get_or_insert(error);
+            f64::NAN
+        });
+        (key, value)
     };
-    entries.iter().map(entry).collect()
+    Ok(entries.iter().map(entry).collect())
 }
 
 fn number(name: &str, value: &Value, expected: &'static str, ok: impl Fn(f64) -> bool) -> Result<f64, AnswerError> {
@@ -170,7 +209,8 @@ mod tests {
     use super::*;
 
     fn read(line: &str) -> Result<Answer, String> {
-        Answer::read(&object(line).unwrap().unwrap()).map_err(|error| error.to_string())
+        let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap()).map_err(|error| error.to_string())?;
+        complaint.map_or(Ok(answer), |error| Err(error.to_string()))
     }
 
     #[test]
@@ -218,7 +258,7 @@ mod tests {
     fn other_lines_are_no_objects() {
         assert_eq!(object("iteration 3: {ok"), None);
         assert_eq!(object("[1]"), None);
-        assert!(object("{not json}").unwrap().is_err());
+        assert!(object("{not json}").unwrap().is_err_and(|near_miss| !near_miss.is_answer));
         assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
     }
 }

@@ -107,9 +107,14 @@ impl Invocation {
         let Some(object) = &printed.object else {
             return Err(Failure::NoAnswer { program: program(), reason: no_object(&printed), words });
         };
-        let read = Answer::read(object)
-            .and_then(|answer| expected.iter().try_for_each(|expected| answer.require(expected)).map(|()| answer));
-        read.map_err(|error| Failure::Unusable { program: program(), error, words })
+        let unusable = |error| Failure::Unusable { program: program(), error, words };
+        let (mut answer, complaint) = match Answer::read(object) {
+            Ok(read) => read,
+            Err(error) => return Err(unusable(error)),
+        };
+        let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
+        answer.failure = complaint.or_else(missing).map(|error| unusable(error).into());
+        Ok(answer)
     }
 
     fn command(&self) -> Command {
@@ -168,10 +173,12 @@ fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: 
 fn no_object(Printed { near_miss, last, .. }: &Printed) -> String {
     let last = match last {
         None => return "its standard output is empty".to_owned(),
-        Some(last) => format!("the last is `{last}`"),
+        Some(last) => format!("the last line is `{last}`"),
     };
-    let near_miss = near_miss.as_ref().map_or(String::new(), |reason| format!(", a line in braces is none ({reason})"));
-    format!("no line of its standard output is a JSON object{near_miss}; {last}")
+    match near_miss {
+        Some(reason) => format!("its last line that begins with a brace is no JSON object ({reason}); {last}"),
+        None => format!("no line of its standard output is a JSON object; {last}"),
+    }
 }
 
 /// Exit status or signal, in words.

@@ -59,7 +59,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
     let store = kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
     let expect = expectations(root, refine.grid)?;
-    Ok(Program { header, words, directory, timeout, store, refine, expect })
+    Ok(Program { header, words, directory, timeout, store, anew: false, refine, expect })
 }
 
 /// The folder in which the program runs, as an absolute path: a program's name is relative to it, too.

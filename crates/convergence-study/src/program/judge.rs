@@ -6,11 +6,15 @@ use super::{Expectation, Program, values};
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
-use crate::study::{Axis, Claim, Figure, LevelErrors, Outcome, Ran};
+use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Ran};
 
 type Run = Ran<Resolution, Answer>;
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
+    if let Some(mixed) = mixed_steps(study, ran) {
+        let check = Check::that(false, "every level answers its step, or none does", mixed.clone());
+        return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
+    }
     let levels = levels(study, ran);
     let mut outcome = if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) };
     // What was answered is finite. Not every answer has every number, and a case that failed fails its check; a number that was guarded and is there no more
@@ -28,7 +32,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         time: expectation.time,
         errors: ran
             .iter()
-            .map(|ran| ran.ok().map_or(f64::NAN, |answer| answer.number(&expectation.expected)))
+            .map(|ran| ran.ok().and_then(|answer| answer.number(&expectation.expected)).unwrap_or(f64::NAN))
             .collect(),
     };
     let grid = Grid {
@@ -39,7 +43,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     };
     let GridVerdict { mut checks, table, mut quantities, headline } = grid.judge();
     let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
-    checks.push(levels::completion(ran, |_| vec![]));
+    checks.push(completion(ran));
     quantities.extend(levels.quantities(&[]));
     let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
@@ -75,8 +79,36 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         tables: values.tables,
         figures,
         quantities,
-        ..Outcome::new(summary, rates, vec![levels::completion(ran, |_| vec![])])
+        ..Outcome::new(summary, rates, vec![completion(ran)])
     }
+}
+
+/// A case that answered less than was asked for counts as failed.
+fn completion(ran: &[Run]) -> Check {
+    let whole = |Ran { case, found }: &Run| {
+        let answered = found.as_ref().map_err(Clone::clone);
+        let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
+        Ran { case: Case { label: case.label.clone(), cost: case.cost, data: () }, found }
+    };
+    levels::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+}
+
+/// Which levels answer a step that the rates need, where others do not: nominal steps are no substitute for these.
+fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
+    let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
+    let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
+        let labels = |has: bool| {
+            let answered = ran.iter().filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
+            answered.map(|ran| ran.case.label.as_str()).collect::<Vec<_>>().join("; ")
+        };
+        let [with, without] = [true, false].map(labels);
+        let is_mixed = !with.is_empty() && !without.is_empty();
+        let expected = format!("expected {name} in the answers of all levels or of none");
+        is_mixed.then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
+    };
+    let h = || space.then(|| mixed("h", |answer| answer.h)).flatten();
+    let dt = || (time && (study.refine.grid || !space)).then(|| mixed("dt", |answer| answer.dt)).flatten();
+    h().or_else(dt)
 }
 
 /// The step of a case: the one that the program reports, else the nominal one.
@@ -88,7 +120,7 @@ fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
     }
 }
 
-/// Every error of every answer; NaN where a case failed.
+/// Every error of every answer.
 fn levels(study: &Program, ran: &[Run]) -> Levels {
     let axis = study.refine.axis();
     let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
@@ -119,7 +151,9 @@ fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
     let claimed: Vec<_> = levels.columns.iter().filter(|column| column.claim.is_some()).collect();
     let series = claimed.iter().map(|column| {
-        let points = work.iter().copied().zip(column.errors.iter().copied()).collect();
+        let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
+        let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
+        let points = points.collect();
         Series { label: column.name.clone(), points }
     });
     let svg = plots::work_precision(&WorkPrecision {

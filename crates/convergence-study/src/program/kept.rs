@@ -3,8 +3,9 @@
 //! A result is a file of its own, named after the hash of its [`Key`] and holding the whole key; anything else under that name is not a
 //! result, and the case is computed anew.
 
-use std::io;
 use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+use std::{env, io};
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +14,7 @@ use super::command::Invocation;
 use crate::store::{atomic, content_hash, regular};
 
 /// Version of the form of the files: a result of another form is not a result.
-const FORM: u32 = 2;
+const FORM: u32 = 3;
 
 /// The folder of kept results, beside the study file.
 const FOLDER: &str = ".convergence-study";
@@ -27,9 +28,45 @@ pub(super) struct Key {
     /// The folder in which the program runs, as the study file has it.
     directory: String,
     words: Vec<String>,
+    program: Option<Executable>,
     input: String,
     /// Each file with the hash of its content.
     files: Vec<(String, String)>,
+}
+
+/// The program that a name without a folder is found as, through `PATH`: rebuilt or replaced, it is another one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Executable {
+    /// Without symbolic links.
+    path: String,
+    /// Bytes.
+    size: u64,
+    /// Nanoseconds since 1970.
+    modified: u128,
+}
+
+impl Executable {
+    /// `None` for a name with a folder, whose content is in the key, and for one that is not found.
+    fn found(Invocation { words, directory, .. }: &Invocation) -> Option<Self> {
+        let name = words.first().filter(|name| Path::new(name.as_str()).components().count() == 1)?;
+        let folders = env::var_os("PATH")?;
+        let candidates = env::split_paths(&folders).map(|folder| directory.join(folder).join(name));
+        let path = candidates.filter(|path| is_executable(path)).find_map(|path| path.canonicalize().ok())?;
+        let about = path.metadata().ok()?;
+        let modified = about.modified().ok()?.duration_since(UNIX_EPOCH).ok()?.as_nanos();
+        Some(Self { path: path.display().to_string(), size: about.len(), modified })
+    }
+}
+
+#[cfg(unix)]
+fn is_executable(path: &Path) -> bool {
+    use std::os::unix::fs::PermissionsExt;
+    path.metadata().is_ok_and(|about| about.is_file() && about.permissions().mode() & 0o111 != 0)
+}
+
+#[cfg(not(unix))]
+fn is_executable(path: &Path) -> bool {
+    path.is_file()
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -72,6 +109,7 @@ impl Store {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             directory: self.directory.clone(),
             words: invocation.words.clone(),
+            program: Executable::found(invocation),
             input: invocation.input.clone(),
             files: self.files.iter().chain(&named).map(hashed).collect::<io::Result<_>>()?,
         })

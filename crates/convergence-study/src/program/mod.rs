@@ -67,6 +67,8 @@ pub struct Program {
     timeout: Duration,
     /// Where results are kept, if they are.
     store: Option<Store>,
+    /// Whether results of earlier runs are left alone.
+    anew: bool,
     refine: Refine,
     expect: Vec<Expectation>,
 }
@@ -119,14 +121,29 @@ impl Kind for Program {
         let Some(store) = &self.store else { return Ok(invocation.run(&expected)?) };
         let key = store.key(&invocation)?;
         // What was kept for other expectations may lack what is expected now.
-        let kept = store.get(&key).filter(|answer| expected.iter().all(|expected| answer.require(expected).is_ok()));
+        let kept = if self.anew { None } else { store.get(&key) };
+        let kept = kept.filter(|answer| expected.iter().all(|expected| answer.require(expected).is_ok()));
         if let Some(answer) = kept {
-            return Ok(answer);
+            return Ok(Answer { kept: true, ..answer });
         }
         let answer = invocation.run(&expected)?;
-        // A result that cannot be kept costs the next run time, not this one its result.
-        let _ = store.put(&key, &invocation, &answer);
+        if answer.failure.is_none() {
+            // A result that cannot be kept costs the next run time, not this one its result.
+            let _ = store.put(&key, &invocation, &answer);
+        }
         Ok(answer)
+    }
+
+    fn is_kept(&self, answer: &Answer) -> bool {
+        answer.kept
+    }
+
+    fn compute_anew(&mut self) {
+        self.anew = true;
+    }
+
+    fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
+        answer.failure.clone()
     }
 
     fn judge(&self, ran: &[Ran<Resolution, Answer>]) -> Outcome {

@@ -20,7 +20,7 @@ const LAST_CHARACTERS: usize = 160;
 pub(super) struct Printed {
     /// The last line that is a JSON object.
     pub(super) object: Option<Map<String, Value>>,
-    /// Why a later line in braces is no object.
+    /// Why a later line that begins with a brace is no object.
     pub(super) near_miss: Option<String>,
     /// The last line that is not blank, as it can be shown.
     pub(super) last: Option<String>,
@@ -34,7 +34,11 @@ pub(super) fn read_output(stream: impl Read) -> Printed {
         if is_whole {
             match answer::object(line) {
                 Some(Ok(object)) => (printed.object, printed.near_miss) = (Some(object), None),
-                Some(Err(reason)) => printed.near_miss = Some(reason),
+                Some(Err(near_miss)) => {
+                    printed.near_miss = Some(near_miss.reason);
+                    // An earlier object is no longer the last.
+                    printed.object = printed.object.take().filter(|_| !near_miss.is_answer);
+                }
                 None => {}
             }
         } else if line.trim_start().starts_with('{') {
@@ -109,6 +113,28 @@ mod tests {
         let open = read_output("{x}\n{\"c\": 3}".as_bytes());
         assert_eq!((open.object.unwrap().len(), open.near_miss), (1, None));
         assert_eq!(read_output(&b"\xff\n"[..]).last.as_deref(), Some("\u{fffd}"));
+    }
+
+    #[test]
+    fn an_answer_that_is_no_whole_object_is_not_replaced_by_an_earlier_one() {
+        let hint = "print it with json.dumps(...) on one line";
+        for (last, told) in [
+            ("{\"errors\": {\"L2\": 1e5 }", hint),
+            ("{\n  \"errors\": {\n    \"L2\": 1e5\n  }\n}", hint),
+            ("  {  \n\"errors\": 1}", hint),
+            ("{'errors': {'L2': 1e5}}", "single quotes are not those of JSON: print it with json.dumps(...)"),
+            ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
+        ] {
+            let printed = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes());
+            assert_eq!(printed.object, None, "{last}");
+            assert!(printed.near_miss.as_ref().is_some_and(|reason| reason.contains(told)), "{printed:?}");
+            let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
+            assert!(answered.object.is_some_and(|object| object.contains_key("late")), "{last}");
+        }
+        for talk in ["{iteration 3}", "{iteration 3", "{'iteration': 3}", "done {"] {
+            let printed = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes());
+            assert!(printed.object.is_some_and(|object| object.contains_key("early")), "{talk}");
+        }
     }
 
     #[test]

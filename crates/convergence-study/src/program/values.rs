@@ -4,7 +4,7 @@ use super::answer::{Answer, Expected};
 use super::refine::Resolution;
 use super::{Expectation, Program};
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::{Claim, Figure, Quantity, Ran, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
@@ -33,7 +33,7 @@ pub(super) fn judge(study: &Program, ran: &[Ran<Resolution, Answer>], refinement
     let figure = (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
     let value = |column: &ErrorColumn, level: usize| Quantity {
         name: format!("{}, {}", name(column), refinements[level].label),
-        value: column.errors[level],
+        value: column.errors[level].unwrap_or(f64::NAN),
         tolerance: ERROR_TOLERANCE,
     };
     let guarded = (0..refinements.len()).flat_map(|level| columns.iter().map(move |column| value(column, level)));
@@ -56,7 +56,7 @@ fn name(column: &ErrorColumn) -> String {
     format!("value {}", column.name)
 }
 
-/// Every value of every answer; NaN where a case failed.
+/// Every value of every answer.
 fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn> {
     let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
         Expected::Value(name) => Some((name.clone(), *claim)),
@@ -67,12 +67,18 @@ fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn>
     ErrorColumn::of(&claims, &found)
 }
 
-/// `None` where nothing is claimed of the value.
+/// `None` where nothing is claimed of the value. A level without a result makes the verdict fail; the estimate is that of the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
     let Claim { order, tolerance } = column.claim?;
-    let level = |(level, value): (&Refinement, &f64)| Value { step: level.step, value: *value };
-    let values: Vec<Value> = refinements.iter().zip(&column.errors).map(level).collect();
-    Some(Estimator::new(tolerance).ok()?.estimate(&values, order))
+    let level = |(level, value): (&Refinement, &Option<f64>)| Some(Value { step: level.step, value: (*value)? });
+    let values: Vec<Value> = refinements.iter().zip(&column.errors).filter_map(level).collect();
+    let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);
+    let without = refinements.iter().zip(&column.errors).filter(|(_, value)| value.is_none());
+    let missing: Vec<&str> = without.map(|(level, _)| level.label.as_str()).collect();
+    if missing.is_empty() {
+        return Some(estimate);
+    }
+    Some(Estimate { judged: estimate.judged.without_result(refinements.len(), &missing), ..estimate })
 }
 
 /// The differences of neighbouring levels, each at the finer of its steps, with the lines of their rates.
@@ -84,7 +90,7 @@ fn differences(
 ) -> Figure {
     let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
         name: name(column),
-        errors: column.errors.windows(2).map(|pair| (pair[0] - pair[1]).abs()).collect(),
+        errors: column.errors.windows(2).map(|pair| Some((pair[0]? - pair[1]?).abs())).collect(),
         claim: column.claim,
         look: column.look,
     };
@@ -94,7 +100,9 @@ fn differences(
         columns: estimates.iter().map(column).collect(),
     };
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
-    levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), rates)
+    // A rate across a gap is fitted to other differences than are drawn.
+    let drawn: Vec<_> = rates.iter().filter(|(_, rate)| rate.kind != Reason::NoResult).cloned().collect();
+    levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), &drawn)
 }
 
 const HEAD: [&str; 9] =
@@ -103,8 +111,9 @@ const HEAD: [&str; 9] =
 /// Limit, error bar and grid convergence index of each value of which an order is claimed, or why there is none.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
     let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
-        let finest = column.errors.last().copied().unwrap_or(f64::NAN);
-        let mut row = vec![column.name.clone(), digits(finest, width(estimate)), rate_text(estimate.judged.fitted)];
+        let finest = column.errors.iter().rev().copied().flatten().next().unwrap_or(f64::NAN);
+        let rate = estimate.judged.fitted.or_else(|| estimate.judged.finest_rate());
+        let mut row = vec![column.name.clone(), digits(finest, width(estimate)), rate_text(rate)];
         row.extend(match &estimate.bar {
             Ok(bar) => bar_cells(bar),
             Err(refusal) => [format!("none: {refusal}"), "-".into(), "-".into(), "-".into()],
@@ -134,20 +143,31 @@ fn width(estimate: &Estimate) -> f64 {
     estimate.bar.as_ref().map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
 }
 
-/// A number with so many decimals that two digits of `width` are seen.
+/// A number with so many decimals that two digits of `width` are seen; with an exponent where these are more than 15.
 fn digits(value: f64, width: f64) -> String {
     let places = 1.0 - width.log10().floor();
-    if (0.0..=15.0).contains(&places) { format!("{value:.*}", places as usize) } else { plain_text(value) }
+    if (0.0..=15.0).contains(&places) {
+        return format!("{value:.*}", places as usize);
+    }
+    let after_the_first = value.abs().log10().floor() + places;
+    let is_plain = (1e-3..1e6).contains(&value.abs()) && !(5.0..f64::INFINITY).contains(&after_the_first);
+    if value == 0.0 || !value.is_finite() || is_plain {
+        return plain_text(value);
+    }
+    // No more digits than a floating-point number has; six where the width says nothing.
+    let digits = if after_the_first.is_finite() { after_the_first.clamp(1.0, 16.0) } else { 5.0 };
+    format!("{value:.*e}", digits as usize)
 }
 
 /// The values, each with so many decimals that its last change is seen.
 fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
-    let last_change = |column: &ErrorColumn| match column.errors[..] {
+    let last_change = |column: &ErrorColumn| match column.errors.iter().copied().flatten().collect::<Vec<_>>()[..] {
         [.., before, last] => (last - before).abs(),
         _ => f64::NAN,
     };
     let row = |(level, refinement): (usize, &Refinement)| {
-        let values = columns.iter().map(|column| digits(column.errors[level], last_change(column)));
+        let value = |column: &ErrorColumn, value: f64| digits(value, last_change(column));
+        let values = columns.iter().map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
         [refinement.label.clone()].into_iter().chain(values).collect()
     };
     Table {
@@ -175,5 +195,10 @@ mod tests {
         assert_eq!(digits(3.123456789, 9.0), "3.1");
         assert_eq!(digits(3.123456789, f64::NAN), "3.12346");
         assert_eq!(digits(31234.56789, 1e4), "31234.6");
+        assert_eq!(digits(3.123456789123e-200, 1.2e-209), "3.1234567891e-200");
+        assert_eq!(digits(-3.123456789123e20, 1.2e11), "-3.1234567891e20");
+        assert_eq!(digits(3.123456789123e-200, 0.0), "3.12346e-200");
+        assert_eq!(digits(0.0, 1e-209), "0");
+        assert_eq!(digits(3.125, 1e-18), "3.1250000000000000e0");
     }
 }

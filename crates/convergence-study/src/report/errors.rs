@@ -40,18 +40,21 @@ fn width(columns: &[Column]) -> usize {
 
 impl Column {
     fn of(outcome: &Outcome, name: &str) -> Self {
-        let found = |level: &LevelErrors| level.errors.iter().find(|(known, _)| known == name).map(|(_, error)| *error);
-        let errors: Vec<Option<f64>> = outcome.levels.iter().map(found).collect();
+        let found = |level: &LevelErrors| {
+            let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
+            let has_result = !level.without.iter().any(|known| known == name);
+            Some(has_result.then_some(*error))
+        };
+        let errors: Vec<Option<Option<f64>>> = outcome.levels.iter().map(found).collect();
         let judged = outcome.rates.iter().find(|(known, _)| known == name);
         // Rates belong to levels only where each level is one of those judged.
         let count = errors.iter().flatten().count();
         let pairwise = judged.map(|(_, rate)| &rate.pairwise).filter(|pairwise| pairwise.len() + 1 == count);
         let mut met = 0;
-        let cell = |error: &Option<f64>| {
-            let error = (*error)?;
-            let mut cells = vec![error_text(error)];
+        let cell = |error: &Option<Option<f64>>| {
+            let mut cells = vec![(*error)?.map_or_else(|| "-".to_owned(), error_text)];
             if let Some(pairwise) = pairwise {
-                let before = usize::checked_sub(met, 1).map(|before| pairwise[before]);
+                let before = usize::checked_sub(met, 1).map(|before| pairwise[before]).filter(|rate| !rate.is_nan());
                 cells.push(before.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3)));
                 met += 1;
             }

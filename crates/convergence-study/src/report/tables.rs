@@ -25,7 +25,7 @@ fn rates(outcome: &Outcome) -> Table {
         [
             norm.clone(),
             rate.claim(),
-            number(rate.fitted),
+            number(rate.fitted.or_else(|| rate.finest_rate())),
             rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES)),
             number(rate.extrapolated),
             levels(rate),
@@ -44,10 +44,14 @@ fn rates(outcome: &Outcome) -> Table {
     rates
 }
 
-/// The levels that the rate was fitted to, counted from the coarsest.
+/// The levels that the rate was fitted to, counted from the coarsest; without a fit it is that of the finest pair.
 fn levels(rate: &RateVerdict) -> String {
     let all = if rate.pairwise.is_empty() { 0 } else { rate.pairwise.len() + 1 };
-    if rate.used.is_empty() { "-".to_owned() } else { format!("{}-{} of {all}", rate.used.start + 1, rate.used.end) }
+    match (rate.used.is_empty(), rate.finest_rate()) {
+        (false, _) => format!("{}-{} of {all}", rate.used.start + 1, rate.used.end),
+        (true, Some(_)) => "finest pair".to_owned(),
+        (true, None) => "-".to_owned(),
+    }
 }
 
 fn checks(checks: &[Check]) -> Table {

@@ -41,7 +41,8 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
-    let is_new = |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { .. });
+    let is_new =
+        |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { guarded: 0, .. });
     let new = changes.iter().filter(is_new).count();
     let claims = changes.iter().filter(|change| change.movement.is_of_one_claim()).count();
     let deleted = changes.iter().filter(|change| matches!(change.movement, Movement::VanishedFile { .. })).count();
@@ -146,7 +147,7 @@ pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String 
 fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     // The last of the worst would do as well; the first is the one that the study names first.
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
-    let fitted = worst.fitted.map_or_else(|| "without a rate".to_owned(), |fitted| rate_text(Some(fitted)));
+    let fitted = worst.fitted.map_or_else(|| worst.rate_in_words(RATE_PLACES), |fitted| rate_text(Some(fitted)));
     let mut parts = vec![format!("{name} {fitted} (order {})", order_text(worst.order))];
     let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();

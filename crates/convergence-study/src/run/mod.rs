@@ -52,6 +52,10 @@ pub struct Spent {
     pub busy: Duration,
     /// From the start of its first case to the end of its last one.
     pub wall: Duration,
+    /// The number of its cases.
+    pub cases: usize,
+    /// How many of them were not computed: their results are those of an earlier run.
+    pub kept: usize,
 }
 
 /// Why nothing was run.
@@ -178,6 +182,7 @@ fn conclude(Planned { header, plan, cases }: Planned<'_>, done: &[Done]) -> Fini
                 Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
             });
             failed_cases.extend(failed);
+            spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
         Err(reason) => broken("list its cases", &reason),

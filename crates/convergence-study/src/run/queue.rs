@@ -82,7 +82,7 @@ pub(super) fn spent(done: &[Done]) -> Spent {
     let started = done.iter().map(|done| done.started).min();
     let ended = done.iter().map(|done| done.ended).max();
     let wall = ended.zip(started).map(|(ended, started)| ended - started).unwrap_or_default();
-    Spent { busy, wall }
+    Spent { busy, wall, cases: done.len(), kept: 0 }
 }
 
 /// Counts the cases that have ended and reports the progress.

@@ -99,7 +99,7 @@ pub enum BaselineError {
     #[error(
         "{}: schema: found {found}; expected {SCHEMA}, which also guards what study files claim; remove the file and run \
          `verify --bless`, then `verify --tier full --bless`; to keep the numbers of schema 1, write `\"schema\": {SCHEMA}, \
-         \"claims\": {{}}` in place of its version first",
+         \"claims\": {{}}` in place of its version first and give a `--reason`",
         visible::path(.path)
     )]
     Schema {
@@ -209,7 +209,7 @@ impl Baseline {
     }
 
     fn changed_claims(&self, header: &Header) -> Vec<Change> {
-        claims::changes(header, self.claims.get(&header.id))
+        claims::changes(header, self.claims.get(&header.id), self.guards(&header.id))
     }
 
     /// The ids of studies that the baseline has and that there are no more.
@@ -244,7 +244,8 @@ impl Baseline {
             self.claims.get_mut(id).into_iter().for_each(|claims| claims::withdraw(claims, reason));
         }
         for Finished { header, .. } in finished {
-            claims::bless(header, self.claims.entry(header.id.clone()).or_default(), reason);
+            let guarded = self.guards(&header.id);
+            claims::bless(header, self.claims.entry(header.id.clone()).or_default(), guarded, reason);
         }
         self.claims.retain(|_, claims| !claims.is_empty());
         for Finished { header, outcome, .. } in finished {

@@ -15,7 +15,7 @@ use super::record::form::null_is_nan;
 use super::{atomic, regular, writing};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
-use crate::store::provenance::Provenance;
+use crate::store::provenance::{Provenance, is_none};
 use crate::text::visible;
 
 /// Version of a line's form.
@@ -54,6 +54,9 @@ pub struct StudyRun {
     /// Time over all threads.
     #[serde(deserialize_with = "null_is_nan")]
     pub busy_seconds: f64,
+    /// Cases whose results were kept from an earlier run.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub kept_cases: usize,
 }
 
 /// A rate of a run.
@@ -131,6 +134,7 @@ impl StudyRun {
             rates: outcome.rates.iter().map(rate).collect(),
             errors: Errors(errors),
             busy_seconds: spent.busy.as_secs_f64(),
+            kept_cases: spent.kept,
         }
     }
 }

@@ -52,6 +52,14 @@ pub struct StudyTime {
     pub busy_seconds: f64,
     /// From the start of the first case to the end of the last one.
     pub wall_seconds: f64,
+    /// Cases whose results were kept from an earlier run.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub kept_cases: usize,
+}
+
+/// Whether a count is left out.
+pub(super) fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Provenance {
@@ -104,7 +112,12 @@ pub fn date(seconds: u64) -> Option<String> {
 }
 
 fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
-    StudyTime { id: header.id.clone(), busy_seconds: spent.busy.as_secs_f64(), wall_seconds: spent.wall.as_secs_f64() }
+    StudyTime {
+        id: header.id.clone(),
+        busy_seconds: spent.busy.as_secs_f64(),
+        wall_seconds: spent.wall.as_secs_f64(),
+        kept_cases: spent.kept,
+    }
 }
 
 /// The most memory that this process has used so far, in bytes, since its start or since [`forget_peak_memory`].

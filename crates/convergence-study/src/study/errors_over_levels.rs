@@ -142,6 +142,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::verdict::Reason;
     use crate::study::run_here;
 
     const COUNTS: [usize; 5] = [4, 8, 16, 32, 64];
@@ -174,6 +175,18 @@ mod tests {
         let failed = outcome(2.0, |n, error| if n == 8 { failure() } else { Ok(vec![("e", error)]) });
         assert_eq!(failed.verdict, Verdict::Fail);
         assert!(failed.checks[0].evidence.contains("cells = 8: diverged"), "{:?}", failed.checks);
+        let told =
+            "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
+        assert!(failed.summary.starts_with(told), "{}", failed.summary);
+        let rate = &failed.rates[0].1;
+        assert_eq!((rate.kind, rate.set_aside.len(), rate.set_aside[0].level), (Reason::NoResult, 1, 1));
+        assert!(
+            rate.pairwise[..2].iter().all(|rate| rate.is_nan())
+                && rate.pairwise[2..].iter().all(|r| (r - 2.0).abs() < 1e-9)
+        );
+        // An error that was computed and is NaN is another thing.
+        let nan = outcome(2.0, |n, error| Ok(vec![("e", if n == 8 { f64::NAN } else { error })]));
+        assert_eq!((nan.verdict, nan.rates[0].1.kind), (Verdict::Fail, Reason::NonFiniteError));
         let lacks = |n, error| Ok(if n == 8 { vec![("e", error)] } else { vec![("e", error), ("f", 1.0)] });
         let lacking = outcome(2.0, lacks);
         assert_eq!(lacking.verdict, Verdict::Fail);

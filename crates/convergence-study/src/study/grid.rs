@@ -23,7 +23,7 @@ pub struct GridColumn {
     pub space: Claim,
     /// The order in dt.
     pub time: f64,
-    /// The errors, for each point of the grid; NaN where the case failed.
+    /// The errors, for each point of the grid; NaN where there is no result: the fit is then that of the others, and a check fails.
     pub errors: Vec<f64>,
 }
 
@@ -68,6 +68,7 @@ impl Grid {
         let (mut checks, mut rows, mut quantities, mut headline) = (vec![], vec![], vec![], vec![]);
         for column in &self.columns {
             let name = &column.name;
+            checks.extend(self.incomplete(column));
             match self.fit(column) {
                 Ok(fitted) => {
                     checks.extend(self.judge_fit(column, &fitted));
@@ -115,13 +116,21 @@ impl Grid {
 
     fn fit(&self, column: &GridColumn) -> Result<Fitted, String> {
         let point = |(&[h, dt], &error): (&[f64; 2], &f64)| SurfacePoint { h, dt, error };
-        let points: Vec<SurfacePoint> = self.points.iter().zip(&column.errors).map(point).collect();
+        let having = self.points.iter().zip(&column.errors).filter(|(_, error)| !error.is_nan());
+        let points: Vec<SurfacePoint> = having.map(point).collect();
         let fit = |adding| fit_surface_by(&points, adding, Quantiles::standard());
         let squares = fit(Adding::Squares);
         let misfit = squares.as_ref().map_or(f64::INFINITY, |fit| fit.rms);
         let is_best = squares.as_ref().is_ok_and(|fit| fit.rms <= fit.rms_additive);
         let fit = if self.model == Model::Squares || is_best { squares } else { fit(Adding::Plain).or(squares) };
         fit.map(|fit| Fitted { squares: misfit, fit }).map_err(|error| error.to_string())
+    }
+
+    /// Fails where a point has no result; nothing where all have one.
+    fn incomplete(&self, GridColumn { name, errors, .. }: &GridColumn) -> Option<Check> {
+        let (all, have) = (self.points.len(), errors.iter().filter(|error| !error.is_nan()).count());
+        let evidence = || format!("{name}: {} of {all} cases have no result", all - have);
+        (have < all).then(|| Check::that(false, format!("{name}: every case has a result"), evidence()))
     }
 
     /// Both orders by equivalence: passes where the interval lies inside the band, fails where it lies outside, else inconclusive.

@@ -29,6 +29,19 @@ pub trait Kind: Send + Sync {
     /// [`CaseFailure`] where the computation did not complete.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
+    /// Why a result counts as a failed case although a part of it is kept: a number that was asked for is missing. `None` for a whole one.
+    fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
+        None
+    }
+
+    /// Whether a result was not computed but kept from an earlier run.
+    fn is_kept(&self, _found: &Self::Found) -> bool {
+        false
+    }
+
+    /// From now on every case is computed, whatever was kept of earlier runs.
+    fn compute_anew(&mut self) {}
+
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
@@ -105,6 +118,9 @@ pub trait Study: Send + Sync {
 
     /// What it is no test of although it passes.
     fn untested(&self) -> Vec<Untested>;
+
+    /// From now on every case is computed, whatever was kept of earlier runs.
+    fn compute_anew(&mut self);
 }
 
 /// The cases of a study while they are run.
@@ -120,6 +136,9 @@ pub trait Plan: Send + Sync {
 
     /// Why case number `index` has no result; `None` if it has one.
     fn failure(&self, index: usize) -> Option<CaseFailure>;
+
+    /// Whether the result of case number `index` was kept from an earlier run.
+    fn is_kept(&self, index: usize) -> bool;
 
     /// Judges the results, each case having been run.
     fn judge(self: Box<Self>) -> Outcome;
@@ -149,6 +168,10 @@ impl<K: Kind> Study for Erased<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.0.untested()
+    }
+
+    fn compute_anew(&mut self) {
+        self.0.compute_anew();
     }
 }
 
@@ -187,9 +210,16 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
     fn failure(&self, index: usize) -> Option<CaseFailure> {
         match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(Ok(_)) => None,
+            Some(Ok(found)) => self.kind.failure(found),
             Some(Err(failure)) => Some(failure.clone()),
             None => Some(never_run()),
+        }
+    }
+
+    fn is_kept(&self, index: usize) -> bool {
+        match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(Ok(found)) => self.kind.is_kept(found),
+            _ => false,
         }
     }
 

@@ -1,5 +1,8 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in one way for all kinds of study.
 
+#[cfg(feature = "reports")]
+use std::ops::Range;
+
 use super::axis::Axis;
 use super::case::{Ran, by_reason};
 #[cfg(feature = "reports")]
@@ -36,8 +39,8 @@ pub struct Claim {
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
-    /// As measured; NaN where the case failed.
-    pub errors: Vec<f64>,
+    /// As measured; `None` where there is no result: the case failed, or found no such error.
+    pub errors: Vec<Option<f64>>,
     /// What is claimed of it, if anything.
     pub claim: Option<Claim>,
     /// Which look, of `plots::look`, it has in figures: the same wherever this error is drawn.
@@ -47,7 +50,7 @@ pub struct ErrorColumn {
 impl ErrorColumn {
     /// A column for every error that is claimed or was found: claimed ones first, then each in the order in which it occurs.
     ///
-    /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed. An error that a level lacks is NaN.
+    /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
         let mut names: Vec<&str> = claims.iter().map(|(name, _)| name.as_ref()).collect();
         for (name, _) in found.iter().copied().flatten().flatten() {
@@ -57,7 +60,7 @@ impl ErrorColumn {
         }
         let error = |errors: &Option<&[(M, f64)]>, name: &str| {
             let named = errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
-            named.map_or(f64::NAN, |(_, error)| *error)
+            named.map(|(_, error)| *error)
         };
         let column = |(look, name): (usize, &str)| Self {
             name: name.to_owned(),
@@ -115,24 +118,40 @@ pub struct Levels {
 pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
+    /// The levels that have a result.
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
-        let level = |(i, level): (usize, &Refinement)| Level { step: level.step, error: at(&column.errors, i) };
-        self.refinements.iter().enumerate().map(level).collect()
+        let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
+        self.refinements.iter().enumerate().filter_map(level).collect()
     }
 
-    /// One verdict for each error of which an order is claimed.
+    /// For each level whether it has a result.
+    fn has_result(&self, column: &ErrorColumn) -> Vec<bool> {
+        (0..self.refinements.len()).map(|i| at(&column.errors, i).is_some()).collect()
+    }
+
+    /// The labels of levels that have no result for some error that is claimed.
+    #[cfg(feature = "reports")]
+    fn without_result(&self) -> Vec<&str> {
+        let lacks =
+            |i: usize| self.columns.iter().any(|column| column.claim.is_some() && at(&column.errors, i).is_none());
+        self.refinements.iter().enumerate().filter(|(i, _)| lacks(*i)).map(|(_, level)| level.label.as_str()).collect()
+    }
+
+    /// One verdict for each error of which an order is claimed. A level without a result makes it fail; the rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
         self.judge_by(|judge| judge)
     }
 
     /// The same by a rule with other settings, such as the floor below which these errors are not known.
     pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
+        let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
         let verdict = |column: &ErrorColumn| {
             let Claim { order, tolerance } = column.claim?;
             let points = self.points(column);
             // A tolerance that no verdict can be based on; readers of study files refuse it before.
             let judged = Judge::new(tolerance).map(|judge| settings(judge).judge(&points, order));
-            Some((column.name.clone(), judged.unwrap_or_else(|_| verdict::judge(&points, order, tolerance))))
+            let judged = judged.unwrap_or_else(|_| verdict::judge(&points, order, tolerance));
+            Some((column.name.clone(), judged.among(&labels, &self.has_result(column))))
         };
         self.columns.iter().filter_map(verdict).collect()
     }
@@ -152,7 +171,7 @@ impl Levels {
                 interval: rate.and_then(|(_, rate)| rate.interval),
                 points: points.iter().map(|level| (level.step, level.error)).collect(),
                 order: Some(claim.order),
-                used: rate.map(|(_, rate)| rate.used.clone()),
+                used: rate.map(|(_, rate)| drawn(&rate.used, &self.has_result(column))),
                 look: Some(column.look),
             }
         });
@@ -162,8 +181,15 @@ impl Levels {
         let labels = Convergence { x_label: self.axis.label().into(), ..Convergence::in_space() };
         let series: Vec<ErrorSeries> = series.collect();
         let has_line = series.iter().any(|series| series.line().is_some());
-        let svg = plots::convergence(&Convergence { title, series, slopes, ..labels });
-        Figure { file, caption: if has_line { caption + LINES } else { caption }, svg }
+        let caption = if has_line { caption + LINES } else { caption };
+        let without = self.without_result();
+        let notes: Vec<String> = without.iter().map(|label| format!("{label}: no result")).collect();
+        let caption = match without.as_slice() {
+            [] => caption,
+            labels => format!("{caption} No result: {}.", labels.join("; ")),
+        };
+        let svg = plots::convergence(&Convergence { title, series, slopes, notes, ..labels });
+        Figure { file, caption, svg }
     }
 
     /// Every error of every level, for record and report.
@@ -172,7 +198,11 @@ impl Levels {
             parameters: level.parameters.clone(),
             step: Some(level.step),
             work: None,
-            errors: self.columns.iter().map(|column| (column.name.clone(), at(&column.errors, i))).collect(),
+            errors: self.columns.iter().map(|column| (column.name.clone(), number(&column.errors, i))).collect(),
+            without: {
+                let lacking = self.columns.iter().filter(|column| at(&column.errors, i).is_none());
+                lacking.map(|column| column.name.clone()).collect()
+            },
         };
         self.refinements.iter().enumerate().map(level).collect()
     }
@@ -182,7 +212,7 @@ impl Levels {
         let errors = self.refinements.iter().enumerate().flat_map(|(i, level)| {
             self.columns.iter().map(move |column| Quantity {
                 name: format!("error {}, {}", column.name, level.label),
-                value: at(&column.errors, i),
+                value: number(&column.errors, i),
                 tolerance: ERROR_TOLERANCE,
             })
         });
@@ -190,8 +220,21 @@ impl Levels {
     }
 }
 
-fn at(errors: &[f64], level: usize) -> f64 {
-    errors.get(level).copied().unwrap_or(f64::NAN)
+/// The error of a level; `None` where it has no result.
+fn at(errors: &[Option<f64>], level: usize) -> Option<f64> {
+    errors.get(level).copied().flatten()
+}
+
+/// The same as a number of the record: NaN where there is no result.
+fn number(errors: &[Option<f64>], level: usize) -> f64 {
+    at(errors, level).unwrap_or(f64::NAN)
+}
+
+/// A range of levels among those that have a result.
+#[cfg(feature = "reports")]
+fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
+    let before = |end: usize| has[..end.min(has.len())].iter().filter(|has| **has).count();
+    before(used.start)..before(used.end)
 }
 
 /// The observed rates, as numbers that the baseline guards.
@@ -240,7 +283,7 @@ pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
     let shown = rates.iter().filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
     let one = |(name, rate): &(String, RateVerdict)| {
-        let found = rate.fitted.map_or("no rate".to_owned(), |fitted| format!("{fitted:.4}"));
+        let found = rate.fitted.map_or_else(|| rate.rate_in_words(RATE_PLACES), |fitted| format!("{fitted:.4}"));
         let reason = if passes { String::new() } else { format!(": {}", rate.reason) };
         format!("{name} {found} (order {}){reason}", rate.order)
     };
@@ -275,7 +318,7 @@ mod tests {
         let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
         let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
         let judged = |count: usize, tolerance: f64| {
-            let errors = refinements.iter().take(count).map(|level| level.step * level.step).collect();
+            let errors = refinements.iter().take(count).map(|level| Some(level.step * level.step)).collect();
             let claim = Some(Claim { order: 2.0, tolerance });
             let columns = vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }];
             let levels = Levels { axis: Axis::Space, refinements: refinements.clone(), columns };
@@ -294,7 +337,8 @@ mod tests {
     fn scattered(factors: [f64; 5]) -> Levels {
         let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
         let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
-        let errors = refinements.iter().zip(factors).map(|(level, factor)| factor * level.step * level.step).collect();
+        let errors =
+            refinements.iter().zip(factors).map(|(level, factor)| Some(factor * level.step * level.step)).collect();
         let claim = Some(Claim { order: 2.0, tolerance: 0.1 });
         Levels {
             axis: Axis::Space,

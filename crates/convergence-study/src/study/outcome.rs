@@ -34,8 +34,10 @@ pub struct LevelErrors {
     pub step: Option<f64>,
     /// What the level cost, in a unit of the study's choice, where that is known.
     pub work: Option<f64>,
-    /// Errors by name; NaN where the case failed.
+    /// Errors by name; NaN where there is no result.
     pub errors: Vec<(String, f64)>,
+    /// The names of those errors for which the level has no result.
+    pub without: Vec<String>,
 }
 
 impl LevelErrors {

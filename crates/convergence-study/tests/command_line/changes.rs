@@ -227,3 +227,16 @@ pub(crate) fn a_damaged_line_of_a_journal_is_named() {
         assert!(status == Some(2) && out.is_empty(), "{place}: {out}");
     }
 }
+
+pub(crate) fn a_study_with_a_near_extension_is_named() {
+    let root = workspace(false);
+    let write = |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
+    write("two.TOML", &study("two", "c", 0.5));
+    write("notes.tml", "# [study]\n");
+    write("three.txt", &study("three", "c", 0.5));
+    let told = "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
+    for (arguments, status) in [(&["verify", "--bless"][..], 0), (&["verify", "--quiet"], 0), (&["list"], 0)] {
+        let (ended, _, err) = run(&root, arguments);
+        assert_eq!((ended, err.as_str()), (Some(status), told), "{arguments:?}");
+    }
+}

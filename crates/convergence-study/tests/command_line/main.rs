@@ -16,8 +16,9 @@ use tempfile::TempDir;
 
 use changes::{
     a_damaged_line_of_a_journal_is_named, a_review_fails_where_a_study_does_and_nothing_differs,
-    blessings_at_once_are_all_kept, changes_are_accepted_one_some_or_all_with_a_reason,
-    records_are_compared_with_0_1_or_2, runs_are_journaled_and_shown_as_page_and_badge,
+    a_study_with_a_near_extension_is_named, blessings_at_once_are_all_kept,
+    changes_are_accepted_one_some_or_all_with_a_reason, records_are_compared_with_0_1_or_2,
+    runs_are_journaled_and_shown_as_page_and_badge,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -43,12 +44,13 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 29] = [
+const TESTS: [Test; 30] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
         a_changed_claim_fails_until_it_is_blessed_with_a_reason,
     ),
+    ("a_study_with_a_near_extension_is_named", a_study_with_a_near_extension_is_named),
     ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
     ("what_fails_is_printed_last_and_what_passes_is_counted", what_fails_is_printed_last_and_what_passes_is_counted),
     ("a_deleted_study_is_one_change_and_is_named", a_deleted_study_is_one_change_and_is_named),

@@ -4,7 +4,7 @@ use std::fs;
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::tests::Place;
+use crate::tests::{Place, project_of, texts};
 
 const CACHED: &str = "files = [\"data\"]\ncache = true";
 
@@ -35,6 +35,55 @@ pub(crate) fn kept_results_are_used_until_something_changes() {
     // A failed case is not kept.
     let failing = cached("status");
     assert_eq!((failing.study(&[]).0, failing.kept().len()), (Some(1), 4));
+}
+
+/// A program that is rebuilt under the same name.
+pub(crate) fn a_kept_result_depends_on_the_program_found_through_path() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = cached("count");
+    let bin = place.folder.path().join("bin");
+    fs::create_dir(&bin).unwrap();
+    let exe = std::env::current_exe().unwrap();
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&text.replace(&format!("{:?}", exe.to_str().unwrap()), "\"my-solver\""));
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let study = || texts(place.command(&["study", "s.toml"]).env("PATH", &path).output().unwrap());
+    for (version, runs) in [("1", 5), ("1", 5), ("version 2", 10), ("version 2", 10)] {
+        let script = format!("#!/bin/sh\n# {version}\nexec '{}' \"$@\"\n", exe.display());
+        let file = bin.join("my-solver");
+        if fs::read_to_string(&file).ok() != Some(script.clone()) {
+            fs::write(&file, script).unwrap();
+            fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        let (status, out, err) = study();
+        assert_eq!((status, place.runs()), (Some(0), runs), "{version}: {out}{err}");
+    }
+}
+
+/// What is kept shows on the terminal and in what is of one machine, and in no committed byte.
+pub(crate) fn kept_results_are_counted_and_never_blessed() {
+    let place = project_of(cached("count"));
+    let root = place.folder.path();
+    fs::rename(root.join("data"), root.join("studies/data")).unwrap();
+    let verify = |arguments: &[&str]| texts(place.command(&[&["verify"], arguments].concat()).output().unwrap());
+    let runs = || fs::read_to_string(root.join("studies/runs")).unwrap().lines().count();
+    let reports = || ["README.md", "results.json"].map(|name| fs::read(root.join("reports").join(name)).unwrap());
+    let (status, out, err) = verify(&["--bless"]);
+    assert_eq!((status, runs()), (Some(0), 5), "{out}{err}");
+    let told = "s: 5 of 5 cases kept from an earlier run\n";
+    assert!(!out.contains("kept"), "{out}");
+    let computed = reports();
+    let (status, out, _) = verify(&["--journal", "runs.jsonl"]);
+    assert!(status == Some(0) && runs() == 5 && out.contains(told), "{out}");
+    assert!(fs::read_to_string(root.join("runs.jsonl")).unwrap().contains("\"kept_cases\":5"));
+    let provenance = fs::read_to_string(root.join("reports/local/provenance.json")).unwrap();
+    assert!(provenance.contains("\"kept_cases\": 5"), "{provenance}");
+    assert_eq!(reports(), computed);
+    let (status, out, _) = verify(&["--bless"]);
+    assert!(status == Some(0) && runs() == 10 && !out.contains("kept"), "{out}");
+    assert_eq!(reports(), computed);
+    let (_, out, _) = texts(place.command(&["study", "studies/s.toml"]).output().unwrap());
+    assert!(out.lines().next().unwrap().ends_with(" s, 5 of 5 cases kept from an earlier run"), "{out}");
 }
 
 /// The word `{n}` of the command is the name of a file.

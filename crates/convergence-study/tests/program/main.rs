@@ -3,6 +3,8 @@
 #[cfg(unix)]
 mod kept;
 #[cfg(unix)]
+mod levels;
+#[cfg(unix)]
 mod solver;
 #[cfg(unix)]
 mod tests;

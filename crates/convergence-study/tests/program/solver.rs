@@ -16,12 +16,15 @@ pub(crate) fn main(arguments: &[String]) -> ! {
     let [token, mode, n, rest @ ..] = arguments else { exit(64) };
     let n: u32 = if mode == "stdin" { number_from_stdin() } else { n.parse().unwrap_or(0) };
     if n == 16 {
-        misbehave(token, mode);
+        misbehave(token, mode, n);
     }
     if mode == "count" {
         let mut file = OpenOptions::new().append(true).create(true).open("runs").unwrap();
         writeln!(file, "{n}").unwrap();
         sleep(Duration::from_millis(30));
+    }
+    if mode == "sleep" {
+        sleep(Duration::from_millis(400));
     }
     if let [dt] = rest {
         // Second order in space, first in time; they have the same shape.
@@ -61,7 +64,7 @@ fn start(token: &str, mode: &str) -> Command {
     child
 }
 
-fn misbehave(token: &str, mode: &str) {
+fn misbehave(token: &str, mode: &str, n: u32) {
     use std::os::unix::process::CommandExt;
     let hang = || -> ! {
         loop {
@@ -89,6 +92,19 @@ fn misbehave(token: &str, mode: &str) {
         "silent" => exit(0),
         "nan" => {
             println!(r#"{{"errors": {{"L2": NaN, "H1": 1.0}}}}"#);
+            exit(0)
+        }
+        "half" => {
+            println!(r#"{{"errors": {{"L2": NaN, "H1": {}}}, "values": {{"flux": 3.1}}}}"#, 3.0 / 16.0);
+            exit(0)
+        }
+        "cut" => {
+            println!("{}", answer(64));
+            println!(r#"{{"errors": {{"L2": 1e5, "H1": 1.0 }}"#);
+            exit(0)
+        }
+        "own-step" => {
+            println!("{}", answer(n).replace("{\"errors\"", "{\"h\": 0.06, \"errors\""));
             exit(0)
         }
         "missing" => {

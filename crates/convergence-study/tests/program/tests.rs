@@ -13,8 +13,14 @@ use tempfile::TempDir;
 
 use crate::kept::{
     a_kept_result_depends_on_each_file_that_its_command_names, a_kept_result_depends_on_the_directory,
-    a_killed_harness_leaves_whole_results, garbage_among_kept_results_is_computed_anew,
+    a_kept_result_depends_on_the_program_found_through_path, a_killed_harness_leaves_whole_results,
+    garbage_among_kept_results_is_computed_anew, kept_results_are_counted_and_never_blessed,
     kept_results_are_used_until_something_changes, results_that_cannot_be_kept_are_judged,
+};
+use crate::levels::{
+    a_level_without_a_result_fails_and_the_others_have_a_rate, a_study_of_two_levels_has_the_rate_between_them,
+    steps_that_only_some_levels_answer_are_refused, the_seconds_of_a_study_are_those_that_passed,
+    what_is_finite_beside_a_nan_is_kept,
 };
 use crate::solver;
 
@@ -35,11 +41,18 @@ const TESTS: &[Test] = &tests![
     a_value_is_judged_by_its_differences,
     a_grid_finds_both_orders,
     every_misbehaviour_is_one_line_and_leaves_nothing,
+    a_level_without_a_result_fails_and_the_others_have_a_rate,
+    what_is_finite_beside_a_nan_is_kept,
+    a_study_of_two_levels_has_the_rate_between_them,
+    steps_that_only_some_levels_answer_are_refused,
+    the_seconds_of_a_study_are_those_that_passed,
     a_program_that_hangs_is_stopped_and_leaves_nothing,
     much_output_takes_little_memory,
     a_killed_harness_leaves_nothing,
     an_interrupted_harness_leaves_nothing,
     kept_results_are_used_until_something_changes,
+    a_kept_result_depends_on_the_program_found_through_path,
+    kept_results_are_counted_and_never_blessed,
     a_kept_result_depends_on_each_file_that_its_command_names,
     a_kept_result_depends_on_the_directory,
     garbage_among_kept_results_is_computed_anew,
@@ -106,7 +119,7 @@ impl Place {
         self.folder.path().to_str().unwrap()
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(std::env::current_exe().unwrap());
         command.args(arguments).current_dir(self.folder.path()).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
         command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
@@ -153,7 +166,7 @@ impl Place {
     }
 }
 
-fn texts(output: Output) -> (Option<i32>, String, String) {
+pub(crate) fn texts(output: Output) -> (Option<i32>, String, String) {
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     (output.status.code(), out, err)
 }
@@ -248,11 +261,12 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
         ("status", "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh"),
         (
             "garbage",
-            "answered nothing: no line of its standard output is a JSON object; the last is `\u{fffd}\u{fffd}`",
+            "answered nothing: no line of its standard output is a JSON object; the last line is `\u{fffd}\u{fffd}`",
         ),
         ("silent", "answered nothing: its standard output is empty"),
         ("nan", "`L2` of its errors is NaN, infinite or null; expected a finite number"),
         ("missing", "its answer has no error `L2`; it has H1"),
+        ("cut", "it does not end on its line: print it with json.dumps(...) on one line"),
     ] {
         let line = complaint(&Place::new(mode, ""));
         let program = std::env::current_exe().unwrap();
@@ -367,7 +381,11 @@ fn what_a_study_file_may_get_wrong_is_named() {
 
 /// A project with the study `studies/s.toml`.
 fn project(mode: &str) -> Place {
-    let place = Place::new(mode, "");
+    project_of(Place::new(mode, ""))
+}
+
+/// The same of a study that has been written.
+pub(crate) fn project_of(place: Place) -> Place {
     let root = place.folder.path();
     fs::write(root.join("Cargo.toml"), "").unwrap();
     fs::create_dir(root.join("studies")).unwrap();

@@ -146,6 +146,34 @@ fn a_claim_or_a_study_is_withdrawn_with_a_reason_which_stays() {
     assert_eq!(words(&back), ["a: claim expect[0].order: was absent, is 1"]);
 }
 
+#[test]
+fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    let a = header("a", &CLAIMS);
+    blessed(std::slice::from_ref(&a)).write(&file).unwrap();
+    let mut object: serde_json::Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    for claims in [serde_json::json!({}), serde_json::json!({ "a": {} })] {
+        object["claims"] = claims;
+        fs::write(&file, object.to_string()).unwrap();
+        let mut baseline = Baseline::read(&file).unwrap();
+        let ran = || finished(vec![study(&a)]);
+        let told = "a: study file has no claims in the baseline, which guards 1 of its numbers: 3 values";
+        assert_eq!(words(&baseline.compare(&ran(), None)), [told]);
+        let changes = baseline.compare(&ran(), None);
+        assert_eq!(blessing(&PROJECT, "c", &ran(), &changes), "c --bless --reason TEXT");
+        assert_eq!(baseline.bless(&ran(), None, None), Err(Refusal::NoReason { claims: vec![told.to_owned()] }));
+        let mut accepted = baseline.clone();
+        baseline.bless(&ran(), None, Some("merged by hand")).unwrap();
+        accepted.accept(&ran(), &changes[0], "merged by hand").unwrap();
+        for baseline in [baseline, accepted] {
+            let kept = Claim { value: Some("1".to_owned()), reason: Some("merged by hand".to_owned()) };
+            assert_eq!(baseline.claim("a", "expect[0].order"), Some(&kept));
+            assert!(baseline.compare(&ran(), None).is_empty());
+        }
+    }
+}
+
 fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {
     let scope = Scope::Tier(Tier::Quick, vec![header.clone()]);
     let request = Request { scope, bless, reason: reason.map(str::to_owned), ..request(root, &[]) };

@@ -101,6 +101,7 @@ impl Kind for Fake {
             step: Some(1.0 / f64::from(8 << i)),
             work: None,
             errors: vec![("velocity".to_owned(), *error)],
+            without: vec![],
         };
         let finest = *errors.last().unwrap();
         let quantity = Quantity { name: self.quantity.to_owned(), value: finest, tolerance: self.tolerance };

@@ -265,7 +265,8 @@ fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finish
         .map(|(level, h)| {
             let present = names.iter().enumerate().filter(|(k, _)| !lacks(*k, level));
             let errors = present.map(|(_, (name, order))| ((*name).to_owned(), h.powf(*order))).collect();
-            LevelErrors { parameters: vec![("cells".to_owned(), 1.0 / h)], step: Some(h), work: None, errors }
+            let parameters = vec![("cells".to_owned(), 1.0 / h)];
+            LevelErrors { parameters, step: Some(h), work: None, errors, without: vec![] }
         })
         .collect();
     let rate = |(k, (name, order)): (usize, &(&str, f64))| {

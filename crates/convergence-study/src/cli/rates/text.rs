@@ -17,7 +17,8 @@ pub(super) fn mark(judged: &Judged<'_>, level: usize) -> &'static str {
     match judged.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
         Some(Aside::AtFloor) => "_",
         Some(Aside::PreAsymptotic | Aside::Outlier) => "~",
-        None => "",
+        // A table has a number, or NaN, on every level.
+        Some(Aside::NoResult) | None => "",
     }
 }
 
@@ -49,14 +50,7 @@ pub(super) fn pairwise(judged: &Judged<'_>, level: usize) -> String {
 
 /// The rate with its interval; that between the finest levels where there is no interval.
 pub(super) fn rate(judged: &Judged<'_>) -> String {
-    let finest = || judged.rate.pairwise.iter().rfind(|rate| rate.is_finite());
-    match (judged.rate.found(MOST_PLACES), finest()) {
-        (Some(found), _) => found,
-        (None, Some(finest)) => {
-            format!("{} between the finest levels that have one", decimals(*finest, places(judged)))
-        }
-        (None, None) => "no rate".to_owned(),
-    }
+    judged.rate.rate_in_words(MOST_PLACES)
 }
 
 /// Rate, claim, and the reason where that is not a pass.

@@ -4,7 +4,7 @@ use std::{fmt, ops::Range};
 
 use super::reading::Reading;
 use crate::judge::power_law::PowerLaw;
-use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text, order_text, plain_text};
+use crate::text::number::{RATE_PLACES, counted, decimals, interval_places, interval_text, order_text, plain_text};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -50,6 +50,8 @@ impl fmt::Display for Verdict {
 pub enum Reason {
     /// The whole interval lies in the band about the order.
     Agrees,
+    /// A level has no result: its case failed, or lacks this error.
+    NoResult,
     /// An error is NaN or infinite.
     NonFiniteError,
     /// An error is negative, which no norm can be.
@@ -93,7 +95,8 @@ impl Reason {
     pub fn verdict(self) -> Verdict {
         match self {
             Self::Agrees => Verdict::Pass,
-            Self::NonFiniteError
+            Self::NoResult
+            | Self::NonFiniteError
             | Self::NegativeError
             | Self::ErrorGrows
             | Self::FallsAway
@@ -107,6 +110,7 @@ impl Reason {
     pub fn text(self) -> &'static str {
         match self {
             Self::Agrees => "the rate agrees with the order",
+            Self::NoResult => "a level has no result",
             Self::NonFiniteError => "an error is NaN or infinite",
             Self::NegativeError => "an error is negative",
             Self::ErrorGrows => "the error does not fall on the finest refinement",
@@ -158,6 +162,8 @@ pub enum Aside {
     Outlier,
     /// Fine: the error is not above the floor, and neither is that of any finer level.
     AtFloor,
+    /// It has no result.
+    NoResult,
 }
 
 impl Aside {
@@ -167,6 +173,7 @@ impl Aside {
             Self::PreAsymptotic => "not yet asymptotic",
             Self::Outlier => "at or before a level that does not fit its neighbours",
             Self::AtFloor => "at or below the floor",
+            Self::NoResult => "no result",
         }
     }
 }
@@ -178,7 +185,7 @@ pub struct RateVerdict {
     pub order: f64,
     /// Half-width of the band about the order.
     pub tolerance: f64,
-    /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept.
+    /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept. NaN beside a level without a result.
     pub pairwise: Vec<f64>,
     /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
     /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
@@ -189,7 +196,7 @@ pub struct RateVerdict {
     pub interval: Option<[f64; 2]>,
     /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
     pub extrapolated: Option<f64>,
-    /// Indices of the levels that the fit used; empty when there was none.
+    /// Indices of the levels that the fit used; empty when there was none. A level without a result among them was not.
     pub used: Range<usize>,
     /// Levels that the fit did not use, coarsest first, each with the reason: what a table of errors should mark.
     pub set_aside: Vec<SetAside>,
@@ -229,8 +236,76 @@ impl RateVerdict {
 
     /// Rate, claim and reason in a line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        let found = self.found(RATE_PLACES).unwrap_or_else(|| "no rate".to_owned());
-        format!("{found}, claimed {}: {}", self.claim(), self.kind.brief())
+        format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.kind.brief())
+    }
+
+    /// The last rate between neighbouring levels that is a number.
+    pub fn finest_rate(&self) -> Option<f64> {
+        self.pairwise.iter().rev().copied().find(|rate| rate.is_finite())
+    }
+
+    /// As [`found`](Self::found); the rate between the finest levels where there is no interval.
+    ///
+    /// * `most`: decimals at most.
+    pub fn rate_in_words(&self, most: usize) -> String {
+        let finest =
+            || self.finest_rate().map(|rate| format!("{} between the finest levels that have one", decimals(rate, 3)));
+        self.found(most).or_else(finest).unwrap_or_else(|| "no rate".to_owned())
+    }
+
+    /// The levels that the fit used.
+    fn levels_in_words(&self) -> String {
+        let (first, last, levels) = (self.used.start + 1, self.used.end, self.pairwise.len() + 1);
+        format!("from levels {first} to {last} of {levels}")
+    }
+
+    /// The verdict on levels that have a result, for all levels: those without one make it fail, and the rate is that of the others.
+    ///
+    /// * `self`: the verdict on the levels that have a result.
+    /// * `names`: of all levels.
+    /// * `has`: whether each of them has a result.
+    pub(crate) fn among(self, names: &[&str], has: &[bool]) -> Self {
+        let present: Vec<usize> = (0..has.len()).filter(|level| has[*level]).collect();
+        if present.len() == has.len() {
+            return self;
+        }
+        let mut pairwise = vec![f64::NAN; has.len().saturating_sub(1)];
+        for (pair, rate) in present.windows(2).zip(&self.pairwise) {
+            if pair[0] + 1 == pair[1] {
+                pairwise[pair[0]] = *rate;
+            }
+        }
+        let used = match self.used {
+            Range { start, end } if start < end => present[start]..present[end - 1] + 1,
+            _ => 0..0,
+        };
+        let aside = |aside: &SetAside| SetAside { level: present[aside.level], ..*aside };
+        let without = (0..has.len()).filter(|level| !has[*level]);
+        let without = without.map(|level| SetAside { level, because: Aside::NoResult });
+        let mut set_aside: Vec<SetAside> = self.set_aside.iter().map(aside).chain(without).collect();
+        set_aside.sort_by_key(|aside| aside.level);
+        let missing = names.iter().zip(has).filter(|(_, has)| !**has).map(|(name, _)| *name);
+        Self { pairwise, used, set_aside, ..self }.without_result(has.len(), &missing.collect::<Vec<_>>())
+    }
+
+    /// The same rate with the verdict that a level has no result.
+    ///
+    /// * `levels`: how many levels there are.
+    /// * `missing`: the names of those without a result.
+    pub(crate) fn without_result(self, levels: usize, missing: &[&str]) -> Self {
+        const MOST_NAMED: usize = 4;
+        let named = missing[..missing.len().min(MOST_NAMED)].join("; ");
+        let more = if missing.len() > MOST_NAMED { "; ..." } else { "" };
+        let (levels, have) = (counted(levels, "level"), if missing.len() == 1 { "has" } else { "have" });
+        let lacking = format!("{} of {levels} {have} no result: {named}{more}", missing.len());
+        let reason = match self.interval {
+            Some(interval) => {
+                let rate = interval_text(interval, RATE_PLACES);
+                format!("{lacking}; {rate} {}, claimed {}", self.levels_in_words(), self.claim())
+            }
+            None => lacking,
+        };
+        Self { verdict: Verdict::Fail, kind: Reason::NoResult, reason, ..self }
     }
 
     /// Puts the verdict together, with the words that quote its numbers.

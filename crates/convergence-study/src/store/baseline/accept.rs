@@ -27,7 +27,8 @@ impl Baseline {
             }
             (_, None) => return Err(Refusal::NotRun { study: study.clone() }),
             (Movement::NewFile { .. }, Some(ran)) => {
-                claims::bless(&ran.header, self.claims.entry(study.clone()).or_default(), None);
+                let guarded = self.guards(study);
+                claims::bless(&ran.header, self.claims.entry(study.clone()).or_default(), guarded, Some(reason));
             }
             (Movement::Claim { to, .. }, Some(_)) => {
                 let claim = Claim { value: to.clone(), reason: why() };

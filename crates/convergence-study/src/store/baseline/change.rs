@@ -90,6 +90,8 @@ pub enum Movement {
     NewFile {
         /// How many values its file has.
         values: usize,
+        /// How many numbers of the study the baseline guards all the same; more than 0 where its claims were taken away.
+        guarded: usize,
     },
     /// The study's file is no longer there.
     VanishedFile {
@@ -109,9 +111,12 @@ impl Movement {
         matches!(self, Self::Claim { .. } | Self::NewFile { .. } | Self::VanishedFile { .. })
     }
 
-    /// Whether a blessing has to say why: a claim was changed, or withdrawn with its study.
+    /// Whether a blessing has to say why: a claim was changed, withdrawn with its study, or is missing beside guarded numbers.
     pub fn needs_a_reason(&self) -> bool {
-        matches!(self, Self::Claim { .. } | Self::VanishedFile { .. })
+        match self {
+            Self::NewFile { guarded, .. } => *guarded > 0,
+            _ => matches!(self, Self::Claim { .. } | Self::VanishedFile { .. }),
+        }
     }
 
     /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite where old and new
@@ -124,6 +129,7 @@ impl Movement {
             }
             Self::Tolerance { .. } | Self::Vanished { .. } => f64::INFINITY,
             Self::Claim { .. } | Self::VanishedFile { .. } => f64::INFINITY,
+            Self::NewFile { guarded: 1.., .. } => f64::INFINITY,
             Self::New { .. } | Self::NewFile { .. } => 0.0,
         }
     }
@@ -183,7 +189,10 @@ impl fmt::Display for Movement {
                 let [from, to] = [from, to].map(|value| value.as_deref().unwrap_or("absent"));
                 write!(f, "was {from}, is {to}")
             }
-            Self::NewFile { values } => write!(f, "is new: {values} values"),
+            Self::NewFile { values, guarded: 0 } => write!(f, "is new: {values} values"),
+            Self::NewFile { values, guarded } => {
+                write!(f, "has no claims in the baseline, which guards {guarded} of its numbers: {values} values")
+            }
             Self::VanishedFile { values } => write!(f, "was deleted: it had {values} values"),
         }
     }

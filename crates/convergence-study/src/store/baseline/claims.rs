@@ -28,11 +28,13 @@ pub struct Claim {
 pub(super) type Claims = BTreeMap<String, Claim>;
 
 /// What differs between the claims as they were blessed and the file as it is: by path; one change for a file that is new.
-pub(super) fn changes(header: &Header, blessed: Option<&Claims>) -> Vec<Change> {
+///
+/// * `guarded`: how many numbers of the study are guarded.
+pub(super) fn changes(header: &Header, blessed: Option<&Claims>, guarded: usize) -> Vec<Change> {
     let Header { id, settings, .. } = header;
     let standing = standing(blessed);
     if standing.is_empty() {
-        let new = Change::new(id, WHOLE_FILE, Movement::NewFile { values: settings.len() });
+        let new = Change::new(id, WHOLE_FILE, Movement::NewFile { values: settings.len(), guarded });
         return if settings.is_empty() { vec![] } else { vec![new] };
     }
     let mut paths: BTreeMap<&str, [Option<&str>; 2]> =
@@ -74,16 +76,19 @@ fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
 
 /// Takes the values of a study's file. Those that have not changed keep the reason of an earlier change; the reason is that of
 /// the others, unless the whole file is new.
-pub(super) fn bless(header: &Header, blessed: &mut Claims, reason: Option<&str>) {
-    let reason = reason.filter(|_| !standing(Some(blessed)).is_empty()).map(str::to_owned);
-    for change in changes(header, Some(blessed)) {
+///
+/// * `guarded`: how many numbers of the study are guarded: with some, its file is not new.
+pub(super) fn bless(header: &Header, blessed: &mut Claims, guarded: usize, reason: Option<&str>) {
+    let reason = reason.filter(|_| guarded > 0 || !standing(Some(blessed)).is_empty()).map(str::to_owned);
+    for change in changes(header, Some(blessed), guarded) {
         if let Movement::Claim { to, .. } = change.movement {
             blessed.insert(change.name, Claim { value: to, reason: reason.clone() });
         }
     }
     if standing(Some(blessed)).is_empty() {
-        let first =
-            |(path, value): &(String, String)| (path.clone(), Claim { value: Some(value.clone()), reason: None });
+        let first = |(path, value): &(String, String)| {
+            (path.clone(), Claim { value: Some(value.clone()), reason: reason.clone() })
+        };
         blessed.extend(header.settings.iter().map(first));
     }
 }

@@ -82,7 +82,7 @@ fn levels_of(study: &AnyOrder, series: &Series, ran: &[Ran<Resolution, Errors>])
     };
     let column = |(look, (name, order, of)): (usize, &ClaimOf)| ErrorColumn {
         name: name.clone(),
-        errors: ran.iter().map(|ran| ran.ok().map_or(f64::NAN, of)).collect(),
+        errors: ran.iter().map(|ran| ran.ok().map(of)).collect(),
         claim: Some(Claim { order: *order, tolerance: series.tolerance }),
         look,
     };

@@ -71,7 +71,7 @@ fn errors<'e>(study: &EndStates, scenes: impl Iterator<Item = &'e Ends<'e>>) -> 
     let columns = scenes.enumerate().flat_map(|(k, ends)| {
         let column = |look: usize, field: &str, error: fn(&Fields) -> f64| ErrorColumn {
             name: format!("{}: {field}", ends.scene.name),
-            errors: ends.ends.iter().map(|end| end.map_or(f64::NAN, |end| error(&end.error))).collect(),
+            errors: ends.ends.iter().map(|end| end.map(|end| error(&end.error))).collect(),
             claim: Some(Claim { order: ORDER, tolerance: study.tolerance }),
             look,
         };

@@ -48,9 +48,7 @@ pub(super) fn judge(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Outcom
 
 fn errors(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
     let exact = frequencies(study.count);
-    let found = |level: &Ran<usize, Vec<f64>>, mode: usize| {
-        level.ok().and_then(|found| found.get(mode)).copied().unwrap_or(f64::NAN)
-    };
+    let found = |level: &Ran<usize, Vec<f64>>, mode: usize| level.ok().and_then(|found| found.get(mode)).copied();
     let refinement = |level: &Ran<usize, Vec<f64>>| Refinement {
         label: level.case.label.clone(),
         parameters: vec![("elements".to_owned(), level.case.data as f64)],
@@ -58,7 +56,7 @@ fn errors(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
     };
     let column = |mode: usize| ErrorColumn {
         name: format!("omega-{}", mode + 1),
-        errors: ran.iter().map(|level| found(level, mode) - exact[mode]).collect(),
+        errors: ran.iter().map(|level| Some(found(level, mode)? - exact[mode])).collect(),
         claim: Some(Claim { order: study.order, tolerance: study.tolerance }),
         look: mode,
     };
@@ -74,7 +72,7 @@ fn table(study: &Frequencies, levels: &Levels, rates: &[(String, RateVerdict)]) 
     let h = finest.map_or(f64::NAN, |level| level.step);
     let row = |(mode, omega): (usize, f64)| {
         let (column, rate) = (&levels.columns[mode], &rates[mode].1);
-        let error = column.errors.last().copied().unwrap_or(f64::NAN);
+        let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
         let interval = rate.interval.map_or_else(|| "-".into(), |[low, high]| format!("{low:.4} to {high:.4}"));
         // Known for linear elements only.
         let leading = (study.degree == 1).then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
@@ -132,7 +130,8 @@ fn check_below_first(study: &Frequencies, ran: &[Ran<usize, Vec<f64>>]) -> Check
 
 fn check_above(study: &Frequencies, levels: &Levels) -> Check {
     let least = levels.columns.iter().flat_map(|column| &column.errors).fold(f64::INFINITY, |least, &error| {
-        // A NaN must stay.
+        // A NaN must stay, and so must a mode that was not found.
+        let error = error.unwrap_or(f64::NAN);
         if least.is_nan() || least <= error { least } else { error }
     });
     Check::that(

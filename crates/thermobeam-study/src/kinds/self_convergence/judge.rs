@@ -96,7 +96,10 @@ fn to_reference(
 fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
     for (k, level) in more.into_iter().enumerate() {
         match levels.get_mut(k) {
-            Some(known) => known.errors.extend(level.errors),
+            Some(known) => {
+                known.errors.extend(level.errors);
+                known.without.extend(level.without);
+            }
             None => levels.push(level),
         }
     }
@@ -116,8 +119,8 @@ fn differences(
     let column = |observable: Observable| {
         let claim = study.claim(observable);
         let difference = |k: usize| match (found(k), found(finer(k))) {
-            (Some(coarse), Some(fine)) => observable.difference(coarse, fine),
-            _ => f64::NAN,
+            (Some(coarse), Some(fine)) => Some(observable.difference(coarse, fine)),
+            _ => None,
         };
         let smooth = Claim { order: observable.order(study.axis, study.order_in_time()), tolerance: SHOWN_TOLERANCE };
         wanted(claim).then(|| ErrorColumn {

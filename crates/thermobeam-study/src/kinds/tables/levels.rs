@@ -27,7 +27,7 @@ pub(crate) fn norm_levels<'r>(
     };
     let column = |norm: Norm| ErrorColumn {
         name: norm.name().to_owned(),
-        errors: ran.clone().map(|(_, errors)| errors.map_or(f64::NAN, |errors| errors[norm])).collect(),
+        errors: ran.clone().map(|(_, errors)| errors.map(|errors| errors[norm])).collect(),
         claim: claim(norm),
         look: norm as usize,
     };

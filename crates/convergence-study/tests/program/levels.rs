@@ -1,0 +1,86 @@
+//! Levels that lack a result, or their step; few levels.
+
+use std::fs;
+use std::time::Instant;
+
+use crate::tests::Place;
+
+pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
+    let place = Place::new("abort", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    for levels in ["[4, 8, 16, 32, 64]", "[1, 2, 4, 8, 16]", "[16, 32, 64, 128, 256]"] {
+        place.write_text(&text.replace("[4, 8, 16, 32, 64]", levels));
+        let (status, out, err) = place.study(&[]);
+        assert_eq!(status, Some(1), "{out}{err}");
+        assert!(out.contains("L2 2.0000 (order 2): 1 of 5 levels has no result: n = 16; 2.0000 ± 0.00005"), "{out}");
+        assert!(!out.contains("NaN") && out.contains("a level has no result"), "{out}");
+        let row = out.lines().find(|line| line.trim_start().starts_with("16 ")).unwrap();
+        assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["16", "-", "-", "-"], "{out}");
+    }
+    // Two of three levels have a result: no interval, but the rate between them.
+    place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
+    let (status, out, _) = place.study(&["--quiet"]);
+    let told =
+        "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
+    assert!(status == Some(1) && out.contains(told), "{out}");
+    // A value, which is judged by differences.
+    place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
+    let (status, out, _) = place.study(&["--out", "report"]);
+    assert!(
+        status == Some(1) && out.contains("value flux 2.0000 (order 2): 1 of 5 levels has no result: n = 16"),
+        "{out}"
+    );
+    place.write_text(&text);
+    assert_eq!(place.study(&["--out", "report"]).0, Some(1));
+    let drawn = fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
+    assert!(drawn.contains("n = 16: no result") && !drawn.contains("non-finite"), "{drawn}");
+    // On a grid.
+    let grid =
+        text.replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true").replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
+    place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("L2: 3 of 15 cases have no result; L2 p = 2.0"), "{out}");
+}
+
+pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
+    let place = Place::new("half", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
+    let (status, out, err) = place.study(&[]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    assert!(out.contains("4 of 5 cases completed; n = 16: ") && out.contains("`L2` of its errors is NaN"), "{out}");
+    // The pair 32, 64 is finer than the NaN.
+    let told = "L2 rate 2.000 between the finest levels that have one (order 2): an error is NaN or infinite";
+    assert!(out.contains(told), "{out}");
+    let rates = out.lines().find(|line| line.starts_with("H1 ")).unwrap();
+    assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
+}
+
+pub(crate) fn a_study_of_two_levels_has_the_rate_between_them() {
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
+    let told = "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
+    let (status, out, _) = place.study(&["--quiet"]);
+    assert!(status == Some(1) && out.contains(told), "{out}");
+    let (status, out, _) = place.study(&[]);
+    let rates = out.lines().find(|line| line.starts_with("L2 ") && line.contains("2 ± 0.05")).unwrap();
+    assert!(status == Some(1) && rates.contains(" 2.000 ") && rates.contains("finest pair"), "{out}");
+}
+
+pub(crate) fn steps_that_only_some_levels_answer_are_refused() {
+    let (status, out, err) = Place::new("own-step", "").study(&[]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    let told = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
+    assert!(out.contains(told) && !out.contains("Rates"), "{out}");
+}
+
+pub(crate) fn the_seconds_of_a_study_are_those_that_passed() {
+    let place = Place::new("sleep", "");
+    let start = Instant::now();
+    let (status, out, _) = place.study(&["--jobs", "5"]);
+    let passed = start.elapsed().as_secs_f64();
+    let seconds: f64 = out.lines().next().unwrap().split(' ').rev().nth(1).unwrap().parse().unwrap();
+    // Each of the five cases takes 0.4 s.
+    assert!(status == Some(0) && (0.4..passed + 0.01).contains(&seconds), "{passed}: {out}");
+}

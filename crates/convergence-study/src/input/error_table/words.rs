@@ -320,7 +320,7 @@ mod tests {
             // Norms and functions whose names begin as counts, costs and logarithms do.
             (Meaning::Error, "nrm error|norm of m|lnorm|RMSE|iteration error|dofs error|time error"),
             (Meaning::Error, "u|p|grad u|velocity"),
-            (Meaning::Unknown, "spam|nrm|Re(lambda)|logistic|login|1/cells|theta|n_a"),
+            (Meaning::Unknown, "spam|nrm|Re(lambda)|logistic|login|1/cells|n_a"),
         ] {
             for name in names.split('|').filter(|name| !name.is_empty()) {
                 assert_eq!(meaning(name), means, "{name}");

@@ -95,7 +95,7 @@ fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
         let body = named(document, "tbody").find(|body| body.children().any(|row| row.has_attribute("data-study")));
         let rows = body.unwrap().children().filter(Node::is_element);
         let label = |row: Node<'_, '_>| {
-            row.attribute("data-study").map_or_else(|| row.first_child().unwrap().text().unwrap(), |id| id).to_owned()
+            row.attribute("data-study").unwrap_or_else(|| row.first_child().unwrap().text().unwrap()).to_owned()
         };
         assert_eq!(rows.map(label).collect::<Vec<_>>(), ["did not pass", "d", "b", "time", "a", "space", "c"]);
         let details: Vec<_> = with_class(document, "study").map(|study| study.attribute("id").unwrap()).collect();

@@ -110,7 +110,7 @@ pub fn short_text(value: f64) -> String {
 pub fn pair_text(pair: [f64; 2]) -> [String; 2] {
     let rounded = |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));
     let differs = |digits: &usize| rounded(*digits)[0] != rounded(*digits)[1];
-    // Seventeen digits tell any two numbers apart.
+    // Seventeen digits distinguish any two numbers.
     let needed = (1..=17).find(differs).unwrap_or(1);
     let plain = pair.map(plain_text);
     if needed < DIGITS && plain[0] != plain[1] { plain } else { rounded(needed + 1).map(written) }

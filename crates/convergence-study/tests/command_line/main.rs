@@ -1,6 +1,7 @@
 //! A project's command line as a shell sees it: this program is the project where `AS_PROJECT` is set, else its tests.
 
 mod changes;
+mod failing;
 mod tables;
 
 use std::fs;
@@ -19,6 +20,11 @@ use changes::{
     a_study_with_a_near_extension_is_named, blessings_at_once_are_all_kept,
     changes_are_accepted_one_some_or_all_with_a_reason, records_are_compared_with_0_1_or_2,
     runs_are_journaled_and_shown_as_page_and_badge,
+};
+use failing::{
+    a_changed_claim_fails_until_it_is_blessed_with_a_reason, a_deleted_study_is_one_change_and_is_named,
+    claims_of_the_full_tier_are_compared_in_the_quick_one, the_page_links_to_what_is_there_of_the_full_tier,
+    what_fails_is_printed_last_and_what_passes_is_counted,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -151,115 +157,6 @@ fn verify_ends_with_0_1_or_2() {
     fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
     let (status, _, err) = run(&root, &["verify"]);
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
-}
-
-fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
-    let root = workspace(false);
-    let file = root.path().join("studies/one.toml");
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    // The same number in other digits is the same claim.
-    fs::write(&file, study("one", "c", 1.0).replace("1.0", "10e-1")).unwrap();
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
-    fs::write(&file, study("one", "another claim", 1.0)).unwrap();
-    let change = r#"one: claim study.claim: was "c", is "another claim""#;
-    let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true").output().unwrap());
-    assert_eq!(status, Some(1));
-    assert!(
-        out.contains(
-            "claims changed\n  one: study.claim \"c\", now \"another claim\"\nif that is meant: powers verify --bless --reason TEXT\n"
-        ),
-        "{out}"
-    );
-    assert!(out.contains(&format!("::error title=baseline::{change}\n")), "{out}");
-    let (status, out, _) = run(&root, &["verify", "--bless"]);
-    assert!(status == Some(1) && out.contains(&format!("--bless --reason TEXT\n  {change}\n")), "{out}");
-    for arguments in [&["verify", "--bless", "--reason", " "][..], &["verify", "--reason", "because"]] {
-        assert_eq!(run(&root, arguments).0, Some(2), "{arguments:?}");
-    }
-    assert_eq!(run(&root, &["verify", "--bless", "--reason", "said better"]).0, Some(0));
-    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
-    assert!(baseline.contains("\"reason\": \"said better\""), "{baseline}");
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
-}
-
-fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
-    let root = workspace(true);
-    let file = root.path().join("studies/two.toml");
-    let full = |exponent| study("two", "c", exponent).replace("\"quick\"", "\"full\"");
-    fs::write(&file, full(1.0)).unwrap();
-    assert_eq!(run(&root, &["verify", "--tier", "full", "--bless"]).0, Some(0));
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
-    fs::write(&file, full(1.001)).unwrap();
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"), "{out}");
-    assert!(out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"), "{out}");
-    // A blessing of the quick tier leaves the claim of a study that was not run as it was.
-    assert_eq!(run(&root, &["verify", "--bless", "--reason", "x"]).0, Some(1));
-    // To another tier.
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0).replace("\"quick\"", "\"full\"")).unwrap();
-    fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains("  one: study.tier \"quick\", now \"full\"\n"), "{out}");
-}
-
-/// The end of what is printed is what a terminal shows.
-fn what_fails_is_printed_last_and_what_passes_is_counted() {
-    let root = workspace(true);
-    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
-    assert_eq!(run(&root, &["verify", "one", "three", "--bless"]).0, Some(0));
-    let (status, out, _) = run(&root, &["verify"]);
-    let lines: Vec<&str> = out.lines().collect();
-    assert_eq!((status, lines.len()), (Some(1), 15), "{out}");
-    assert!(lines[0].starts_with("study  verdict") && lines[1].starts_with("two    fail"), "{out}");
-    assert_eq!(
-        lines[2..5],
-        ["2 studies pass (--verbose lists them)", "", "report: reports/index.html, reports/README.md"]
-    );
-    assert_eq!(lines[11..14], ["two: fail", "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low", ""]);
-    assert!(lines[14].starts_with("fail: 1 of 3 fail (two); "), "{out}");
-    let (_, out, _) = run(&root, &["verify", "--verbose"]);
-    assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("studies pass ("), "{out}");
-}
-
-fn a_deleted_study_is_one_change_and_is_named() {
-    let root = workspace(false);
-    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    fs::remove_file(root.path().join("studies/three.toml")).unwrap();
-    let (status, out, _) = run(&root, &["verify", "--quiet"]);
-    let said = "claims changed\n  three: deleted\nif that is meant: powers verify --bless --reason TEXT\n\
-                fail: the study passes; 1 study deleted\n";
-    assert_eq!((status, out.as_str()), (Some(1), said));
-    for file in ["README.md", "summary.md"] {
-        let page = fs::read_to_string(root.path().join("reports").join(file)).unwrap();
-        assert!(page.contains("; 1 study deleted\n"), "{page}");
-        assert!(page.contains("\n## Claims changed\n\n- three: deleted\n\n") && !page.contains("Moved from"), "{page}");
-    }
-    let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
-    assert!(page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"), "{page}");
-    let (status, out, _) = run(&root, &["review", "--accept", "three:study file", "--reason", "as one"]);
-    assert!(status == Some(0) && out.contains("1 accepted, nothing else differs"), "{out}");
-    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
-    let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
-    assert!(baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(), "{baseline}");
-}
-
-fn the_page_links_to_what_is_there_of_the_full_tier() {
-    let root = workspace(false);
-    let page = || {
-        run(&root, &["verify", "--bless"]);
-        let read = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
-        (read("index.html"), read("README.md"))
-    };
-    assert!(!page().0.contains("full/"));
-    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
-    let (with, committed) = page();
-    assert!(with.contains("href=\"full/index.html\"") && committed.contains("](full/README.md)"), "{committed}");
-    // As in a fresh checkout: pages are not committed.
-    fs::remove_file(root.path().join("reports/full/index.html")).unwrap();
-    let (without, same) = page();
-    assert!(without.contains("href=\"full/README.md\"") && !without.contains("full/index.html"));
-    assert_eq!(same, committed);
 }
 
 fn an_unwritable_job_summary_keeps_the_exit_status() {

@@ -59,7 +59,7 @@ fn every_value_that_changed_is_named() {
 }
 
 #[test]
-fn a_changed_claim_is_told_with_the_norm_that_it_is_about() {
+fn a_changed_claim_names_the_norm_that_it_is_about() {
     let norm = ("expect[0].norm", "\"L2\"");
     let former = header("a", &[CLAIMS[0], CLAIMS[1], CLAIMS[2], norm]);
     let baseline = blessed(&[former]);

@@ -246,7 +246,7 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
 }
 
 #[test]
-fn a_claim_without_a_rate_and_an_order_with_many_digits_are_told_shortly() {
+fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     let mut finished = judged(&[("L2", 1.0)], |_, _| false);
     let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
     finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);

@@ -102,7 +102,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
 fn a_case_at_its_limit_fails_its_study_and_no_other() {
     let folder = Folder::new();
     let root = workspace(&folder, "w", &[("short", quick("short")), ("long", endless("long"))]);
-    let ended = ended(&mut verify(&root, &["--case-limit", "0.3"]));
+    let ended = ended(&mut verify(&root, &["--case-limit", "0.3", "--verbose"]));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""));
     let line =
         |id: &str| ended.stdout.lines().find(|line| line.starts_with(&format!("{id} "))).unwrap_or_default().to_owned();

@@ -239,6 +239,16 @@ fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     assert_ne!(changes.rates[0].1.verdict, Verdict::Pass, "{changes:?}");
 }
 
+/// What falls and grows in turns has a difference of the claimed order, and no limit that a rate could tell.
+#[test]
+fn differences_that_change_their_sign_do_not_pass() {
+    let (h, dt) = (halved(0.25, 6), halved(8.0, 6));
+    let sign = |h: f64| if (h.log2() as i32) % 2 == 0 { 1.0 } else { -1.0 };
+    let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, |h, dt| dt + 0.1 * h * sign(h));
+    assert_eq!(verdicts(&verdict), [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass], "{verdict:?}");
+    assert_eq!(verdict.rates[0].1.kind, Reason::NotAsymptotic);
+}
+
 /// The error in h is not to be seen beside that in dt, which is known to one part in a thousand.
 #[test]
 fn what_scatter_hides_is_inconclusive() {

@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn the_best_path_is_the_cheapest_of_all_with_that_error() {
         let points = grid(|h, dt| (3.0 * h * h).hypot(0.5 * dt));
-        let law = Law::fit(&points, 2.0, 1.0, &Quantiles::new(0.95).unwrap()).unwrap();
+        let law = Law::fit(&points, 2.0, 1.0).unwrap();
         let [h, dt] = law.best(1e-3);
         assert!(((3.0 * h * h).hypot(0.5 * dt) / 1e-3 - 1.0).abs() < 1e-6);
         assert!((law.exponent() - 1.5).abs() < 1e-6);

@@ -14,7 +14,7 @@
 //! * [`rate_interval`]: several least-squares fits, with the bend and without, weighed against each other: right in both cases;
 //! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
-//! * [`fit_surface`]: space and time rates at once, over a grid of (h, dt).
+//! * [`fit_surface`]: a law for errors over a grid of (h, dt), to predict others.
 //!
 //! Only this module knows the statistics and the least-squares libraries.
 
@@ -33,7 +33,7 @@ pub use candidates::{
 };
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
 pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};
-pub use surface::{Adding, ConfidenceRegion, SurfaceError, SurfaceFit, SurfacePoint, fit_surface, fit_surface_by};
+pub use surface::{SurfaceError, SurfaceFit, SurfacePoint, fit_surface};
 
 /// One level of a refinement study.
 #[derive(Debug, Clone, Copy, PartialEq)]

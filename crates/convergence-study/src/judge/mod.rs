@@ -2,6 +2,7 @@
 
 pub mod calibration;
 pub mod fit;
+pub mod grid;
 pub mod power_law;
 pub mod random;
 pub mod richardson;

@@ -39,6 +39,7 @@ mod estimate;
 mod gci;
 
 pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, Refusal, Value};
+pub(crate) use estimate::{RATES, crossing};
 pub use gci::{Gci, LOWEST_ORDER, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED};
 
 /// Below this an observed rate says that the sequence does not converge yet.

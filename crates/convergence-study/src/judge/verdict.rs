@@ -1,6 +1,7 @@
 //! [laws]: crate::judge::calibration::laws
 //! [comparison]: crate::judge::calibration::comparison
 //! [calibration]: crate::judge::calibration
+//! [grid]: crate::judge::grid
 // The links above are for rustdoc, those at the end of RULE.md for readers of that file.
 #![doc = include_str!("verdict/RULE.md")]
 
@@ -94,6 +95,11 @@ impl Judge {
     /// The same for levels that have been read, by a judge of the same floor and confidence.
     pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
         RateVerdict::new(reading, order, self.tolerance, reading.reason(order, self.tolerance))
+    }
+
+    /// The same where another rule has found the reason.
+    pub(crate) fn judge_as(&self, reading: &Reading<'_>, order: f64, reason: Reason) -> RateVerdict {
+        RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
     /// What does not depend on claim and tolerance, to be held against several of them.

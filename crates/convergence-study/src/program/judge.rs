@@ -41,20 +41,17 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         columns: study.expect.iter().map(column).collect(),
         model: Model::Either,
     };
-    let GridVerdict { mut checks, table, mut quantities, headline } = grid.judge();
-    let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+    let GridVerdict { rates, mut checks } = grid.judge();
+    let (summary, quantities) = (levels::summary(&rates), levels.quantities(&rates));
     checks.push(completion(ran));
-    quantities.extend(levels.quantities(&[]));
     let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
     Outcome {
-        headline,
         // No step alone is the one that these errors are judged over.
         levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
-        tables: vec![table],
         figures,
         quantities,
-        ..Outcome::new(summary, vec![], checks)
+        ..Outcome::new(summary, rates, checks)
     }
 }
 

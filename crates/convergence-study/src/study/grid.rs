@@ -1,18 +1,19 @@
-//! Errors over a grid of mesh widths and time steps: both orders are fitted at once, and judged, drawn and guarded in one way.
+//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in one way.
 
 use super::levels::Claim;
+use super::outcome::Check;
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
-use super::outcome::{Check, Quantity, Table};
-use crate::judge::fit::{Adding, Quantiles, SurfaceFit, SurfacePoint, fit_surface_by};
-use crate::judge::verdict::Verdict;
+use crate::judge::grid::{Adding, GridErrors, Refined};
+use crate::judge::verdict::{RateVerdict, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots;
+use crate::text::number::plain_text;
 
-/// Root mean square misfit in log e up to which the model is taken for a description of the data.
+/// Root mean square misfit in log e up to which contributions are taken to add.
 const MISFIT: f64 = 0.1;
-/// Relative change of a fitted order that the baseline tolerates: the fit ends where its steps are that small.
-const FIT_TOLERANCE: f64 = 1e-3;
+/// Steps that differ by less, relatively, are one step.
+const SAME_STEP: f64 = 1e-9;
 
 /// One error on a grid, and what is claimed of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +40,7 @@ pub enum Model {
 /// Errors on all pairs of mesh widths and time steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// Mesh widths and time steps of all points, time steps first.
+    /// Mesh widths and time steps of all points, time steps first; both coarse to fine.
     pub points: Vec<[f64; 2]>,
     /// The number of time steps for each mesh width.
     pub times: usize,
@@ -50,39 +51,71 @@ pub struct Grid {
 }
 
 /// What a grid says of all errors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GridVerdict {
-    /// Both orders and the model, for each error.
+    /// Both orders of each error: `L2 in h`, `L2 in dt`.
+    pub rates: Vec<(String, RateVerdict)>,
+    /// How the contributions add, for each error.
     pub checks: Vec<Check>,
-    /// The fits.
-    pub table: Table,
-    /// The fitted orders, for the baseline.
-    pub quantities: Vec<Quantity>,
-    /// The fitted orders in a sentence.
-    pub headline: String,
 }
 
 impl Grid {
-    /// Fits and judges each error.
+    /// Judges both orders of each error by [`judge::grid`](crate::judge::grid).
     pub fn judge(&self) -> GridVerdict {
-        let (mut checks, mut rows, mut quantities, mut headline) = (vec![], vec![], vec![], vec![]);
-        for column in &self.columns {
-            let name = &column.name;
-            checks.extend(self.incomplete(column));
-            match self.fit(column) {
-                Ok(fitted) => {
-                    checks.extend(self.judge_fit(column, &fitted));
-                    rows.push(row(name, &fitted));
-                    let fit = fitted.fit;
-                    headline.push(format!("{name}: order {:.4} in h, {:.4} in dt", fit.p, fit.q));
-                    for (letter, value) in [("p", fit.p), ("q", fit.q)] {
-                        quantities.push(Quantity { name: format!("{letter} {name}"), value, tolerance: FIT_TOLERANCE });
-                    }
-                }
-                Err(reason) => checks.push(Check::that(false, format!("{name}: the model can be fitted"), reason)),
-            }
+        let [h, dt] = self.steps();
+        let mut verdict = GridVerdict::default();
+        if let Some(different) = self.off_grid(&h, &dt) {
+            let claim = "every mesh width is combined with the same time steps".to_owned();
+            verdict.checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence: different });
+            return verdict;
         }
-        GridVerdict { checks, table: self.table(rows), quantities, headline: headline.join("; ") }
+        for column in &self.columns {
+            let errors = GridErrors { h: &h, dt: &dt, errors: &column.errors };
+            let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
+            let squares = self.model == Model::Squares || misfits[1] <= misfits[0];
+            let adding = if squares { Adding::Squares } else { Adding::Plain };
+            let Claim { order, tolerance } = column.space;
+            let missing = self.without_result(column);
+            for (step, refined, order) in [("h", Refined::Space, order), ("dt", Refined::Time, column.time)] {
+                let name = format!("{} in {step}", column.name);
+                match errors.judge(refined, adding, order, tolerance) {
+                    Ok(rate) if missing.is_empty() => verdict.rates.push((name, rate)),
+                    Ok(rate) => verdict.rates.push((name, rate.without_result(self.points.len(), &missing))),
+                    // Readers of study files refuse such a tolerance before.
+                    Err(error) => verdict.checks.push(Check::that(false, name, error.to_string())),
+                }
+            }
+            verdict.checks.push(self.judge_model(&column.name, misfits));
+        }
+        verdict
+    }
+
+    /// The points without a result.
+    fn without_result(&self, column: &GridColumn) -> Vec<String> {
+        let missing = self.points.iter().zip(&column.errors).filter(|(_, error)| error.is_nan());
+        missing.map(|([h, dt], _)| format!("h = {}, dt = {}", plain_text(*h), plain_text(*dt))).collect()
+    }
+
+    /// The mesh widths at the finest time step, and the time steps on the finest mesh.
+    fn steps(&self) -> [Vec<f64>; 2] {
+        let times = self.times.max(1);
+        let finest = self.points.chunks(times).last().unwrap_or_default();
+        [
+            self.points.chunks(times).filter_map(|row| row.last()).map(|[h, _]| *h).collect(),
+            finest.iter().map(|[_, dt]| *dt).collect(),
+        ]
+    }
+
+    /// The first point that has another mesh width or time step than its row and column.
+    fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
+        let differ = |one: f64, other: f64| (one / other - 1.0).abs() > SAME_STEP;
+        self.points.iter().enumerate().find_map(|(index, point)| {
+            let expected = [h[index / self.times.max(1)], *dt.get(index % self.times.max(1))?];
+            let off = differ(point[0], expected[0]) || differ(point[1], expected[1]);
+            off.then(|| {
+                format!("expected h = {}, dt = {}, found h = {}, dt = {}", expected[0], expected[1], point[0], point[1])
+            })
+        })
     }
 
     #[cfg(feature = "reports")]
@@ -114,104 +147,20 @@ impl Grid {
         self.columns.iter().map(figure).collect()
     }
 
-    fn fit(&self, column: &GridColumn) -> Result<Fitted, String> {
-        let point = |(&[h, dt], &error): (&[f64; 2], &f64)| SurfacePoint { h, dt, error };
-        let having = self.points.iter().zip(&column.errors).filter(|(_, error)| !error.is_nan());
-        let points: Vec<SurfacePoint> = having.map(point).collect();
-        let fit = |adding| fit_surface_by(&points, adding, Quantiles::standard());
-        let squares = fit(Adding::Squares);
-        let misfit = squares.as_ref().map_or(f64::INFINITY, |fit| fit.rms);
-        let is_best = squares.as_ref().is_ok_and(|fit| fit.rms <= fit.rms_additive);
-        let fit = if self.model == Model::Squares || is_best { squares } else { fit(Adding::Plain).or(squares) };
-        fit.map(|fit| Fitted { squares: misfit, fit }).map_err(|error| error.to_string())
-    }
-
-    /// Fails where a point has no result; nothing where all have one.
-    fn incomplete(&self, GridColumn { name, errors, .. }: &GridColumn) -> Option<Check> {
-        let (all, have) = (self.points.len(), errors.iter().filter(|error| !error.is_nan()).count());
-        let evidence = || format!("{name}: {} of {all} cases have no result", all - have);
-        (have < all).then(|| Check::that(false, format!("{name}: every case has a result"), evidence()))
-    }
-
-    /// Both orders by equivalence: passes where the interval lies inside the band, fails where it lies outside, else inconclusive.
-    fn judge_fit(&self, column: &GridColumn, fitted: &Fitted) -> [Check; 3] {
-        let GridColumn { name, space: Claim { order, tolerance }, time, .. } = column;
-        let one = |letter: &str, order: f64, rate: f64, interval: [f64; 2]| {
-            let [low, high] = interval;
-            let verdict = if !(low.is_finite() && high.is_finite() && rate.is_finite()) {
-                Verdict::Fail
-            } else if low >= order - tolerance && high <= order + tolerance {
-                Verdict::Pass
-            } else if high < order - tolerance || low > order + tolerance {
-                Verdict::Fail
-            } else {
-                Verdict::Inconclusive
-            };
-            Check {
-                claim: format!("{name}: {letter} = {order} ± {tolerance}"),
-                verdict,
-                evidence: format!("{name} {letter} = {rate:.4} in [{low:.4}, {high:.4}]"),
+    fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
+        let evidence =
+            format!("misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none");
+        match self.model {
+            Model::Squares => {
+                let claim = format!("{name}: the squares of space and time error add");
+                Check::that(squares < plain && squares <= MISFIT, claim, evidence)
             }
-        };
-        let fit = &fitted.fit;
-        [
-            one("p", *order, fit.p, fit.p_interval),
-            one("q", *time, fit.q, fit.q_interval),
-            self.judge_model(name, fitted),
-        ]
+            // Nobody claimed it: where it does not hold, the orders are not known.
+            Model::Either => Check {
+                claim: format!("{name}: the errors of space and time add, or their squares"),
+                verdict: if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive },
+                evidence,
+            },
+        }
     }
-
-    fn judge_model(&self, name: &str, Fitted { squares, fit }: &Fitted) -> Check {
-        let (holds, claim) = match self.model {
-            Model::Squares => (fit.rms < fit.rms_additive, "the squares of space and time error add"),
-            Model::Either => (true, "the errors of space and time add, or their squares"),
-        };
-        Check::that(
-            holds && fit.rms <= MISFIT,
-            format!("{name}: {claim}"),
-            format!("rms misfit {squares:.4}, of the plain sum {:.4}", fit.rms_additive),
-        )
-    }
-
-    fn table(&self, rows: Vec<Vec<String>>) -> Table {
-        let (first, title) = match self.model {
-            Model::Squares => ("norm", "Fit of e² = (C_h h^p)² + (C_t dt^q)²"),
-            Model::Either => {
-                ("error in", "Fit of e² = (C_h h^p)² + (C_t dt^q)² or e = C_h h^p + C_t dt^q, the better one")
-            }
-        };
-        let head = [
-            first,
-            "p",
-            "95 % interval",
-            "q",
-            "95 % interval",
-            "rms misfit",
-            "misfit of the plain sum",
-            "joint region",
-        ];
-        Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows }
-    }
-}
-
-/// The better model of an error.
-struct Fitted {
-    /// Misfit of the model of squares, whether or not it is the better one.
-    squares: f64,
-    fit: SurfaceFit,
-}
-
-fn row(name: &str, Fitted { squares, fit }: &Fitted) -> Vec<String> {
-    let interval = |[low, high]: [f64; 2]| format!("[{low:.4}, {high:.4}]");
-    let [major, minor] = fit.region.semi_axes;
-    vec![
-        name.to_owned(),
-        format!("{:.4}", fit.p),
-        interval(fit.p_interval),
-        format!("{:.4}", fit.q),
-        interval(fit.q_interval),
-        format!("{squares:.4}"),
-        format!("{:.4}", fit.rms_additive),
-        format!("semi-axes {major:.4}, {minor:.4} at {:.1}°", fit.region.angle.to_degrees()),
-    ]
 }

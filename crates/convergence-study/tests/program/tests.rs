@@ -217,11 +217,11 @@ fn a_grid_finds_both_orders() {
     place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
     let (status, out, err) = place.study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("L2: p = 2 ± 0.05") && out.contains("L2: q = 1 ± 0.05"), "{out}");
+    assert!(out.contains("L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)"), "{out}");
     // The same order in both, which the error in time has not.
     place.write_text(&text);
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("L2 q = 1.0000 in ["), "{out}");
+    assert!(status == Some(1) && out.contains("L2 in dt 1.0000 (order 2): the rate is too low"), "{out}");
     // Refined together, with the error in time hidden by nothing.
     place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
     assert_eq!(place.study(&[]).0, Some(1));

@@ -19,7 +19,7 @@ const ROUND_OFF: f64 = 1e-13;
 const SAME_RATIO: f64 = 1e-9;
 
 /// Rates between which the rate of values with unequal ratios is looked for.
-const RATES: [f64; 2] = [1e-2, 64.0];
+pub(crate) const RATES: [f64; 2] = [1e-2, 64.0];
 
 /// A value at a step, NaN where there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -190,7 +190,7 @@ fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
 }
 
 /// Where a function that falls from above zero to below it crosses zero, by false position (Illinois); `None` where it has no value.
-fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64; 2]) -> Option<f64> {
+pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64; 2]) -> Option<f64> {
     let (mut above, mut below) = (f(low)?, f(high)?);
     let mut middle = low;
     for _ in 0..60 {

@@ -292,9 +292,10 @@ impl RateVerdict {
     ///
     /// * `levels`: how many levels there are.
     /// * `missing`: the names of those without a result.
-    pub(crate) fn without_result(self, levels: usize, missing: &[&str]) -> Self {
+    pub(crate) fn without_result<S: AsRef<str>>(self, levels: usize, missing: &[S]) -> Self {
         const MOST_NAMED: usize = 4;
-        let named = missing[..missing.len().min(MOST_NAMED)].join("; ");
+        let named: Vec<&str> = missing.iter().take(MOST_NAMED).map(AsRef::as_ref).collect();
+        let named = named.join("; ");
         let more = if missing.len() > MOST_NAMED { "; ..." } else { "" };
         let (levels, have) = (counted(levels, "level"), if missing.len() == 1 { "has" } else { "have" });
         let lacking = format!("{} of {levels} {have} no result: {named}{more}", missing.len());

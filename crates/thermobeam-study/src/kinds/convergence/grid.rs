@@ -1,6 +1,6 @@
-//! The verdict over a grid of (h, dt): squares of space and time error add, and both orders are fitted at once.
+//! The verdict over a grid of (h, dt): squares of space and time error add, and each order is judged by itself.
 
-use convergence_study::study::grid::{Grid, GridColumn, Model};
+use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use convergence_study::study::levels::{self, Levels};
 use convergence_study::study::{Claim, Outcome};
 
@@ -10,18 +10,12 @@ use crate::kinds::tables::{Expectation, not_finite};
 
 pub(super) fn judge(study: &Convergence, ran: &[Run], levels: &Levels) -> Outcome {
     let grid = grid(study, ran);
-    let verdict = grid.judge();
-    let mut checks = verdict.checks;
-    let summary = checks.iter().map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+    let GridVerdict { rates, mut checks } = grid.judge();
     checks.push(levels::completion(ran, not_finite));
-    let mut quantities = verdict.quantities;
-    quantities.extend(levels.quantities(&[]));
     Outcome {
-        headline: verdict.headline,
-        tables: vec![verdict.table],
         figures: grid.figures(&study.header.id, "norm"),
-        quantities,
-        ..Outcome::new(summary, vec![], checks)
+        quantities: levels.quantities(&rates),
+        ..Outcome::new(levels::summary(&rates), rates, checks)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Convergence studies: a manufactured solution, levels of refinement, orders expected.
 //!
 //! Three shapes, by what `[refine]` says: one axis, a path on which both are refined together (h = dt), or the full grid
-//! of (h, dt), to which `e² = (C_h h^p)² + (C_t dt^q)²` is fitted. The step of a level is 1/n, the mean mesh width, or dt.
+//! of (h, dt) with `e² = A(h)² + B(dt)²`, of which each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
 
 mod cases;
 mod details;

@@ -103,7 +103,7 @@ fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
     let mut rows = vec![];
     for method in METHODS {
         let [full, superclose, tip] = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
-        let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, method.runs(), &quantiles);
+        let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, method.runs());
         let close = fit(&superclose);
         let law = match &close {
             Ok(close) => Law::with_interpolation(&full, (&superclose, close), &quantiles),

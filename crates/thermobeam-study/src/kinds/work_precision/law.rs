@@ -52,12 +52,12 @@ impl Law {
     ///
     /// # Errors
     /// A text where no law can be fitted: errors that are not finite, rates that are not positive.
-    pub fn fit(points: &[GridPoint], t_end: f64, runs: f64, quantiles: &Quantiles) -> Result<Self, String> {
+    pub fn fit(points: &[GridPoint], t_end: f64, runs: f64) -> Result<Self, String> {
         let surface: Vec<SurfacePoint> = points
             .iter()
             .map(|p| SurfacePoint { h: 1.0 / p.elements as f64, dt: t_end / p.steps as f64, error: p.error })
             .collect();
-        let fit = fit_surface(&surface, quantiles).map_err(|error| error.to_string())?;
+        let fit = fit_surface(&surface).map_err(|error| error.to_string())?;
         Self { p: fit.p, c_h: fit.c_h, q: fit.q, c_t: fit.c_t, misfit: fit.rms, t_end, runs, reach: 0.0 }.over(points)
     }
 
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn the_best_path_is_the_cheapest_of_all_with_that_error() {
         let points = grid(|h, dt| (3.0 * h * h).hypot(0.5 * dt));
-        let law = Law::fit(&points, 2.0, 1.0, &Quantiles::new(0.95).unwrap()).unwrap();
+        let law = Law::fit(&points, 2.0, 1.0).unwrap();
         let [h, dt] = law.best(1e-3);
         assert!(((3.0 * h * h).hypot(0.5 * dt) / 1e-3 - 1.0).abs() < 1e-6);
         assert!((law.exponent() - 1.5).abs() < 1e-6);
@@ -176,11 +176,10 @@ mod tests {
 
     #[test]
     fn there_is_no_law_where_errors_are_no_numbers_or_do_not_fall() {
-        let quantiles = Quantiles::new(0.95).unwrap();
         let mut points = grid(|h, dt| h.hypot(dt));
         points[3].error = f64::NAN;
-        assert!(Law::fit(&points, 2.0, 1.0, &quantiles).is_err());
-        assert!(Law::fit(&grid(|h, dt| (1.0 / h).hypot(1.0 / dt)), 2.0, 1.0, &quantiles).is_err());
+        assert!(Law::fit(&points, 2.0, 1.0).is_err());
+        assert!(Law::fit(&grid(|h, dt| (1.0 / h).hypot(1.0 / dt)), 2.0, 1.0).is_err());
     }
 
     #[test]

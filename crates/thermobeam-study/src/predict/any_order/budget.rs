@@ -51,8 +51,8 @@ pub struct Estimate {
 
 /// The errors in the numbers that a run shows.
 ///
-/// The finer runs are so much better that the differences are errors of the scene's own run, but for a part of them: over 240
-/// random scenes the largest error of u(1, t) was at most 1.31 times the total. They are added up as if their signs were equal;
+/// The finer runs are better by so much that the differences are most of the errors of the scene's own run: of 1328 errors in 240
+/// random scenes 11 were more than 1.3 times their total, at most 1.8 times. They are added up as if their signs were equal;
 /// rounding errors and the iteration are in both. Estimates, not bounds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Budget {

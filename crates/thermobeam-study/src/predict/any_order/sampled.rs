@@ -168,7 +168,7 @@ impl<'a> Watch<'a> {
             return true;
         }
         self.long += 1;
-        self.long % self.stride == 0
+        self.long.is_multiple_of(self.stride)
     }
 
     fn read(&mut self, simulation: &Simulation, t: f64, to: impl FnOnce(&mut Sampled) -> &mut Curves) {

@@ -2,8 +2,9 @@
 
 use thermobeam::dg::Stepping;
 use thermobeam::mesh::Mesh;
-use thermobeam_study::predict::any_order::{Choice, Source, Unreachable, choose, estimate};
+use thermobeam_study::predict::any_order::{Budget, Choice, Source, Unreachable, choose, estimate};
 use thermobeam_study::run::any_order::{AnyOrderRun, run};
+use thermobeam_study::run::tally::Sample;
 use thermobeam_study::scene::any_order::{AnyOrderScene, SceneFile};
 
 /// Times of comparison: most of them lie inside steps.
@@ -14,10 +15,7 @@ fn scene(beam: &str, time: &str) -> AnyOrderScene {
         "[beam]\n{beam}\n[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
          [time]\nscheme = \"dg\"\n{time}\n"
     );
-    match SceneFile::parse(&text, "s.toml").unwrap_or_else(|error| panic!("{error}")) {
-        SceneFile::AnyOrder(scene) => scene,
-        SceneFile::OneStep(_) => panic!("a one-step scene"),
-    }
+    parsed(&text)
 }
 
 /// Ten digits and more, from a discretisation that the search never tries.
@@ -39,6 +37,122 @@ fn largest_difference(one: &AnyOrderRun, other: &AnyOrderRun) -> f64 {
 
 fn chosen(scene: &AnyOrderScene, target: f64) -> Choice {
     choose(scene, target).unwrap_or_else(|error| panic!("{target:e}: {error}"))
+}
+
+fn parsed(text: &str) -> AnyOrderScene {
+    match SceneFile::parse(text, "s.toml").unwrap_or_else(|error| panic!("{error}")) {
+        SceneFile::AnyOrder(scene) => scene,
+        SceneFile::OneStep(_) => panic!("a one-step scene"),
+    }
+}
+
+/// Of the first steps and of contact, on elements that resolve their layers.
+fn layered_reference(scene: &AnyOrderScene) -> AnyOrderRun {
+    let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.95, 0.99, 0.998, 1.0]).expect("nodes");
+    let stepping = Stepping { degree: 4, dt: 0.0035, restart_dt: 1e-6, growth: 1.18, ..Stepping::default() };
+    let fine = AnyOrderScene { mesh, degree: 16, stepping, ..scene.clone() };
+    run(&fine, TIMES, &mut |_| ()).expect("a run")
+}
+
+#[test]
+fn the_layer_at_the_start_keeps_the_error_asked_for() {
+    // Initial data that break the condition at x = 1: the error of u(1, t) has its peak inside the first step.
+    for (zeta, target) in [(0.01, 1e-9), (0.1, 1e-8)] {
+        let scene = parsed(&format!(
+            "[beam]\nzeta = {zeta}\nbeta = -0.5\n[initial]\nu_t = \"2*x*sin(3*x)\"\ntheta = \"sin(pi*x)\"\n\
+             [time]\nscheme = \"dg\"\nt_end = 1.0\n"
+        ));
+        let choice = chosen(&scene, target);
+        for t_end in [2e-4, 4e-3] {
+            let begun = |scene: &AnyOrderScene| AnyOrderScene { t_end, ..scene.clone() };
+            // The run's own steps: it goes on, and its history ends.
+            let own =
+                run(&AnyOrderScene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES, &mut |_| ()).expect("a run");
+            let exact = layered_reference(&begun(&scene));
+            let every = (5e3 * t_end).round() as usize;
+            let made =
+                (1..=TIMES).map(|k| (own.history[k * every].u_tip - exact.history[k].u_tip).abs()).fold(0.0, f64::max);
+            assert!(made <= target, "to t = {t_end}: {made:e} with {choice:?}");
+            assert!(made <= 1.3 * choice.expected_error(), "{made:e} with {choice:?}");
+        }
+    }
+}
+
+#[test]
+fn no_number_of_the_budget_is_small_by_chance() {
+    let of = |coefficients: &str, obstacles: &str, initial: &str, mesh: &str, time: &str| {
+        parsed(&format!(
+            "[beam]\n{coefficients}\n[obstacles]\n{obstacles}\n[initial]\n{initial}\ntheta = \"sin(pi*x)\"\n\
+             [mesh]\n{mesh}\n[time]\nscheme = \"dg\"\nt_end = 2.0\n{time}\n"
+        ))
+    };
+    let scenes = [
+        of(
+            "zeta = 0.05\nbeta = 5",
+            "epsilon = 5.7303983e-4\ng1 = -0.0719352\ng2 = 0.0176838",
+            "u_t = \"x\"",
+            "degree = 13",
+            "degree = 2\ndt = 0.04",
+        ),
+        of(
+            "zeta = 0.01\na = 0\nrho = 5",
+            "epsilon = 1.658373e-3",
+            "u_t = \"20*x*(x-1)^2\"",
+            "degree = 10",
+            "dt = 0.01",
+        ),
+        of(
+            "zeta = 0.01\na = 0.5\nrho = 5",
+            "epsilon = 1.755948e-3\ng1 = -0.07721368\ng2 = 0.025111",
+            "u = \"0.05*x^2\"\nu_t = \"2*x*sin(3*x)\"",
+            "elements = 2\ndegree = 8",
+            "degree = 2",
+        ),
+        of(
+            "zeta = 1\nrho = 5\nbeta = -0.5",
+            "epsilon = 2.555154e-3\ng1 = -0.0506523\ng2 = 0.03551753",
+            "u_t = \"20*x*(x-1)^2\"",
+            "elements = 2\ndegree = 8",
+            "",
+        ),
+        of(
+            "zeta = 1",
+            "epsilon = 5.948e-4",
+            "u_t = \"2*x*sin(3*x)\"",
+            "elements = 3\ndegree = 12",
+            "degree = 2\ndt = 0.01",
+        ),
+    ];
+    for (number, scene) in scenes.iter().enumerate() {
+        let budget = estimate(scene).expect("a budget");
+        let (own, exact) = (run(scene, TIMES, &mut |_| ()).expect("a run"), layered_reference(scene));
+        for (name, made) in errors(&own, &exact) {
+            let total = estimated(&budget, name);
+            assert!(made <= 1.3 * total, "scene {number}, {name}: {made:e} in {budget}");
+        }
+    }
+}
+
+/// The errors of all numbers of a budget, by name.
+fn errors(own: &AnyOrderRun, exact: &AnyOrderRun) -> [(&'static str, f64); 8] {
+    let [end, true_end] = [own, exact].map(|run| run.ends[1]);
+    let over_time = |read: fn(&Sample) -> f64| {
+        own.history.iter().zip(&exact.history).map(|(a, b)| (read(a) - read(b)).abs()).fold(0.0, f64::max)
+    };
+    [
+        ("u(1) at the end", (end.u_tip - true_end.u_tip).abs()),
+        ("largest u(1)", (own.extremes.u_tip_max - exact.extremes.u_tip_max).abs()),
+        ("smallest u(1)", (own.extremes.u_tip_min - exact.extremes.u_tip_min).abs()),
+        ("u(1) over time", over_time(|state| state.u_tip)),
+        ("phi(1) at the end", (end.phi_tip - true_end.phi_tip).abs()),
+        ("phi(1) over time", over_time(|state| state.phi_tip)),
+        ("energy at the end", (end.energy - true_end.energy).abs()),
+        ("energy over time", over_time(|state| state.energy)),
+    ]
+}
+
+fn estimated(budget: &Budget, name: &str) -> f64 {
+    budget.quantities.iter().find(|of| of.name == name).expect("all numbers").total
 }
 
 #[test]

@@ -5,9 +5,11 @@ use std::time::Duration;
 use convergence_study::run::time_limit::within;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
+use thermobeam_study::run::any_order::{self, AnyOrderFailure};
 use thermobeam_study::run::driver::RunError;
 use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures};
 use thermobeam_study::scene::Scene;
+use thermobeam_study::scene::any_order::SceneFile;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {
@@ -162,4 +164,24 @@ fn every_bit_of_the_history_can_be_read_back() {
         assert_eq!(values[8..], [d.change, d.viscous, d.thermal, d.inertial, d.contact_gap, d.residual]);
         assert!(values.iter().all(|value| value.is_finite()));
     }
+}
+
+#[test]
+fn a_run_of_any_order_stops_at_the_step_that_breaks_the_law_of_the_energy() {
+    let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[mesh]\ndegree = 6\n[time]\nscheme = \"dg\"\nt_end = 2.0\n\
+                restart_dt = 0.1\ndt = 0.1\n";
+    let SceneFile::AnyOrder(mut scene) = SceneFile::parse(text, "loose.toml").unwrap() else {
+        panic!("a one-step scheme")
+    };
+    // Steps that are not solved.
+    scene.stepping.tolerance = 100.0;
+    let run = any_order::run(&scene, 0, &mut |_| ()).unwrap();
+    let Some(AnyOrderFailure::Unsound { step, t, dt, .. }) = run.failure else { panic!("{:?}", run.failure) };
+    assert_eq!((step, t + dt), (run.steps, run.ends[1].t));
+    assert!(run.ends[1].t < 2.0, "{:?}", run.ends);
+    let complaint = run.complaint().unwrap();
+    assert!(
+        complaint.starts_with(&format!("step {step} (from t = {t}")) && complaint.contains("in a step"),
+        "{complaint}"
+    );
 }

@@ -63,7 +63,7 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     let wanted = arguments.estimate_error && found.failure.is_none();
     let budget = wanted.then(|| estimate(scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let complaint = complaint(found.energy.complaint(found.steps, found.failure.as_ref()), budget.as_ref().err());
+    let complaint = complaint(found.complaint(), budget.as_ref().err());
     let accuracy = planned.as_ref().map(|planned| planned.object());
     let object = Printed { object: AnyOrderObject::new(scene, &found), error_budget: known, accuracy };
     let sentence = format!("{}: {} steps, to t = {} of {t_end}", scene.name, found.steps, found.ends[1].t);

@@ -1,11 +1,14 @@
 //! Ask a scene of any order for an accuracy: degrees, elements and steps that make an error no larger than wanted.
 //!
-//! A discretisation is judged by two comparisons in the curve u(1, t), inside steps as well as at their ends: with a finer
-//! space (p + 2, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
-//! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long.
-//! The finer run is so much more accurate that the difference estimates the error of the coarser one. If a difference exceeds
-//! half of the target, space or time is refined according to their ratio, and both runs are compared again.
+//! A discretisation is judged by two comparisons in the curve u(1, t), at several times inside each of its steps: with a finer
+//! space (p + 4, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
+//! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long;
+//! `restart_dt` is halved twice. The difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where
+//! elements do not resolve a layer, half the steps leave less. If a difference exceeds half of the target, space or time is refined
+//! according to their ratio, and both runs are compared again. The first two steps are refined for on their own before.
 //!
+//! * The start: initial data that break the condition at x = 1 make u(1, t) like t^(3/2). The error has its peak inside the first
+//!   steps, which `restart_dt` alone makes shorter, and in the element at x = 1, which is split.
 //! * Steps: during an impact, of duration (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
 //!   which ends of steps do not show. The degree q helps between impacts, short steps within.
 //! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; its width is √(ζ t) after the time t.
@@ -30,10 +33,9 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
 use thiserror::Error;
 
-use crate::error::curve::distance;
 use crate::scene::any_order::AnyOrderScene;
-pub use budget::{Budget, Estimate, Source, estimate};
-use sampled::{Curves, Sampled, sample, times};
+pub use budget::{Budget, Estimate, Kind, Source, estimate};
+use sampled::{Apart, Sampled, Wanted, sample};
 
 /// Share of the target that each of the two differences may take.
 const SHARE: f64 = 0.5;
@@ -44,8 +46,20 @@ const FALL_PER_DEGREE: f64 = 1.8;
 /// Rate of the error inside steps near a contact event, where u_tt behaves like t^(1/2).
 const EVENT_RATE: f64 = 2.5;
 
+/// Rate of the error in the first steps after the start, where data that break a condition at x = 1 make u_tt like t^(-1/2).
+const START_RATE: f64 = 1.5;
+
+/// What `restart_dt` is divided by in one go, at least and at most.
+const SHORTENED: [f64; 2] = [2.0, 32.0];
+
+/// A layer at x = 1 is resolved if its width is so many times that of the finest detail an element shows there, its length / p².
+const RESOLVED: f64 = 12.0;
+
 /// Halvings of all steps in one go: a difference that is too large tells no more.
 const MOST_HALVINGS: i32 = 2;
+
+/// Degrees that the finer space has more: with two, the difference is half of the error where a layer is not resolved.
+const FINER_DEGREES: usize = 4;
 
 /// Degrees added in one go, and the degree from which on elements are halved instead.
 const MOST_DEGREES: usize = 8;
@@ -62,6 +76,9 @@ const LONG: f64 = 0.25;
 
 /// Most elements that are tried.
 const MOST_ELEMENTS: usize = 64;
+
+/// What is refused where no finer elements are to be had.
+const FINEST: &str = "the elements are as fine as they get";
 
 /// Rounds of refinement: each at least halves something.
 const ROUNDS: usize = 14;
@@ -169,46 +186,22 @@ pub fn choose(scene: &AnyOrderScene, target: f64) -> Result<Choice, Unreachable>
     if !(target > 0.0 && target.is_finite()) {
         return Err(Unreachable::Target { target });
     }
-    let mut search = Search::new(scene, target);
-    let mut base = search.sample(&search.first.clone())?;
-    let mut scene = search.first.clone();
-    for _ in 0..ROUNDS {
-        let finer = finer_space(&scene).ok_or_else(|| search.not_reached("the elements are as fine as they get"))?;
-        let shorter = finer_steps(&scene);
-        let in_space = search.sample(&finer)?;
-        let in_time = search.sample(&shorter)?;
-        let (space, time) = (distance(&base.u, &in_space.u), distance(&base.u, &in_time.u));
-        if space <= SHARE * target && time <= SHARE * target {
-            let finer_space = words(&finer);
-            return Ok(Choice { scene, space, time, checks: search.spent, run: base.cost, finer_space });
-        }
-        search.judge(space, time)?;
-        let mut next = scene.clone();
-        if !(space <= SHARE * target) {
-            next = more_space(&next, space / (SHARE * target))
-                .ok_or_else(|| search.not_reached("the elements are as fine as they get"))?;
-        }
-        if !(time <= SHARE * target) {
-            next.stepping = more_time(next.stepping, time / (SHARE * target));
-        }
-        // A run that is already there is not made again.
-        base = if next == finer {
-            in_space
-        } else if next == shorter {
-            in_time
-        } else {
-            search.sample(&next)?
-        };
-        scene = next;
-    }
-    Err(search.not_reached("it was refined as often as is sensible"))
+    let mut search = Search::new(target);
+    let begun = search.begin(&first(scene, target));
+    Search { spent: search.spent, ..Search::new(target) }.refine(begun)
+}
+
+/// Two finer runs and how far they are from a run.
+struct Compared {
+    finer: (AnyOrderScene, Sampled),
+    shorter: (AnyOrderScene, Sampled),
+    space: Apart,
+    time: Apart,
 }
 
 /// What a search for a discretisation keeps.
 struct Search {
     target: f64,
-    first: AnyOrderScene,
-    times: usize,
     spent: Cost,
     last: Cost,
     /// The differences of the round whose sum was smallest.
@@ -216,19 +209,75 @@ struct Search {
 }
 
 impl Search {
-    fn new(scene: &AnyOrderScene, target: f64) -> Self {
-        let first = first(scene, target);
-        let times = times(scene, impact(scene));
-        let best = [f64::INFINITY; 2];
-        Self { target, first, times, spent: Cost::default(), last: Cost::default(), best }
+    fn new(target: f64) -> Self {
+        Self { target, spent: Cost::default(), last: Cost::default(), best: [f64::INFINITY; 2] }
     }
 
-    fn sample(&mut self, scene: &AnyOrderScene) -> Result<Sampled, Unreachable> {
+    /// Refines for the first two steps alone, which cost little: the start often needs the shortest steps of all.
+    ///
+    /// Returns the discretisation given where that finds none.
+    fn begin(&mut self, first: &AnyOrderScene) -> AnyOrderScene {
+        let mut scene = first.clone();
+        for _ in 0..ROUNDS {
+            let Stepping { dt, restart_dt, .. } = scene.stepping;
+            let t_end = 2.0 * restart_dt;
+            // Shorter steps only: room is made for each length, and these are all that occur.
+            let stepping = Stepping { dt: t_end.min(dt), ..scene.stepping };
+            let short = AnyOrderScene { t_end: t_end.min(scene.t_end), stepping, ..scene.clone() };
+            let Ok(Compared { space, time, .. }) =
+                self.sample(&short, &[]).and_then(|base| self.compare(&short, &base))
+            else {
+                return first.clone();
+            };
+            let share = SHARE * self.target;
+            if space.most() <= share && time.most() <= share {
+                return scene;
+            }
+            match refined(&scene, &space, &time, share) {
+                Some(next) => scene = next,
+                None => return first.clone(),
+            }
+        }
+        first.clone()
+    }
+
+    /// Refines a discretisation until both differences are small enough.
+    fn refine(mut self, mut scene: AnyOrderScene) -> Result<Choice, Unreachable> {
+        let share = SHARE * self.target;
+        let mut base = self.sample(&scene, &[])?;
+        for _ in 0..ROUNDS {
+            let Compared { finer, shorter, space, time } = self.compare(&scene, &base)?;
+            if space.most() <= share && time.most() <= share {
+                let (space, time, finer_space) = (space.most(), time.most(), words(&finer.0));
+                return Ok(Choice { scene, space, time, checks: self.spent, run: base.cost, finer_space });
+            }
+            self.judge(space.most(), time.most())?;
+            scene = refined(&scene, &space, &time, share).ok_or_else(|| self.not_reached(FINEST))?;
+            // A run that is already there is not made again.
+            let there = [finer, shorter].into_iter().find(|(other, _)| *other == scene);
+            base = there.map_or_else(|| self.sample(&scene, &[]), |(_, run)| Ok(run))?;
+        }
+        Err(self.not_reached("it was refined as often as is sensible"))
+    }
+
+    /// The two comparisons of a scene, `base` being its run.
+    fn compare(&mut self, scene: &AnyOrderScene, base: &Sampled) -> Result<Compared, Unreachable> {
+        let finer = finer_space(scene).ok_or_else(|| self.not_reached(FINEST))?;
+        let shorter = finer_steps(scene);
+        let times = base.own_times();
+        let in_space = self.sample(&finer, &times)?;
+        let in_time = self.sample(&shorter, &times)?;
+        let (space, time) = (Apart::of(base, &in_space), Apart::of(base, &in_time));
+        Ok(Compared { finer: (finer, in_space), shorter: (shorter, in_time), space, time })
+    }
+
+    /// Runs a scene, to be compared with the run whose times are `at`.
+    fn sample(&mut self, scene: &AnyOrderScene, at: &[f64]) -> Result<Sampled, Unreachable> {
         // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
         if !(4.0 * self.last.unknown_solves <= MOST_UNKNOWN_SOLVES) {
             return Err(self.not_reached("a finer run would take more than some ten minutes"));
         }
-        let sampled = sample(scene, self.times, Curves::Tip).map_err(Unreachable::Run)?;
+        let sampled = sample(scene, Wanted { at, ends: &[], own: true, all: false }).map_err(Unreachable::Run)?;
         self.spent += sampled.cost;
         self.last = sampled.cost;
         Ok(sampled)
@@ -296,10 +345,26 @@ fn graded(layer: f64) -> Vec<f64> {
     ends.chain([1.0]).collect()
 }
 
-/// p + 2, or the longest elements halved.
+/// Refined where a difference exceeds `share`; `None` where the elements are as fine as they get.
+fn refined(scene: &AnyOrderScene, space: &Apart, time: &Apart, share: f64) -> Option<AnyOrderScene> {
+    let mut next = scene.clone();
+    if !(space.most() <= share) {
+        next = more_space(&next, space, space.most() / share)?;
+    }
+    if !(time.late <= share) {
+        next.stepping = more_time(next.stepping, time.late / share);
+    }
+    if !(time.early <= share) {
+        let restart_dt = scene.stepping.restart_dt / shortening(time.early / share);
+        next.stepping.restart_dt = next.stepping.restart_dt.min(restart_dt);
+    }
+    Some(next)
+}
+
+/// p + 4, or the longest elements halved.
 fn finer_space(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
-    if scene.degree + 2 <= MAX_DEGREE {
-        return Some(AnyOrderScene { degree: scene.degree + 2, ..scene.clone() });
+    if scene.degree + FINER_DEGREES <= MAX_DEGREE {
+        return Some(AnyOrderScene { degree: scene.degree + FINER_DEGREES, ..scene.clone() });
     }
     halved(scene)
 }
@@ -318,8 +383,21 @@ fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
     Some(AnyOrderScene { mesh, ..scene.clone() })
 }
 
-/// Space refined for an error smaller by `factor`.
-fn more_space(scene: &AnyOrderScene, factor: f64) -> Option<AnyOrderScene> {
+/// One more node.
+fn split(scene: &AnyOrderScene, x: f64) -> Option<AnyOrderScene> {
+    let mut nodes = scene.mesh.nodes().to_vec();
+    nodes.insert(nodes.len() - 1, x);
+    let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
+    Some(AnyOrderScene { mesh, ..scene.clone() })
+}
+
+/// Space refined for an error smaller by `factor`, the difference being `apart`.
+fn more_space(scene: &AnyOrderScene, apart: &Apart, factor: f64) -> Option<AnyOrderScene> {
+    let layer = (scene.beam.zeta * apart.since).sqrt();
+    let last = scene.mesh.lengths().last().unwrap_or(1.0);
+    if layer < RESOLVED * last / (scene.degree * scene.degree) as f64 {
+        return split(scene, 1.0 - last / GRADING);
+    }
     let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();
     let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };
     let degree = scene.degree + degrees + degrees % 2;
@@ -335,8 +413,17 @@ fn half_steps(stepping: Stepping) -> Stepping {
     Stepping { dt: 0.5 * dt, restart_dt: 0.5 * restart_dt, growth, ..stepping }
 }
 
+/// Half the steps; the first ones are shorter still, since the error there falls more slowly.
 fn finer_steps(scene: &AnyOrderScene) -> AnyOrderScene {
-    AnyOrderScene { stepping: half_steps(scene.stepping), ..scene.clone() }
+    let half = half_steps(scene.stepping);
+    let stepping = Stepping { restart_dt: 0.5 * half.restart_dt, ..half };
+    AnyOrderScene { stepping, ..scene.clone() }
+}
+
+/// What `restart_dt` is divided by, for an error in the first steps smaller by `factor`.
+fn shortening(factor: f64) -> f64 {
+    let wanted = (1.5 * factor).powf(1.0 / START_RATE);
+    if wanted.is_finite() { wanted.clamp(SHORTENED[0], SHORTENED[1]) } else { SHORTENED[1] }
 }
 
 /// Steps refined for an error smaller by `factor`; the degree grows with them while it can.

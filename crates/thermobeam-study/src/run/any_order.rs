@@ -11,7 +11,7 @@ use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Sim
 use thiserror::Error;
 
 use super::simulate::Counts;
-use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally};
+use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally, Unsound};
 use crate::figures::SceneMotion;
 use crate::scene::any_order::{AnyOrderScene, SCHEME};
 
@@ -31,6 +31,18 @@ pub enum AnyOrderFailure {
     /// The time limit was reached.
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
+    /// A step raised the energy, or broke its balance, far beyond what rounding and tolerance explain.
+    #[error("step {step} (from t = {t}, length {dt:e}): {unsound}")]
+    Unsound {
+        /// Number of the step, counted from 1.
+        step: usize,
+        /// The time at which it started.
+        t: f64,
+        /// Its length.
+        dt: f64,
+        /// What it did.
+        unsound: Unsound,
+    },
 }
 
 /// Displacement over space and time, for pictures.
@@ -123,9 +135,14 @@ fn watched(
         wall += started.elapsed();
         match outcome {
             Ok(Some(report)) => {
-                observed.step(&simulation, report.iterations);
+                let sound = observed.step(&simulation, report.iterations);
                 if at.contains(&simulation.t()) {
                     observe(&simulation, state(&simulation, scene, simulation.level()));
+                }
+                if let Err(unsound) = sound {
+                    let (step, t) = (simulation.work().steps, simulation.old_level().t);
+                    failure = Some(AnyOrderFailure::Unsound { step, t, dt: report.dt, unsound });
+                    break;
                 }
             }
             Ok(None) => break,
@@ -144,6 +161,8 @@ struct Observed<'s> {
     scene: &'s AnyOrderScene,
     level: Level,
     first: Sample,
+    /// The energy now: that at the start and its changes.
+    energy: f64,
     started_in: Phase,
     tally: Tally,
     times: usize,
@@ -161,6 +180,7 @@ impl<'s> Observed<'s> {
             scene,
             level,
             first,
+            energy: first.energy,
             started_in: simulation.phase(),
             tally: Tally::new(first.u_tip),
             times,
@@ -177,7 +197,9 @@ impl<'s> Observed<'s> {
         observed
     }
 
-    fn step(&mut self, simulation: &Simulation, iterations: usize) {
+    /// # Errors
+    /// [`Unsound`] where the step raised the energy or broke its balance.
+    fn step(&mut self, simulation: &Simulation, iterations: usize) -> Result<(), Unsound> {
         let Balance { change, residual, .. } = simulation.balance();
         self.tally.add(iterations, change, residual);
         let (from, to) = (simulation.old_level().t, simulation.t());
@@ -185,6 +207,14 @@ impl<'s> Observed<'s> {
             self.tally.include(u_tip);
         }
         self.sample(simulation, from, to);
+        self.energy += change;
+        let energy = EnergySummary {
+            initial: self.first.energy,
+            last: self.energy,
+            largest_increase: change,
+            largest_balance_residual: residual.abs(),
+        };
+        energy.sound(simulation.work().steps)
     }
 
     /// The states of the history that lie in the last step.
@@ -252,6 +282,12 @@ fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> Sampl
 }
 
 impl AnyOrderRun {
+    /// Why the numbers of the run cannot be used, in words: it failed, or they mean nothing.
+    pub fn complaint(&self) -> Option<String> {
+        let failure = self.failure.as_ref().map(ToString::to_string);
+        failure.or_else(|| self.energy.sound(self.steps).err().map(|unsound| unsound.to_string()))
+    }
+
     /// The history as comma-separated values, with enough digits to read back every bit.
     pub fn csv(&self) -> String {
         let mut csv = String::from("t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy\n");
@@ -381,10 +417,12 @@ impl<'r> AnyOrderObject<'r> {
             growth: scene.stepping.growth,
             work: Counts { passes: run.work.solves, factorizations: run.work.factorizations },
             events: run.events.iter().map(event).collect(),
-            failure: run.failure.as_ref().map(|failure| Failure {
-                step: run.steps + 1,
-                t: run.ends[1].t,
-                message: failure.to_string(),
+            failure: run.failure.as_ref().map(|failure| {
+                let (step, t) = match failure {
+                    AnyOrderFailure::Unsound { step, t, .. } => (*step, *t),
+                    AnyOrderFailure::Step(_) | AnyOrderFailure::TimeUp(_) => (run.steps + 1, run.ends[1].t),
+                };
+                Failure { step, t, message: failure.to_string() }
             }),
         }
     }

@@ -107,10 +107,7 @@ fn one_step(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
 
 fn any_order(sweep: &Sweep, index: usize, scene: &AnyOrderScene) -> Line {
     match any_order::run(scene, 0, &mut |_| ()) {
-        Ok(run) => {
-            let reason = run.energy.complaint(run.steps, run.failure.as_ref());
-            ended(sweep, index, reason, Found::AnyOrder(AnyOrderObject::reproducible(scene, &run)))
-        }
+        Ok(run) => ended(sweep, index, run.complaint(), Found::AnyOrder(AnyOrderObject::reproducible(scene, &run))),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let words = words(&section, &refine.names())?;
     let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
         let allowed = "a number of seconds > 0";
-        let seconds = field.positive()?;
+        let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
     let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;

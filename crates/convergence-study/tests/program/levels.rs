@@ -12,7 +12,8 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
         place.write_text(&text.replace("[4, 8, 16, 32, 64]", levels));
         let (status, out, err) = place.study(&[]);
         assert_eq!(status, Some(1), "{out}{err}");
-        assert!(out.contains("L2 2.0000 (order 2): 1 of 5 levels has no result: n = 16; 2.0000 ± 0.00005"), "{out}");
+        let found = out.lines().find(|line| line.starts_with("L2: 2.0000 ± 0.00005")).unwrap();
+        assert!(found.ends_with(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"), "{out}");
         assert!(!out.contains("NaN") && out.contains("a level has no result"), "{out}");
         let row = out.lines().find(|line| line.trim_start().starts_with("16 ")).unwrap();
         assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["16", "-", "-", "-"], "{out}");
@@ -21,15 +22,12 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
     let (status, out, _) = place.study(&["--quiet"]);
     let told =
-        "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
+        "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
     assert!(status == Some(1) && out.contains(told), "{out}");
     // A value, which is judged by differences.
     place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
     let (status, out, _) = place.study(&["--out", "report"]);
-    assert!(
-        status == Some(1) && out.contains("value flux 2.0000 (order 2): 1 of 5 levels has no result: n = 16"),
-        "{out}"
-    );
+    assert!(status == Some(1) && out.contains(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"), "{out}");
     place.write_text(&text);
     assert_eq!(place.study(&["--out", "report"]).0, Some(1));
     let drawn = fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
@@ -39,7 +37,11 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
         text.replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true").replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
     place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("L2: 3 of 15 cases have no result; L2 p = 2.0"), "{out}");
+    assert!(
+        status == Some(1)
+            && out.contains("L2 in h: no rate, claimed 2 ± 0.05: 3 of 15 levels have no result: h = 0.0625, dt = 0.1"),
+        "{out}"
+    );
 }
 
 pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
@@ -50,7 +52,7 @@ pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
     assert_eq!(status, Some(1), "{out}{err}");
     assert!(out.contains("4 of 5 cases completed; n = 16: ") && out.contains("`L2` of its errors is NaN"), "{out}");
     // The pair 32, 64 is finer than the NaN.
-    let told = "L2 rate 2.000 between the finest levels that have one (order 2): an error is NaN or infinite";
+    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: an error is NaN or infinite";
     assert!(out.contains(told), "{out}");
     let rates = out.lines().find(|line| line.starts_with("H1 ")).unwrap();
     assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
@@ -60,7 +62,7 @@ pub(crate) fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
-    let told = "L2: rate 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
+    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
     let (status, out, _) = place.study(&["--quiet"]);
     assert!(status == Some(1) && out.contains(told), "{out}");
     let (status, out, _) = place.study(&[]);

@@ -221,7 +221,7 @@ fn a_grid_finds_both_orders() {
     // The same order in both, which the error in time has not.
     place.write_text(&text);
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("L2 in dt 1.0000 (order 2): the rate is too low"), "{out}");
+    assert!(status == Some(1) && out.contains("L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low"), "{out}");
     // Refined together, with the error in time hidden by nothing.
     place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
     assert_eq!(place.study(&[]).0, Some(1));

@@ -81,9 +81,9 @@ impl Judged<'_> {
     }
 
     /// The judge reports an unusable order; here none was given.
-    fn reason(&self) -> &'static str {
+    fn reason(&self) -> &str {
         match (self.is_claimed(), self.is_unlike) {
-            (true, _) => self.rate.kind.brief(),
+            (true, _) => &self.rate.because,
             (false, true) => "not meant by --order P, for it does not fall with the step; --order NAME=P judges it",
             (false, false) => "no order is claimed",
         }

@@ -72,7 +72,7 @@ impl<'a> Object<'a> {
 }
 
 impl<'a> Rate<'a> {
-    fn new(judged: &Judged<'a>, levels: &[Level]) -> Self {
+    fn new(judged: &'a Judged<'a>, levels: &[Level]) -> Self {
         let rate = judged.rate;
         let aside = rate.set_aside.iter();
         Self {

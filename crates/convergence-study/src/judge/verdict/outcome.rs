@@ -204,6 +204,8 @@ pub struct RateVerdict {
     pub verdict: Verdict,
     /// The reason by name.
     pub kind: Reason,
+    /// The reason in a few words, which name the level where it is one.
+    pub because: String,
     /// The reason in words, with its numbers.
     pub reason: String,
 }
@@ -236,7 +238,7 @@ impl RateVerdict {
 
     /// Rate, claim and reason in a line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.kind.brief())
+        format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.because)
     }
 
     /// The last rate between neighbouring levels that is a number.
@@ -304,9 +306,9 @@ impl RateVerdict {
                 let rate = interval_text(interval, RATE_PLACES);
                 format!("{lacking}; {rate} {}, claimed {}", self.levels_in_words(), self.claim())
             }
-            None => lacking,
+            None => lacking.clone(),
         };
-        Self { verdict: Verdict::Fail, kind: Reason::NoResult, reason, ..self }
+        Self { verdict: Verdict::Fail, kind: Reason::NoResult, because: lacking, reason, ..self }
     }
 
     /// Puts the verdict together, with the words that quote its numbers.
@@ -314,10 +316,9 @@ impl RateVerdict {
         let levels = reading.levels;
         let used = reading.used.clone();
         let (fitted, interval) = reading.fit.map_or((None, None), |fit| (Some(fit.rate), Some(fit.interval)));
-        let text = match reading.outlier().filter(|_| kind == Reason::Outlier) {
-            Some(level) => format!("level {} does not fit its neighbours", level + 1),
-            None => kind.text().to_owned(),
-        };
+        let level = reading.outlier().filter(|_| kind == Reason::Outlier);
+        let outlier = level.map(|level| format!("level {} does not fit its neighbours", level + 1));
+        let text = outlier.clone().unwrap_or_else(|| kind.text().to_owned());
         let reason = match interval {
             Some(interval) => {
                 let (first, last) = (used.start + 1, used.end);
@@ -343,6 +344,7 @@ impl RateVerdict {
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
+            because: outlier.unwrap_or_else(|| kind.brief().to_owned()),
             reason,
         }
     }

@@ -45,7 +45,7 @@ struct Tests {
     package: &'static str,
     /// Which tests are compiled.
     targets: Vec<&'static str>,
-    /// What they are told.
+    /// Their arguments.
     arguments: Vec<&'static str>,
 }
 

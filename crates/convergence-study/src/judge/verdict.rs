@@ -71,7 +71,7 @@ impl Judge {
 
     /// The same rule with another floor, in the unit of the errors: fine levels whose errors are not above it have no say. 0 drops no level.
     ///
-    /// Whoever knows the round-off gives [`FLOOR_MARGIN`] times as much. See [`asymptotic_range`](crate::judge::fit::asymptotic_range) for why it is
+    /// Where the round-off is known, give [`FLOOR_MARGIN`] times as much. See [`asymptotic_range`](crate::judge::fit::asymptotic_range) for why it is
     /// not read off the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         if floor >= 0.0 && floor.is_finite() { Ok(Self { floor, ..self }) } else { Err(JudgeError::Floor(floor)) }

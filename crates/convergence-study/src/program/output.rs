@@ -11,7 +11,7 @@ use crate::text::visible::visible;
 /// Longest line that is read whole, in bytes; of a longer one the start is kept.
 const LONGEST_LINE: usize = 1 << 20;
 
-/// Lines of standard error that are told, and the characters of each.
+/// Lines of standard error that are shown, and the characters of each.
 const LAST_LINES: usize = 3;
 const LAST_CHARACTERS: usize = 160;
 

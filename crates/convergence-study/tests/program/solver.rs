@@ -57,7 +57,7 @@ fn number_from_stdin() -> u32 {
     case["n"].as_u64().unwrap() as u32
 }
 
-/// Standard streams as this process has them, so that whoever reads them waits for both.
+/// Standard streams as this process has them, so that their reader waits for both.
 fn start(token: &str, mode: &str) -> Command {
     let mut child = Command::new(std::env::current_exe().unwrap());
     child.args([COMMAND, token, mode, "16"]).stdin(Stdio::null());

@@ -39,7 +39,7 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
     assert_eq!((0..sound.len()).filter(|&index| answered(index)).count(), 7);
 }
 
-/// The keys that the readers of scenes know, table by table: they say so themselves, to whoever writes another.
+/// The keys that the readers of scenes know, table by table: they name them to a user who writes another.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
     let allowed = |text: &str| match SceneFile::parse(text, "s.toml").map_err(|error| *error.complaint) {
         Err(Complaint::UnknownKey { allowed, .. }) => allowed.split(", ").map(str::to_owned).collect::<Vec<_>>(),

@@ -1,4 +1,4 @@
-//! What the pilots of a scheme let expect: its cheapest run for an error, and whether another pilot is worth its cost.
+//! Cost and error predicted from the pilot runs of a scheme: its cheapest run for an error, and whether another pilot is worth its cost.
 
 use super::Trust;
 use super::pilot::Forecast;
@@ -6,7 +6,7 @@ use super::pilot::Forecast;
 /// The part of the error asked for that is aimed at, where the rates are those of theory, and where they are not. What
 /// is left is for the error of the forecast itself; a smaller part would cost more than it makes sure of.
 const AIM: [f64; 2] = [0.75, 0.5];
-/// The pilots may cost this part of the run that they foretell before they are taken at their word.
+/// The pilots may cost this part of the predicted run before the prediction is accepted.
 pub(super) const PILOT_SHARE: f64 = 0.15;
 /// The same where the rates are not those of theory.
 const LOOSE_SHARE: f64 = 0.75;
@@ -15,7 +15,7 @@ const BEATEN: f64 = 4.0;
 /// A part of space or time alone may be so many times the error aimed at: more would stake all on their cancelling.
 pub(super) const CANCELLATION: f64 = 1.5;
 
-/// What the pilots of one scheme let expect.
+/// Cost and error predicted from the pilot runs of one scheme.
 pub(super) struct Outlook<'a> {
     pub(super) forecast: Forecast<'a>,
     pub(super) best: Best,

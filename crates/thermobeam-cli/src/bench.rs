@@ -140,8 +140,6 @@ fn heading(project: &Project, scene: &Path) -> String {
 /// Run time against error, in every quantity.
 fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
     let runs = study.timed().map_err(|failure| Unusable::because(&failure.reason))?;
-    #[cfg(feature = "ode-library")]
-    let runs = [runs, study.timed_library().map_err(|failure| Unusable::because(&failure.reason))?].concat();
     let id = &study.header().id;
     for quantity in ErrorMeasure::ALL {
         let table = study.seconds(quantity, &runs);

@@ -141,13 +141,8 @@ impl OnMesh<'_> {
         &self.problem.mesh
     }
 
-    /// The discrete problem, loads left out.
-    pub fn problem(&self) -> &Problem {
-        &self.problem
-    }
-
     /// Writes the loads at time t; does nothing where there are none.
-    pub fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
+    fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
         let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return };
         factors.at(exact, t);
         let u = &factors.u.value;

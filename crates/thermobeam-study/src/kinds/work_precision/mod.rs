@@ -26,8 +26,6 @@
 mod file;
 mod judge;
 pub mod law;
-#[cfg(feature = "ode-library")]
-mod library;
 pub mod method;
 mod timed;
 

@@ -19,7 +19,7 @@ pub struct Timed {
     pub method: &'static str,
     /// Elements.
     pub elements: usize,
-    /// Time steps; 0 for a method that chooses its own.
+    /// Time steps.
     pub steps: usize,
     /// Errors and cost.
     pub measurement: Measurement,
@@ -36,7 +36,7 @@ impl Timed {
     }
 
     fn resolution(&self) -> String {
-        if self.steps == 0 { format!("n = {}", self.elements) } else { format!("{} x {}", self.elements, self.steps) }
+        format!("{} x {}", self.elements, self.steps)
     }
 }
 

@@ -1,0 +1,138 @@
+//! The ratchet: files, lines and types of each crate, in `src` and beside it, against `.ci/size.toml`. They may only fall.
+//!
+//! Counted are all tracked `.rs` and `.py` files. What is beside `src` has entries of its own, so that moving code is not shrinking.
+//! A crate that has shrunk passes: `LOWER_SIZE=1 cargo test -p xtask --test size` writes what it has shrunk to. To grow, edit the list
+//! and say why in the commit.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Files, lines, and definitions of types outside of `#[cfg(test)]`.
+type Size = [usize; 3];
+const NAMES: [&str; 3] = ["files", "lines", "types"];
+
+/// A table for `src`, one for what is beside it; in each the crates, or the folders outside of all crates.
+type Sizes = BTreeMap<String, BTreeMap<String, BTreeMap<String, usize>>>;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn size(text: &str) -> Size {
+    let (mut is_test, mut is_open, mut depth, mut types) = (false, false, 0, 0);
+    for line in text.lines().map(str::trim) {
+        if !is_test && line.starts_with("#[cfg(test)]") {
+            (is_test, is_open, depth) = (true, false, 0);
+        }
+        if is_test {
+            depth += line.matches('{').count() as i32 - line.matches('}').count() as i32;
+            is_open |= line.contains('{');
+            is_test = !(is_open && depth <= 0);
+            continue;
+        }
+        let rest = line.strip_prefix("pub").map_or(line, |rest| rest.trim_start_matches(|c| c != ' ').trim_start());
+        types += usize::from(
+            ["struct ", "enum ", "type ", "trait ", "union ", "class "].iter().any(|word| rest.starts_with(word)),
+        );
+    }
+    [1, text.lines().count(), types]
+}
+
+/// The table and the entry of a file.
+fn entry(path: &str) -> (&'static str, String) {
+    if let Some((of, _)) = path.split_once("/src/") {
+        return ("src", of.to_owned());
+    }
+    let folders = if path.starts_with("crates/") { 2 } else { 1 };
+    ("beside", path.split('/').take(folders).collect::<Vec<_>>().join("/"))
+}
+
+fn counted() -> Sizes {
+    let listed = Command::new("git").args(["ls-files", "*.rs", "*.py"]).current_dir(root()).output().expect("git");
+    assert!(listed.status.success(), "git ls-files: {}", String::from_utf8_lossy(&listed.stderr));
+    let mut sizes = Sizes::new();
+    for path in String::from_utf8(listed.stdout).expect("names in UTF-8").lines() {
+        // A file may have been removed and not yet committed.
+        let Ok(text) = fs::read_to_string(root().join(path)) else { continue };
+        let (table, name) = entry(path);
+        let of = sizes.entry(table.to_owned()).or_default().entry(name).or_default();
+        for (name, count) in NAMES.into_iter().zip(size(&text)) {
+            *of.entry(name.to_owned()).or_default() += count;
+        }
+    }
+    sizes
+}
+
+/// What has grown, in words, and the list with what has shrunk.
+fn compared(listed: &Sizes, counted: &Sizes) -> (Vec<String>, Sizes) {
+    let (mut grown, mut lowered) = (vec![], Sizes::new());
+    for (table, entries) in counted {
+        for (of, sizes) in entries {
+            for (name, &count) in sizes {
+                let allowed = listed.get(table).and_then(|table| table.get(of)?.get(name)).copied().unwrap_or(0);
+                if count > allowed {
+                    grown.push(format!("[{table}] \"{of}\": found {count} {name}; expected at most {allowed}"));
+                }
+                let entry = lowered.entry(table.clone()).or_default().entry(of.clone()).or_default();
+                entry.insert(name.clone(), count.min(allowed));
+            }
+        }
+    }
+    (grown, lowered)
+}
+
+fn written(sizes: &Sizes) -> String {
+    let mut text = "# The most that each crate may have; held, and lowered, by xtask/tests/size.rs.\n".to_owned();
+    for (table, entries) in sizes {
+        text += &format!("\n[{table}]\n");
+        for (of, sizes) in entries {
+            let sizes: Vec<String> = sizes.iter().map(|(name, count)| format!("{name} = {count}")).collect();
+            text += &format!("\"{of}\" = {{ {} }}\n", sizes.join(", "));
+        }
+    }
+    text
+}
+
+#[test]
+fn no_crate_grows() {
+    let file = root().join(".ci/size.toml");
+    let listed: Sizes = toml::from_str(&fs::read_to_string(&file).expect("the list")).expect("a list of sizes");
+    let (grown, lowered) = compared(&listed, &counted());
+    assert!(grown.is_empty(), "{}\nshrink it, or say why in the commit that raises .ci/size.toml", grown.join("\n"));
+    if std::env::var_os("LOWER_SIZE").is_some() {
+        fs::write(&file, written(&lowered)).expect("the list is written");
+    } else if lowered != listed {
+        println!("smaller than .ci/size.toml allows: `LOWER_SIZE=1 cargo test -p xtask --test size` lowers the list");
+    }
+}
+
+#[test]
+fn growth_is_found_wherever_it_is_and_shrinking_lowers_the_list() {
+    let sizes = |text: &str| toml::from_str::<Sizes>(text).expect("a list of sizes");
+    let listed = sizes("[src]\na = { files = 1, lines = 9, types = 0 }\n");
+    let (grown, lowered) = compared(&listed, &sizes("[src]\na = { files = 1, lines = 8, types = 0 }\n"));
+    assert!(grown.is_empty() && lowered["src"]["a"]["lines"] == 8, "{grown:?}");
+    assert_eq!(sizes(&written(&lowered)), lowered);
+    let moved = sizes("[src]\na = { files = 1, lines = 10, types = 1 }\n[beside]\na = { files = 1 }\n");
+    let (grown, _) = compared(&listed, &moved);
+    assert_eq!(grown.len(), 3, "{grown:?}");
+    assert_eq!(grown[0], "[beside] \"a\": found 1 files; expected at most 0");
+}
+
+#[test]
+fn files_are_counted_by_crate_and_tests_define_no_types() {
+    let text =
+        "pub(crate) struct A;\nenum B {}\n#[cfg(test)]\nmod tests {\n    struct C;\n}\n    type D = A;\nstructure\n";
+    assert_eq!(size(text), [1, 8, 3]);
+    assert_eq!(size("class A:\n    pass\n"), [1, 2, 1]);
+    for (path, table, of) in [
+        ("crates/a/src/b/c.rs", "src", "crates/a"),
+        ("crates/a/tests/src.rs", "beside", "crates/a"),
+        ("xtask/src/main.rs", "src", "xtask"),
+        ("studies/programs/heat.py", "beside", "studies"),
+    ] {
+        assert_eq!(entry(path), (table, of.to_owned()), "{path}");
+    }
+}

@@ -21,6 +21,9 @@ pub struct Answer {
     pub dt: Option<f64>,
     /// Unknowns, operations, seconds: what the program counts; > 0.
     pub work: Option<f64>,
+    /// The time that the program took.
+    #[serde(default)]
+    pub seconds: f64,
     /// Why the case has failed all the same: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
@@ -142,6 +145,7 @@ impl Answer {
             work: step("work")?,
             failure: None,
             kept: false,
+            seconds: 0.0,
         };
         Ok((answer, complaint))
     }

@@ -15,7 +15,8 @@
 //! cache = true                   # a case is not repeated while command and files are unchanged
 //!
 //! [refine]
-//! n = [8, 16, 32, 64]            # or h; steps or dt; two lists are refined together, or `grid = true`
+//! n = [8, 16, 32, 64]            # or h; steps or dt; two lists are refined together, or `grid = true`; or n = "auto": levels
+//!                                # until it is decided, for at most `budget` seconds (60)
 //!
 //! [[expect]]
 //! error = "L2"

@@ -6,6 +6,7 @@ use super::{Expectation, Program, values};
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
+use crate::study::until_decided::{self, Next};
 use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Ran};
 
 type Run = Ran<Resolution, Answer>;
@@ -55,6 +56,18 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     }
 }
 
+/// What a study that adds levels does next; `None` where they are listed, or a case has failed.
+pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
+    let budget = study.refine.budget?;
+    let seconds: Vec<f64> = ran.iter().map(|ran| Some(ran.ok()?.seconds)).collect::<Option<_>>()?;
+    let (last, before) = (seconds[seconds.len() - 1], seconds[seconds.len() - 2]);
+    // The next level takes as many times longer as the last one did, and at least twice as long.
+    let cost = last * (last / before).max(2.0);
+    let levels = levels(study, ran);
+    let rates = [levels.judge(), values::judge(study, ran, &levels.refinements).rates].concat();
+    Some(until_decided::next(&rates, ran.len(), cost, seconds.iter().sum(), budget))
+}
+
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let mut rates = levels.judge();
     let id = &study.header.id;
@@ -69,8 +82,16 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     figures.extend(values.figures);
     quantities.extend(values.quantities);
     rates.extend(values.rates);
-    let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
+    let ended = next(study, ran).zip(study.refine.budget);
+    let ended =
+        ended.map(|(next, budget)| until_decided::in_words(next, levels, &rates, budget, "s")).unwrap_or_default();
+    let summary = [levels::summary(&rates), values.summary, ended].into_iter().filter(|text| !text.is_empty());
     let summary = summary.collect::<Vec<_>>().join("; ");
+    if study.refine.budget.is_some() {
+        // Of levels that the clock may have kept from running, nothing is guarded.
+        let first = &ran[..until_decided::FIRST.len().min(ran.len())];
+        quantities.retain(|quantity| first.iter().any(|ran| quantity.name.ends_with(&format!(", {}", ran.case.label))));
+    }
     Outcome {
         levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
         tables: values.tables,

@@ -25,10 +25,11 @@ mod template;
 mod values;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::input::{InputError, Section};
 use crate::run::time_limit;
+use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
 use answer::Expected;
 use command::Invocation;
@@ -115,10 +116,21 @@ impl Kind for Program {
         self.refine.resolutions().into_iter().map(case).collect()
     }
 
+    fn more(&self, ran: &[Ran<Resolution, Answer>]) -> Option<Case<Resolution>> {
+        let is_next = judge::next(self, ran)? == Next::Another;
+        let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
+        Some(Case { label: data.label.clone(), cost: data.cost(), data })
+    }
+
     fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
         let expected: Vec<Expected> = self.expect.iter().map(|expectation| expectation.expected.clone()).collect();
         let invocation = self.invocation(case);
-        let Some(store) = &self.store else { return Ok(invocation.run(&expected)?) };
+        let started = Instant::now();
+        let run = || {
+            let answer = invocation.run(&expected)?;
+            Ok::<_, CaseFailure>(Answer { seconds: started.elapsed().as_secs_f64(), ..answer })
+        };
+        let Some(store) = &self.store else { return run() };
         let key = store.key(&invocation)?;
         // What was kept for other expectations may lack what is expected now.
         let kept = if self.anew { None } else { store.get(&key) };
@@ -126,7 +138,7 @@ impl Kind for Program {
         if let Some(answer) = kept {
             return Ok(Answer { kept: true, ..answer });
         }
-        let answer = invocation.run(&expected)?;
+        let answer = run()?;
         if answer.failure.is_none() {
             // A result that cannot be kept costs the next run time, not this one its result.
             let _ = store.put(&key, &invocation, &answer);
@@ -162,7 +174,10 @@ impl Kind for Program {
         let run = format!("{}, for at most {} s a case.{kept}", words.join(" "), self.timeout.as_secs_f64());
         vec![
             ("what is run".to_owned(), run),
-            ("levels".to_owned(), labels.join("; ")),
+            (
+                "levels".to_owned(),
+                labels.join("; ") + self.refine.budget.map_or("", |_| "; finer ones until it is decided"),
+            ),
             ("orders claimed".to_owned(), orders.join("; ")),
         ]
     }

@@ -1,7 +1,7 @@
 //! The table `[refine]`: the resolutions that a program is run at.
 
 use crate::input::{Field, InputError, Section};
-use crate::study::{Axis, Refinement};
+use crate::study::{Axis, Refinement, until_decided};
 
 /// A number that a case is given, by its name.
 pub type Parameter = (&'static str, f64);
@@ -11,6 +11,9 @@ const LARGEST_COUNT: usize = 1 << 53;
 
 /// Most cases of a study: each is a process.
 const MOST_CASES: usize = 10_000;
+
+/// Seconds that the levels of a study may take where it adds them and its file does not say.
+const BUDGET: f64 = 60.0;
 
 /// Values of one parameter, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +50,8 @@ pub(super) struct Refine {
     pub(super) time: Option<Sequence>,
     /// All pairs, instead of both refined together.
     pub(super) grid: bool,
+    /// Levels are added until it is decided, for as many seconds.
+    pub(super) budget: Option<f64>,
 }
 
 /// One case: what identifies it, and what its program receives.
@@ -77,6 +82,12 @@ impl Refine {
     /// The number of time steps.
     pub(super) fn times(&self) -> usize {
         self.time.as_ref().map_or(0, |time| time.values.len())
+    }
+
+    /// The level after `level` of a study that adds levels: counts are doubled.
+    pub(super) fn finer(&self, level: &Resolution, index: usize) -> Resolution {
+        let doubled = |sequence: &Option<Sequence>, step: f64| sequence.as_ref().map(|_| (2.0 / step).round());
+        self.resolution(index, doubled(&self.space, level.h), doubled(&self.time, level.dt))
     }
 
     /// The names that placeholders may have.
@@ -143,7 +154,7 @@ impl Resolution {
 pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let lists = "a list n or h, and dt or steps where time is refined";
     let section = root.require("refine", &format!("a table with {lists}"))?.section()?;
-    section.allow(&["n", "h", "dt", "steps", "grid"])?;
+    section.allow(&["n", "h", "dt", "steps", "grid", "budget"])?;
     let space = one_of(&section, "n", "h")?;
     let time = one_of(&section, "steps", "dt")?;
     let grid = section.get("grid").map_or(Ok(false), |field| field.boolean())?;
@@ -167,7 +178,8 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         }
         _ => {}
     }
-    Ok(Refine { space, time, grid })
+    let budget = until_decided::budget(&section, &["n", "steps"], grid, BUDGET, "a number of seconds > 0")?;
+    Ok(Refine { space, time, grid, budget })
 }
 
 /// The list of one of two names; both together are refused.
@@ -184,7 +196,11 @@ fn one_of(section: &Section<'_>, count: &'static str, step: &'static str) -> Res
 
 /// A list from coarse to fine: increasing counts, or decreasing steps.
 fn values(field: &Field<'_>, name: &'static str, is_count: bool) -> Result<Sequence, InputError> {
-    let allowed = if is_count { "a list of increasing whole numbers >= 1" } else { "a list of decreasing numbers > 0" };
+    let counts = "a list of increasing whole numbers >= 1, or \"auto\"";
+    let allowed = if is_count { counts } else { "a list of decreasing numbers > 0" };
+    if is_count && until_decided::is_auto(field) {
+        return Ok(Sequence { name, values: until_decided::FIRST.map(|count| count as f64).into() });
+    }
     let mut values: Vec<f64> = vec![];
     for item in field.items(allowed)? {
         let value = if is_count {

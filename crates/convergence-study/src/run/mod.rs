@@ -152,32 +152,48 @@ fn run_cases(
     let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
     let counter = Counter::new(&jobs, progress);
     let run = |job: Job| {
-        let done = job.time(|| {
-            let Ok(plan) = &planned[job.study].plan else { return };
-            let (ended, up) = time_limit::within(limit, || caught(|| plan.run(job.case)));
-            if let Err(reason) = ended {
+        let mut done = vec![run_case(&planned[job.study], limit, job)];
+        let is_last = counter.leave(&job);
+        if let (true, Ok(plan)) = (is_last, &planned[job.study].plan) {
+            // A study that asks for more cases gets them one after the other, on this thread.
+            while let Some(case) = caught(|| plan.more()).unwrap_or_else(|reason| {
                 plan.fail(job.case, CaseFailure { reason });
+                None
+            }) {
+                done.push(run_case(&planned[job.study], limit, Job { case, ..job }));
             }
-            // A case that was stopped has no result, even if it returned one.
-            if let Some(up) = up {
-                plan.fail(job.case, up.into());
-            }
-        });
-        counter.count(&job);
+        }
+        counter.count(&job, is_last);
         done
     };
     // A parallel iterator over the vector would cut it in halves; the bridge hands out one job after the other.
-    let done: Vec<Done> = pool.install(|| jobs.into_iter().par_bridge().map(run).collect());
+    let done: Vec<Done> = pool.install(|| jobs.into_iter().par_bridge().flat_map_iter(run).collect());
     queue::in_order(done, planned.len())
 }
 
+/// Runs one case, within the limit of its time.
+fn run_case(planned: &Planned<'_>, limit: Option<Duration>, job: Job) -> Done {
+    job.time(|| {
+        let Ok(plan) = &planned.plan else { return };
+        let (ended, up) = time_limit::within(limit, || caught(|| plan.run(job.case)));
+        if let Err(reason) = ended {
+            plan.fail(job.case, CaseFailure { reason });
+        }
+        // A case that was stopped has no result, even if it returned one.
+        if let Some(up) = up {
+            plan.fail(job.case, up.into());
+        }
+    })
+}
+
 /// The outcome of one study from the results of its cases.
-fn conclude(Planned { header, plan, cases }: Planned<'_>, done: &[Done]) -> Finished {
+fn conclude(Planned { header, plan, .. }: Planned<'_>, done: &[Done]) -> Finished {
     let mut spent = queue::spent(done);
     let started = Instant::now();
     let mut failed_cases = vec![];
     let mut outcome = match plan {
         Ok(plan) => {
+            let cases = plan.cases();
             let failed = cases.iter().enumerate().filter_map(|(i, case)| {
                 Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
             });

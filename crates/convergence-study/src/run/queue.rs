@@ -27,7 +27,7 @@ pub struct Progress {
 pub(super) struct Job {
     pub(super) study: usize,
     pub(super) case: usize,
-    cost: f64,
+    pub(super) cost: f64,
 }
 
 /// A case that has ended.
@@ -102,12 +102,20 @@ impl<'p> Counter<'p> {
         Self { now: Mutex::new((now, left)), report }
     }
 
-    /// Reports while it holds the lock, so that the reported numbers only grow.
-    pub(super) fn count(&self, job: &Job) {
+    /// Takes note that a case has ended; whether it was the last of its study.
+    pub(super) fn leave(&self, job: &Job) -> bool {
         let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
-        let (now, left) = &mut *state;
-        left[job.study] -= 1;
-        now.ended = (left[job.study] == 0).then_some(job.study);
+        state.1[job.study] -= 1;
+        state.1[job.study] == 0
+    }
+
+    /// Reports while it holds the lock, so that the reported numbers only grow.
+    ///
+    /// * `is_last`: whether its study has ended with it.
+    pub(super) fn count(&self, job: &Job, is_last: bool) {
+        let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let now = &mut state.0;
+        now.ended = is_last.then_some(job.study);
         now.done_cases += 1;
         now.done_cost += job.cost;
         (self.report)(*now);

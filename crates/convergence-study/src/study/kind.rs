@@ -1,7 +1,7 @@
 //! A kind of study: typed for who writes one, erased for the runner.
 
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::case::{Case, CaseFailure, Ran};
 use super::header::Header;
@@ -13,7 +13,7 @@ use crate::input::{self, InputError, Section};
 /// A case is a pure function of its data, so that the study has the same outcome for any number of threads.
 pub trait Kind: Send + Sync {
     /// What a case needs to know.
-    type Data: Send + Sync;
+    type Data: Clone + Send + Sync;
     /// What a case finds.
     type Found: Send;
 
@@ -22,6 +22,14 @@ pub trait Kind: Send + Sync {
 
     /// The computations, in the order in which they are judged.
     fn cases(&self) -> Vec<Case<Self::Data>>;
+
+    /// A further case once all before it have run, such as a finer level while the rates decide nothing; asked for again and again.
+    /// `None` when there is enough.
+    ///
+    /// * `ran`: all results so far, in the order of the cases.
+    fn more(&self, _ran: &[Ran<Self::Data, Self::Found>]) -> Option<Case<Self::Data>> {
+        None
+    }
 
     /// Computes one case: the same result on every thread, at every time.
     ///
@@ -102,7 +110,11 @@ pub fn run_here<K: Kind>(kind: &K) -> Outcome {
 /// Runs all cases on this thread, one after the other.
 pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
     let run = |case: Case<K::Data>| Ran { found: kind.run(&case.data), case };
-    kind.cases().into_iter().map(run).collect()
+    let mut ran: Vec<_> = kind.cases().into_iter().map(run).collect();
+    while let Some(case) = kind.more(&ran) {
+        ran.push(run(case));
+    }
+    ran
 }
 
 /// A study of any kind, as the runner sees it.
@@ -127,6 +139,9 @@ pub trait Study: Send + Sync {
 pub trait Plan: Send + Sync {
     /// Label and cost of each case.
     fn cases(&self) -> Vec<Case<()>>;
+
+    /// Adds the case that [`Kind::more`] asks for, all others having been run; its number, or `None` where there are enough.
+    fn more(&self) -> Option<usize>;
 
     /// Runs case number `index` and keeps its result.
     fn run(&self, index: usize);
@@ -157,9 +172,8 @@ impl<K: Kind> Study for Erased<K> {
     }
 
     fn plan(&self) -> Box<dyn Plan + '_> {
-        let cases = self.0.cases();
-        let found = cases.iter().map(|_| Mutex::new(None)).collect();
-        Box::new(Typed { kind: &self.0, cases, found })
+        let ran = self.0.cases().into_iter().map(|case| Ran { case, found: Err(never_run()) }).collect();
+        Box::new(Typed { kind: &self.0, ran: Mutex::new(ran) })
     }
 
     fn details(&self) -> Vec<(String, String)> {
@@ -175,19 +189,15 @@ impl<K: Kind> Study for Erased<K> {
     }
 }
 
-/// The result of a case; `None` until it was run.
-type Slot<F> = Mutex<Option<Result<F, CaseFailure>>>;
-
 /// Cases of one kind and their results.
 struct Typed<'k, K: Kind> {
     kind: &'k K,
-    cases: Vec<Case<K::Data>>,
-    found: Vec<Slot<K::Found>>,
+    ran: Mutex<Vec<Ran<K::Data, K::Found>>>,
 }
 
 impl<K: Kind> Typed<'_, K> {
-    fn keep(&self, index: usize, result: Result<K::Found, CaseFailure>) {
-        *self.found[index].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+    fn ran(&self) -> MutexGuard<'_, Vec<Ran<K::Data, K::Found>>> {
+        self.ran.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -197,38 +207,39 @@ fn never_run() -> CaseFailure {
 
 impl<K: Kind> Plan for Typed<'_, K> {
     fn cases(&self) -> Vec<Case<()>> {
-        self.cases.iter().map(|case| Case { label: case.label.clone(), cost: case.cost, data: () }).collect()
+        let case = |ran: &Ran<_, _>| Case { label: ran.case.label.clone(), cost: ran.case.cost, data: () };
+        self.ran().iter().map(case).collect()
+    }
+
+    fn more(&self) -> Option<usize> {
+        let mut ran = self.ran();
+        let case = self.kind.more(&ran)?;
+        ran.push(Ran { case, found: Err(never_run()) });
+        Some(ran.len() - 1)
     }
 
     fn run(&self, index: usize) {
-        self.keep(index, self.kind.run(&self.cases[index].data));
+        let data = self.ran()[index].case.data.clone();
+        let found = self.kind.run(&data);
+        self.ran()[index].found = found;
     }
 
     fn fail(&self, index: usize, failure: CaseFailure) {
-        self.keep(index, Err(failure));
+        self.ran()[index].found = Err(failure);
     }
 
     fn failure(&self, index: usize) -> Option<CaseFailure> {
-        match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(Ok(found)) => self.kind.failure(found),
-            Some(Err(failure)) => Some(failure.clone()),
-            None => Some(never_run()),
+        match &self.ran()[index].found {
+            Ok(found) => self.kind.failure(found),
+            Err(failure) => Some(failure.clone()),
         }
     }
 
     fn is_kept(&self, index: usize) -> bool {
-        match &*self.found[index].lock().unwrap_or_else(PoisonError::into_inner) {
-            Some(Ok(found)) => self.kind.is_kept(found),
-            _ => false,
-        }
+        self.ran()[index].ok().is_some_and(|found| self.kind.is_kept(found))
     }
 
     fn judge(self: Box<Self>) -> Outcome {
-        let Self { kind, cases, found } = *self;
-        let result = |slot: Slot<K::Found>| {
-            slot.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(|| Err(never_run()))
-        };
-        let ran: Vec<_> = cases.into_iter().zip(found).map(|(case, slot)| Ran { case, found: result(slot) }).collect();
-        kind.judge(&ran)
+        self.kind.judge(&self.ran.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 }

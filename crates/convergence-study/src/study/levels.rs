@@ -192,6 +192,19 @@ impl Levels {
         Figure { file, caption, svg }
     }
 
+    /// The same with the coarsest levels alone.
+    pub fn coarsest(&self, levels: usize) -> Self {
+        let column = |column: &ErrorColumn| ErrorColumn {
+            errors: column.errors.iter().copied().take(levels).collect(),
+            ..column.clone()
+        };
+        Self {
+            axis: self.axis,
+            refinements: self.refinements.iter().take(levels).cloned().collect(),
+            columns: self.columns.iter().map(column).collect(),
+        }
+    }
+
     /// Every error of every level, for record and report.
     pub fn errors(&self) -> Vec<LevelErrors> {
         let level = |(i, level): (usize, &Refinement)| LevelErrors {

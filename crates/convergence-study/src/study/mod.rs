@@ -14,6 +14,7 @@ pub mod levels;
 pub mod outcome;
 mod registry;
 pub mod soundness;
+pub mod until_decided;
 
 pub use axis::Axis;
 pub use case::{Case, CaseFailure, Ran};

@@ -86,3 +86,52 @@ pub(crate) fn the_seconds_of_a_study_are_those_that_passed() {
     // Each of the five cases takes 0.4 s.
     assert!(status == Some(0) && (0.4..passed + 0.01).contains(&seconds), "{passed}: {out}");
 }
+
+pub(crate) fn levels_are_added_until_it_is_decided_within_the_budget() {
+    let place = Place::new("late", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let second = "[[expect]]\nerror = \"L1\"\norder = 2.0\ntolerance = 0.05\n";
+    let auto = text.replace("[4, 8, 16, 32, 64]", "\"auto\"") + second;
+    place.write_text(&auto);
+    let (status, out, err) = place.study(&["--out", "report"]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    let summary = out.lines().find(|line| line.contains("decided after")).unwrap_or_else(|| panic!("{out}"));
+    let levels: usize = summary.split("decided after ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"), "{out}");
+    // As many levels are listed, and a listed study of the same levels has the same rate; of one level fewer it decides nothing.
+    let listed = |levels: usize| {
+        let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
+        place.write_text(&auto.replace("\"auto\"", &format!("[{}]", counts.join(", "))));
+        place.study(&["--format", "json"])
+    };
+    assert_eq!((listed(levels).0, listed(levels - 1).0), (Some(0), Some(1)));
+    // A budget that no further level fits, a claim that fails at once.
+    place.write_text(&auto.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
+    let (status, out, _) = place.study(&["--quiet"]);
+    assert!(status == Some(1), "{out}");
+    let (_, out, _) = place.study(&[]);
+    assert!(out.contains("undecided after 4 levels: the next would take about ") && out.contains("0.001 s"), "{out}");
+    place.write_text(&auto.replace("order = 2.0", "order = 1.0"));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("decided after 4 levels"), "{out}");
+    for (written, told) in [
+        ("\"auto\"\nbudget = 0", "refine.budget: found 0; expected a number of seconds > 0"),
+        ("[8, 16]\nbudget = 3", "refine.budget: found a budget beside lists; expected lists alone, or \"auto\""),
+        (
+            "\"auto\"\nsteps = [1, 2, 3, 4]",
+            "refine.steps: found the list [1, 2, 3, 4] beside \"auto\"; expected \"auto\"",
+        ),
+        (
+            "\"auto\"\nsteps = \"auto\"\ngrid = true",
+            "refine.n: found the text \"auto\"; expected lists where grid = true",
+        ),
+        (
+            "\"many\"",
+            "refine.n: found the text \"many\"; expected a list of increasing whole numbers >= 1, or \"auto\"",
+        ),
+    ] {
+        place.write_text(&auto.replace("\"auto\"", written));
+        let (status, out, err) = place.study(&[]);
+        assert!(status == Some(2) && out.is_empty() && err.contains(told), "{err}");
+    }
+}

@@ -19,8 +19,8 @@ use crate::kept::{
 };
 use crate::levels::{
     a_level_without_a_result_fails_and_the_others_have_a_rate, a_study_of_two_levels_has_the_rate_between_them,
-    steps_that_only_some_levels_answer_are_refused, the_seconds_of_a_study_are_those_that_passed,
-    what_is_finite_beside_a_nan_is_kept,
+    levels_are_added_until_it_is_decided_within_the_budget, steps_that_only_some_levels_answer_are_refused,
+    the_seconds_of_a_study_are_those_that_passed, what_is_finite_beside_a_nan_is_kept,
 };
 use crate::solver;
 
@@ -46,6 +46,7 @@ const TESTS: &[Test] = &tests![
     a_study_of_two_levels_has_the_rate_between_them,
     steps_that_only_some_levels_answer_are_refused,
     the_seconds_of_a_study_are_those_that_passed,
+    levels_are_added_until_it_is_decided_within_the_budget,
     a_program_that_hangs_is_stopped_and_leaves_nothing,
     much_output_takes_little_memory,
     a_killed_harness_leaves_nothing,

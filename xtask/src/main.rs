@@ -1,7 +1,6 @@
 //! `cargo xtask <command>`: the commands of `thermobeam`, and the tools for developing the project.
 
 mod drift;
-mod fuzz;
 mod mutants;
 mod regressions;
 
@@ -35,7 +34,6 @@ enum Dev {
     Drift(drift::Arguments),
     Mutants(mutants::Arguments),
     Regressions(regressions::Arguments),
-    Fuzz(fuzz::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -46,6 +44,5 @@ fn main() -> ExitCode {
         Command::Dev(Dev::Drift(arguments)) => drift::run(&arguments),
         Command::Dev(Dev::Mutants(arguments)) => mutants::run(&arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
-        Command::Dev(Dev::Fuzz(arguments)) => fuzz::run(&arguments),
     })
 }

@@ -40,7 +40,7 @@
 //! studies on all threads, whose outcomes have no figures. The feature `reports` adds all but the command line, `command-line` that.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
-//! `compare`, `report`, `explain`, `verify`, `review`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
+//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
 //! for the time left.)
 
 #[cfg(feature = "command-line")]
@@ -59,8 +59,6 @@ pub mod program;
 pub mod project;
 #[cfg(feature = "reports")]
 pub mod report;
-#[cfg(feature = "reports")]
-pub mod review;
 pub mod run;
 #[cfg(feature = "reports")]
 pub mod store;

@@ -6,6 +6,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::thread;
 
+use glob::Pattern;
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
@@ -99,6 +100,8 @@ pub struct Request {
     pub bless: bool,
     /// Why claims have changed, for a blessing of them.
     pub reason: Option<String>,
+    /// Names or patterns of the changes to take; all of them where there is none. Needs a reason.
+    pub only: Vec<String>,
     /// The project's folder: `studies/baseline.json` is below.
     pub root: PathBuf,
     /// The folder of its reports, by custom `reports/` in it.
@@ -115,7 +118,7 @@ impl Request {
     ///
     /// # Errors
     /// [`VerificationError::Reports`].
-    pub(crate) fn lock_baseline(&self) -> Result<File, VerificationError> {
+    fn lock_baseline(&self) -> Result<File, VerificationError> {
         lock_reports(&self.root.join("reports"))
     }
 
@@ -167,6 +170,16 @@ pub enum VerificationError {
         /// Why.
         error: io::Error,
     },
+    /// A pattern of [`Request::only`] that matches no change.
+    #[error("--only: found `{pattern}`, which matches no change; expected one of {changes}{}", .some.iter().map(|id| format!(", `{id}`")).collect::<String>())]
+    NoChange {
+        /// The pattern.
+        pattern: String,
+        /// How many changes there are.
+        changes: usize,
+        /// The first of them.
+        some: Vec<String>,
+    },
 }
 
 /// Runs the studies and writes baseline, if asked, and reports.
@@ -194,7 +207,7 @@ pub fn verify(
     // Another run may have blessed in the meantime: under the lock it is read again.
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
-    let blessing = request.bless.then(|| baseline.bless(&finished, known, request.reason.as_deref()));
+    let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
     let changes = baseline.compare(&finished, known);
     let verdict = verdict(&finished, &changes);
     let target = request.scope.report_folder(folder);
@@ -207,6 +220,37 @@ pub fn verify(
     target.publish(&files).map_err(fail)?;
     atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(fail)?;
     Ok(verification)
+}
+
+/// Takes all changes for the baseline, or those that are asked for: all of them or none.
+fn bless(
+    baseline: &mut Baseline,
+    finished: &[Finished],
+    request: &Request,
+) -> Result<Result<(), Refusal>, VerificationError> {
+    let (known, reason) = (request.scope.known(), request.reason.as_deref());
+    if request.only.is_empty() {
+        return Ok(baseline.bless(finished, known, reason));
+    }
+    let changes = baseline.compare(finished, known);
+    let mut chosen = vec![false; changes.len()];
+    for word in &request.only {
+        let pattern = Pattern::new(word).ok();
+        let matches = |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
+        let found: Vec<usize> = (0..changes.len()).filter(|&k| matches(&changes[k].id())).collect();
+        if found.is_empty() {
+            let some = changes.iter().take(3).map(Change::id).collect();
+            return Err(VerificationError::NoChange { pattern: word.clone(), changes: changes.len(), some });
+        }
+        found.into_iter().for_each(|k| chosen[k] = true);
+    }
+    let mut chosen = changes.iter().zip(chosen).filter(|(_, chosen)| *chosen).map(|(change, _)| change);
+    let mut new = baseline.clone();
+    let taken = chosen.try_for_each(|change| new.accept(finished, change, reason.unwrap_or_default()));
+    if taken.is_ok() {
+        *baseline = new;
+    }
+    Ok(taken)
 }
 
 /// Runs studies on all threads of the machine and writes a report on them, without a baseline.
@@ -286,7 +330,7 @@ fn lock_file(reports: &Path) -> PathBuf {
 }
 
 /// The worst verdict of all studies; fail where the baseline differs.
-pub(crate) fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
 }

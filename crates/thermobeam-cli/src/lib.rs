@@ -41,7 +41,7 @@ pub enum Command {
 pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate a scene", &["run", "equilibria"]),
     ("Verify", &["verify", "study", "list", "explain", "new"]),
-    ("What has changed", &["compare", "review", "history"]),
+    ("What has changed", &["compare"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
     ("Everything else", &["bench", "completions"]),

@@ -1,4 +1,4 @@
-//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `review`, `history`, `explain`, `completions`, for any project.
+//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -13,7 +13,6 @@ pub mod flags;
 mod github;
 mod guard;
 mod help;
-mod history;
 pub mod interrupt;
 mod list;
 pub mod long;
@@ -22,7 +21,6 @@ mod new;
 pub mod output;
 pub mod progress;
 mod rates;
-mod review;
 pub mod running;
 pub mod screen;
 pub mod selection;
@@ -48,16 +46,13 @@ pub enum Command {
     Explain(explain::Arguments),
     Rates(rates::Arguments),
     Compare(compare::Arguments),
-    Review(review::Arguments),
-    History(history::Arguments),
     New(new::Arguments),
     Completions(completions::Arguments),
     Guard(guard::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 10] =
-    ["new", "verify", "study", "list", "explain", "rates", "compare", "review", "history", "completions"];
+pub const COMMANDS: [&str; 8] = ["new", "verify", "study", "list", "explain", "rates", "compare", "completions"];
 
 impl Command {
     /// Runs the command for a project; `whole` is the whole command line, for completions.
@@ -73,8 +68,6 @@ impl Command {
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
-            Self::Review(arguments) => review::run(project, arguments),
-            Self::History(arguments) => history::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
             Self::Guard(arguments) => guard::run(arguments),

@@ -1,6 +1,6 @@
-//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` and `--journal` ask for.
+//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` asks for.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
@@ -15,7 +15,6 @@ use crate::verify::{findings, publish, quoted};
 use super::exit::Outcome;
 use super::flags::Flags;
 use super::github;
-use super::history::Journal;
 use super::output::{self, Format};
 use crate::cli::running::{Limits, Watched, kept};
 use crate::cli::screen;
@@ -29,8 +28,6 @@ pub struct Arguments {
     #[command(flatten)]
     limits: Limits,
     #[command(flatten)]
-    journal: Journal,
-    #[command(flatten)]
     flags: Flags,
 }
 
@@ -39,7 +36,6 @@ pub struct Arguments {
 /// # Errors
 /// Study files that cannot be used.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    arguments.journal.check()?;
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let flags = &arguments.flags;
@@ -82,7 +78,6 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             output::print(&format!("\nreport: {page}, {readme}\n"))?;
         }
     }
-    arguments.journal.append(Path::new("."), command.clone(), verdict, &finished)?;
     Ok(verdict.into())
 }
 

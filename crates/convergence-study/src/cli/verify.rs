@@ -13,7 +13,6 @@ use crate::verify::{self, Request, Scope, Verification};
 
 use super::exit::Outcome;
 use super::flags::Flags;
-use super::history::Journal;
 use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched, kept};
 use crate::cli::screen;
@@ -28,17 +27,18 @@ pub struct Arguments {
     tier: Tier,
     #[command(flatten)]
     limits: Limits,
-    /// Take the new numbers for the baseline; refused where a study does not pass
+    /// Take the new numbers and claims for the baseline; refused where a study does not pass
     #[arg(long)]
     bless: bool,
     /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
+    /// Take only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as 'heat-*:rate *'
+    #[arg(long, value_name = "PATTERN", requires = "reason")]
+    only: Vec<String>,
     /// Every study, also where some fail, and every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
-    #[command(flatten)]
-    journal: Journal,
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -52,7 +52,6 @@ pub struct Arguments {
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
-    arguments.journal.check()?;
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
@@ -62,7 +61,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let mut studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
-    let Arguments { bless, reason, .. } = arguments;
+    let Arguments { bless, reason, only, .. } = arguments;
     if *bless {
         // What is blessed was computed by the programs as they are.
         studies.iter_mut().for_each(|study| study.compute_anew());
@@ -70,31 +69,29 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let flags = &arguments.flags;
     let effort = flags.effort(arguments.limits.case_limit);
     let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
-    let request = Request { scope, effort, bless: *bless, reason: reason.clone(), root, reports };
+    let request = Request { scope, effort, bless: *bless, reason: reason.clone(), only: only.clone(), root, reports };
     let watched = Watched::new(&studies, !flags.quiet);
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let verification = verification?;
     let command = request.scope.command(project);
-    // What was found is shown first: a journal that cannot be written does not take it away.
     output::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments),
         Format::Json => record::json(&verification.record(&request.scope))?,
     })?;
     github::announce(&verification.findings(project, &request.scope, &command), flags.format);
-    arguments.journal.append(&request.root, command, verification.verdict, &verification.finished)?;
     Ok(verification.verdict.into())
 }
 
 /// A reason: it is kept in a file that people read, one line of text.
-pub(super) fn reason(text: &str) -> Result<String, String> {
+fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
     let is_line = !text.is_empty() && !text.contains(char::is_control);
     if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
 }
 
 /// The tier where nothing is named.
-pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
+fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     if ids.is_empty() {
         Scope::Tier(tier, all.iter().map(|file| file.study.header().clone()).collect())
     } else {

@@ -3,12 +3,10 @@
 //! The same outcomes give the same bytes, but for the page: it says which commit, day and machine it comes from, where that is
 //! given, and is not to be committed.
 
-mod badge;
 mod changes;
 mod errors;
 mod failures;
 mod forest;
-mod history;
 mod html;
 mod markdown;
 mod page;
@@ -30,9 +28,7 @@ use crate::study::outcome::Figure;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
-pub use badge::badge;
 pub use failures::{NotPassed, not_passed, text_of_failures};
-pub use history::history;
 pub use section::markdown;
 pub use tables::tables;
 pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};

@@ -11,9 +11,7 @@ use crate::run::Finished;
 use crate::study::outcome::Figure;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
-/// What makes pictures answer the pointer.
-pub(super) const PICTURES: &str = include_str!("picture.js");
-const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), PICTURES];
+const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), include_str!("picture.js")];
 
 /// Nothing is loaded from anywhere, whatever a study's text holds.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
@@ -25,23 +23,18 @@ pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let groups = groups(findings);
     let listed = groups.iter().flat_map(|(_, studies)| studies);
     let studies: String = listed.map(|finished| study(finished, &findings.again(finished))).collect();
-    let title = format!("{}: verification report", findings.verdict);
-    let body = format!("{}<main>\n{}{}{studies}</main>\n", head(findings), front(findings, rates), overview(&groups));
-    document(&title, &body, &SCRIPTS)
-}
-
-/// A page around its body, with style and scripts.
-///
-/// * `title`: HTML.
-pub(super) fn document(title: &str, body: &str, scripts: &[&str]) -> String {
-    let scripts: String = scripts.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
+    let scripts: String = SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-         <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\"/>\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n{body}{scripts}</body>\n</html>\n",
+         <title>{}: verification report</title>\n<link rel=\"icon\" href=\"data:,\"/>\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n{}<main>\n{}{}{studies}</main>\n{scripts}</body>\n</html>\n",
+        findings.verdict,
+        head(findings),
+        front(findings, rates),
+        overview(&groups),
     )
 }
 

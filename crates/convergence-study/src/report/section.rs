@@ -56,13 +56,6 @@ pub(super) fn folded(summary: &str, lines: &str, open: bool) -> String {
     format!("<details{open}>\n<summary>{summary}</summary>\n\n{lines}\n</details>\n")
 }
 
-/// A table without a title; folded under how many rows of what it has if they are many.
-pub(super) fn untitled(head: &[&str], rows: Vec<Vec<String>>, what: &str) -> String {
-    let count = rows.len();
-    let lines = table(head, rows);
-    if count <= MOST_ROWS { lines } else { folded(&format!("{count} {what}"), &lines, false) }
-}
-
 fn cells(row: &[String]) -> Vec<String> {
     row.iter().map(|raw| cell(raw)).collect()
 }

@@ -49,7 +49,7 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
 }
 
 /// Proves that a file of this name can be made. It makes one beside it: another process may be writing the file itself.
-pub(super) fn probe(path: &Path) -> io::Result<()> {
+fn probe(path: &Path) -> io::Result<()> {
     let beside = name_beside(path)?;
     fs::write(&beside, "").and_then(|()| fs::remove_file(&beside))
 }

@@ -4,7 +4,6 @@ pub mod atomic;
 pub mod baseline;
 mod content;
 pub mod file_set;
-pub mod journal;
 pub mod junit;
 pub mod provenance;
 pub mod record;

@@ -58,7 +58,7 @@ pub struct StudyTime {
 }
 
 /// Whether a count is left out.
-pub(super) fn is_none(count: &usize) -> bool {
+fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
@@ -106,7 +106,7 @@ impl Provenance {
 }
 
 /// Seconds since 1970 as a date with the time of day; `None` beyond the calendar.
-pub fn date(seconds: u64) -> Option<String> {
+fn date(seconds: u64) -> Option<String> {
     let date = DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0)?;
     Some(date.format("%Y-%m-%d %H:%M UTC").to_string())
 }

@@ -1,9 +1,9 @@
-//! What has changed since: `compare`, `review` and `history`.
+//! What has changed since: `compare`, and what is taken for the baseline.
 
 use std::fs;
 use std::process::Stdio;
 
-use crate::{ORDER, command, is_harmless, run, study, texts, workspace};
+use crate::{ORDER, command, run, study, texts, workspace};
 
 pub(crate) fn records_are_compared_with_0_1_or_2() {
     let root = workspace(true);
@@ -48,46 +48,35 @@ pub(crate) fn records_are_compared_with_0_1_or_2() {
     }
 }
 
-pub(crate) fn changes_are_accepted_one_some_or_all_with_a_reason() {
+pub(crate) fn one_some_or_all_changes_are_blessed_with_a_reason() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    let (status, out, _) = run(&root, &["review"]);
-    assert_eq!((status, out.as_str()), (Some(0), "nothing differs from the baseline\n"));
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.01)).unwrap();
     let file = root.path().join("studies/baseline.json");
     let before = fs::read_to_string(&file).unwrap();
-    // Without a terminal nothing is asked, and nothing is accepted that was not named.
-    let (status, out, err) = run(&root, &["review"]);
-    assert_eq!((status, err.as_str()), (Some(1), ""));
-    assert!(out.starts_with("one:claim exponent: was 1, is 1.01\n  claim: c: pass\n"), "{out}");
-    let rate = "one:rate error: moved from 1 to 1.01, by +1 %, tolerated 0.01 %\n  interval 1.0100 ± 0.00005, pairwise \
-                1.010 1.010 1.010 1.010\n  order 1 ± 0.05: the rate agrees with the order: ";
-    assert!(out.contains(rate), "{out}");
-    assert!(out.ends_with("0 accepted, 7 differ from the baseline; accept with --accept ID --reason TEXT\n"), "{out}");
+    let none = "--only: found `two:*`, which matches no change; expected one of 7, `one:claim exponent`, ";
     for (arguments, message) in [
-        (&["review", "--accept", "one:rate *"][..], "--reason"),
-        (
-            &["review", "--accept", "two:*", "--reason", "x"],
-            "--accept: found `two:*`, which matches no change; expected one of 7",
-        ),
-        (&["review", "--accept", "*", "--reason", "a\nb"], "expected one line of text"),
+        (&["verify", "--bless", "--only", "one:rate *"][..], "--reason"),
+        (&["verify", "--only", "one:rate *", "--reason", "x"], "--bless"),
+        (&["verify", "--bless", "--only", "one:*", "--only", "two:*", "--reason", "x"], none),
+        (&["verify", "--bless", "--only", "*", "--reason", "a\nb"], "expected one line of text"),
     ] {
         let (status, out, err) = run(&root, arguments);
         assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), before);
-    let (status, out, _) = run(&root, &["review", "--accept", "one:rate error", "--reason", "new mesh"]);
-    assert_eq!(status, Some(1));
-    assert!(out.starts_with("accepted: one:rate error: new mesh\n") && out.contains("\n1 accepted, 6 differ"), "{out}");
+    let bless = |only: &str, reason: &str| run(&root, &["verify", "--bless", "--only", only, "--reason", reason]);
     let baseline = |path: &[&str]| {
         let text = fs::read_to_string(&file).unwrap();
         let object: serde_json::Value = serde_json::from_str(&text).unwrap();
         path.iter().fold(object, |object, key| object[key].clone())
     };
+    // The others still differ.
+    let (status, out, _) = bless("one:rate error", "new mesh");
+    assert!(status == Some(1) && out.contains("baseline: blessed") && out.contains("exponent 1, now 1.01"), "{out}");
     assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
     assert_eq!(baseline(&["studies", "one", "error error, n = 8", "value"]), 0.125);
-    let (status, out, _) = run(&root, &["review", "one", "--accept", "one:*", "--reason", "and all the rest"]);
-    assert!(status == Some(0) && out.ends_with("\n6 accepted, nothing else differs from the baseline\n"), "{out}");
+    assert_eq!(bless("one:*", "and all the rest").0, Some(0));
     assert_eq!(baseline(&["claims", "one", "exponent", "reason"]), "and all the rest");
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     // A blessing of what has not moved keeps the reasons.
@@ -95,28 +84,18 @@ pub(crate) fn changes_are_accepted_one_some_or_all_with_a_reason() {
     assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
     // A study that fails has no number that a baseline takes.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
-    let (status, _, err) = run(&root, &["review", "--accept", "*", "--reason", "x"]);
-    assert!(
-        status == Some(2) && err.contains("one:claim exponent: not blessed: the verdict on `one` is fail"),
-        "{err}"
-    );
+    let (status, out, _) = bless("*", "x");
+    assert!(status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"), "{out}");
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
 }
 
-pub(crate) fn a_review_fails_where_a_study_does_and_nothing_differs() {
+pub(crate) fn a_run_fails_where_a_study_does_and_nothing_differs() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    for (arguments, end) in [
-        (&["review"][..], "\n\nnothing differs from the baseline\n"),
-        (&["review", "--quiet"], "\n\nfail: nothing differs from the baseline\n"),
-    ] {
-        let (status, out, _) = texts(command(root.path(), arguments).env(ORDER, "2").output().unwrap());
-        assert_eq!(status, Some(1), "{out}");
-        assert!(
-            out.starts_with("one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low\n") && out.ends_with(end),
-            "{out}"
-        );
-    }
+    let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2").output().unwrap());
+    assert_eq!(status, Some(1), "{out}");
+    let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low\n";
+    assert!(out.starts_with(failed) && !out.contains("baseline: "), "{out}");
 }
 
 /// Wherever their reports go, they write one baseline.
@@ -142,89 +121,6 @@ pub(crate) fn blessings_at_once_are_all_kept() {
     {
         std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();
         assert_eq!(run(&root, &["verify", "--bless", "--out", "link"]).0, Some(0));
-    }
-}
-
-pub(crate) fn runs_are_journaled_and_shown_as_page_and_badge() {
-    let root = workspace(true);
-    let read = |name: &str| fs::read_to_string(root.path().join(name)).unwrap();
-    for (exponent, status) in [(0.5, 1), (1.0, 0)] {
-        fs::write(root.path().join("studies/two.toml"), study("two", "c", exponent)).unwrap();
-        let arguments = ["study", "studies/one.toml", "studies/two.toml", "--journal", "runs.jsonl"];
-        assert_eq!(run(&root, &arguments).0, Some(status));
-    }
-    assert_eq!(run(&root, &["verify", "one", "--bless", "--quiet", "--journal", "runs.jsonl"]).0, Some(0));
-    let lines: Vec<serde_json::Value> =
-        read("runs.jsonl").lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert_eq!(lines.len(), 3);
-    assert_eq!((&lines[0]["verdict"], &lines[0]["studies"][1]["verdict"]), (&"fail".into(), &"fail".into()));
-    assert_eq!(lines[0]["studies"][1]["rates"][0]["fitted"].as_f64().map(|rate| (1e6 * rate).round()), Some(5e5));
-    assert_eq!(lines[1]["studies"][0]["errors"]["error"], 1.0 / 64.0);
-    assert_eq!(lines[2]["command"], "powers verify one");
-    let (status, out, err) = run(&root, &["history", "runs.jsonl", "--out", "out"]);
-    let written = "out/history.html, out/badge.svg: 3 runs, the last one pass\n";
-    assert_eq!((status, out.as_str(), err.as_str()), (Some(0), written, ""));
-    let page = read("out/history.html");
-    let (before, after) = page.split_once("<script>").unwrap();
-    let text = before.strip_prefix("<!DOCTYPE html>\n").unwrap().to_owned() + after.split_once("</script>").unwrap().1;
-    let document = roxmltree::Document::parse(&text).unwrap();
-    let is_address = |node: &roxmltree::Node<'_, '_>| {
-        node.attributes().any(|a| matches!(a.name(), "src" | "href") && !a.value().starts_with("data:"))
-    };
-    assert!(!document.descendants().any(|node| is_address(&node)), "nothing is loaded");
-    let studies: Vec<_> = document.descendants().filter(|node| node.attribute("class") == Some("study")).collect();
-    let pictures = |k: usize| studies[k].descendants().filter(|node| node.has_tag_name("figure")).count();
-    assert_eq!((studies.len(), pictures(0), pictures(1)), (2, 3, 3));
-    assert!(page.contains("pass since run 2, in 2 runs") && page.contains("order 1"), "{page}");
-    assert!(roxmltree::Document::parse(&read("out/badge.svg")).is_ok() && read("out/badge.svg").contains(">pass<"));
-    // A journal that cannot be made is refused before anything is read or run.
-    #[cfg(unix)]
-    {
-        std::os::unix::fs::symlink("none/runs.jsonl", root.path().join("link")).unwrap();
-        let (status, _, err) = run(&root, &["study", "none.toml", "--journal", "link"]);
-        assert!(status == Some(2) && err.starts_with("error: link: No such file"), "{err}");
-    }
-    // The badge is that of the last run, whatever came before.
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
-    assert_eq!(run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0, Some(1));
-    run(&root, &["history", "runs.jsonl", "--last", "1"]);
-    assert!(read("badge.svg").contains(">fail<") && !read("history.html").contains("id=\"two\""));
-}
-
-pub(crate) fn a_damaged_line_of_a_journal_is_named() {
-    let root = workspace(false);
-    let journal = root.path().join("runs.jsonl");
-    let append = || run(&root, &["study", "studies/one.toml", "--journal", "runs.jsonl"]).0;
-    assert_eq!(append(), Some(0));
-    let line = fs::read_to_string(&journal).unwrap();
-    for (damaged, found) in [
-        (format!("{line}{{\"schema\": 1,\n"), "runs.jsonl:2: EOF while parsing"),
-        (format!("{line}\n\u{7}\n"), "runs.jsonl:3: expected value at line 1 column 1"),
-        (
-            format!("{line}{}", line.replace("\"schema\":1", "\"schema\":9")),
-            "runs.jsonl:2: schema: found 9; expected 1",
-        ),
-        (line.replace("pass", "good"), "runs.jsonl:1: unknown variant `good`, expected one of `pass`"),
-        (String::new(), "runs.jsonl: found no run"),
-    ] {
-        fs::write(&journal, &damaged).unwrap();
-        let (status, out, err) = run(&root, &["history", "runs.jsonl"]);
-        assert!(status == Some(2) && out.is_empty() && err.starts_with(&format!("error: {found}")), "{err}");
-        assert!(!root.path().join("history.html").exists());
-        is_harmless(&err);
-    }
-    // A run that was killed while it wrote spoils its own line only.
-    fs::write(&journal, format!("{line}{}", &line[..40])).unwrap();
-    assert_eq!(append(), Some(0));
-    let text = fs::read_to_string(&journal).unwrap();
-    assert_eq!(text.lines().count(), 3);
-    let whole: Vec<&str> = text.lines().enumerate().filter(|(k, _)| *k != 1).map(|(_, line)| line).collect();
-    fs::write(&journal, whole.join("\n")).unwrap();
-    assert_eq!(run(&root, &["history", "runs.jsonl"]).0, Some(0));
-    // What cannot be appended to is found before anything is run.
-    for place in ["studies", "nowhere/runs.jsonl", "/dev/null"] {
-        let (status, out, _) = run(&root, &["study", "studies/one.toml", "--journal", place]);
-        assert!(status == Some(2) && out.is_empty(), "{place}: {out}");
     }
 }
 

@@ -88,8 +88,8 @@ pub(crate) fn a_deleted_study_is_one_change_and_is_named() {
     }
     let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
     assert!(page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"), "{page}");
-    let (status, out, _) = run(&root, &["review", "--accept", "three:study file", "--reason", "as one"]);
-    assert!(status == Some(0) && out.contains("1 accepted, nothing else differs"), "{out}");
+    let (status, out, _) = run(&root, &["verify", "--bless", "--only", "three:study file", "--reason", "as one"]);
+    assert!(status == Some(0) && out.contains("baseline: blessed"), "{out}");
     let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
     assert!(baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(), "{baseline}");

@@ -157,6 +157,7 @@ pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
         effort: jobs(2).into(),
         bless: false,
         reason: None,
+        only: vec![],
         root: root.to_owned(),
         reports: root.join("reports"),
     }

@@ -2,7 +2,7 @@
 //!
 //! Every reader of files gets every file. No panic, no hang, and a refusal is one message that begins with the file's
 //! name and says where. `THERMOBEAM_FUZZ` sets the number of inputs, `THERMOBEAM_FUZZ_SEED` where they begin; what fails
-//! is written beside the corpus, to be kept there. `cargo xtask dev fuzz` makes a report of what is printed.
+//! is written beside the corpus, to be kept there.
 
 mod corpus;
 mod damage;

@@ -28,6 +28,11 @@ impl Change {
         if self.movement.is_of_one_claim() { format!("claim {}", self.name) } else { self.name.clone() }
     }
 
+    /// The name of the change: study, colon, number or `claim PATH`.
+    pub fn id(&self) -> String {
+        format!("{}:{}", self.study, self.subject())
+    }
+
     /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; of anything else, as it is displayed.
     pub fn words(&self) -> String {
         let Self { study, name, movement } = self;
@@ -104,11 +109,6 @@ impl Movement {
     /// Whether it is about one value of a study file.
     pub fn is_of_one_claim(&self) -> bool {
         matches!(self, Self::Claim { .. })
-    }
-
-    /// Whether it is about what study files claim, not about a guarded number.
-    pub fn is_of_claims(&self) -> bool {
-        matches!(self, Self::Claim { .. } | Self::NewFile { .. } | Self::VanishedFile { .. })
     }
 
     /// Whether a blessing has to say why: a claim was changed, withdrawn with its study, or is missing beside guarded numbers.

@@ -17,7 +17,7 @@ use serde::Serialize;
 use thermobeam_study::predict::accuracy::Unreachable;
 use thermobeam_study::predict::estimate::estimate;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
-use thermobeam_study::scene::any_order::SceneFile;
+use thermobeam_study::scene::{Method, Scene};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
@@ -80,10 +80,10 @@ struct Printed<'a> {
 
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let read = match SceneFile::read(&arguments.scene)? {
-        SceneFile::AnyOrder(scene) => return any_order::simulate(arguments, &scene),
-        SceneFile::OneStep(scene) => scene,
-    };
+    let read = Scene::read(&arguments.scene)?;
+    if let Method::Dg(_) = read.method {
+        return any_order::simulate(arguments, &read);
+    }
     let (scene, planned) = match arguments.target_error {
         None => (read, None),
         Some(target) => match accuracy::choose(read, arguments.quantity, target) {
@@ -103,8 +103,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
         None => Recording::Summary,
     };
-    let bar = progress::bar(&scene.name, scene.steps, arguments.flags.quiet);
-    let (told, steps) = (bar.clone(), scene.steps);
+    let bar = progress::bar(&scene.name, scene.steps(), arguments.flags.quiet);
+    let (told, steps) = (bar.clone(), scene.steps());
     interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
     let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
     let (run, _) = time_limit::within(arguments.time_limit, simulate);
@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let complaint = complaint(run.energy.complaint(run.steps, run.failure.as_ref()), budget.as_ref().err());
     let object = Object::new(&scene, &run).with_budget(known);
     let object = Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) };
-    let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps, run.last.t);
+    let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps(), run.last.t);
     arguments.show(complaint, &object, &sentence, || {
         let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
         summary::summary(&scene, &run, planned.as_ref(), &written) + &budget

@@ -42,8 +42,7 @@ mod values;
 
 use std::path::Path;
 
-use crate::scene::any_order::SceneFile;
-use crate::scene::limits;
+use crate::scene::{Scene, limits};
 use convergence_study::input::{self, InputError};
 
 pub use case::SweepCase;
@@ -110,8 +109,8 @@ impl Sweep {
     ///
     /// # Errors
     /// [`InputError`] where the case's numbers are incompatible, such as a dt that does not divide t_end.
-    pub fn scene(&self, case: &SweepCase<'_>) -> Result<SceneFile, InputError> {
-        SceneFile::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
+    pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
+        Scene::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
     }
 
     /// A hash of the sweep file and the base scene.

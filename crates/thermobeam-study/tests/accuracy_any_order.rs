@@ -5,12 +5,12 @@ use thermobeam::mesh::Mesh;
 use thermobeam_study::predict::any_order::{Budget, Choice, Source, Unreachable, choose, estimate};
 use thermobeam_study::run::any_order::{AnyOrderRun, run};
 use thermobeam_study::run::tally::Sample;
-use thermobeam_study::scene::any_order::{AnyOrderScene, SceneFile};
+use thermobeam_study::scene::{Method, Scene};
 
 /// Times of comparison: most of them lie inside steps.
 const TIMES: usize = 3000;
 
-fn scene(beam: &str, time: &str) -> AnyOrderScene {
+fn scene(beam: &str, time: &str) -> Scene {
     let text = format!(
         "[beam]\n{beam}\n[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
          [time]\nscheme = \"dg\"\n{time}\n"
@@ -19,10 +19,10 @@ fn scene(beam: &str, time: &str) -> AnyOrderScene {
 }
 
 /// Ten digits and more, from a discretisation that the search never tries.
-fn reference(scene: &AnyOrderScene) -> AnyOrderRun {
+fn reference(scene: &Scene) -> AnyOrderRun {
     let mesh = Mesh::from_nodes(vec![0.0, 0.7, 0.9, 0.97, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 5, dt: 0.003, restart_dt: 1e-4, growth: 1.12, ..Stepping::default() };
-    let fine = AnyOrderScene { mesh, degree: 20, stepping, ..scene.clone() };
+    let fine = Scene { mesh, degree: 20, method: Method::Dg(stepping), ..scene.clone() };
     run(&fine, TIMES, &mut |_| ()).expect("a run")
 }
 
@@ -35,22 +35,19 @@ fn largest_difference(one: &AnyOrderRun, other: &AnyOrderRun) -> f64 {
     })
 }
 
-fn chosen(scene: &AnyOrderScene, target: f64) -> Choice {
+fn chosen(scene: &Scene, target: f64) -> Choice {
     choose(scene, target).unwrap_or_else(|error| panic!("{target:e}: {error}"))
 }
 
-fn parsed(text: &str) -> AnyOrderScene {
-    match SceneFile::parse(text, "s.toml").unwrap_or_else(|error| panic!("{error}")) {
-        SceneFile::AnyOrder(scene) => scene,
-        SceneFile::OneStep(_) => panic!("a one-step scene"),
-    }
+fn parsed(text: &str) -> Scene {
+    Scene::parse(text, "s.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Of the first steps and of contact, on elements that resolve their layers.
-fn layered_reference(scene: &AnyOrderScene) -> AnyOrderRun {
+fn layered_reference(scene: &Scene) -> AnyOrderRun {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.95, 0.99, 0.998, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 4, dt: 0.0035, restart_dt: 1e-6, growth: 1.18, ..Stepping::default() };
-    let fine = AnyOrderScene { mesh, degree: 16, stepping, ..scene.clone() };
+    let fine = Scene { mesh, degree: 16, method: Method::Dg(stepping), ..scene.clone() };
     run(&fine, TIMES, &mut |_| ()).expect("a run")
 }
 
@@ -64,10 +61,9 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
         ));
         let choice = chosen(&scene, target);
         for t_end in [2e-4, 4e-3] {
-            let begun = |scene: &AnyOrderScene| AnyOrderScene { t_end, ..scene.clone() };
+            let begun = |scene: &Scene| Scene { t_end, ..scene.clone() };
             // The run's own steps: it goes on, and its history ends.
-            let own =
-                run(&AnyOrderScene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES, &mut |_| ()).expect("a run");
+            let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES, &mut |_| ()).expect("a run");
             let exact = layered_reference(&begun(&scene));
             let every = (5e3 * t_end).round() as usize;
             let made =
@@ -189,7 +185,7 @@ fn the_scenes_own_degrees_and_steps_do_not_matter_and_the_choice_repeats() {
 fn a_smaller_error_takes_finer_discretisations() {
     let scene = scene("", "t_end = 0.5");
     let [coarse, fine] = [1e-3, 1e-9].map(|target| chosen(&scene, target));
-    assert!(fine.scene.degree > coarse.scene.degree && fine.scene.stepping.dt < coarse.scene.stepping.dt);
+    assert!(fine.scene.degree > coarse.scene.degree && fine.scene.dt() < coarse.scene.dt());
     assert!(fine.run.unknown_solves > 2.0 * coarse.run.unknown_solves);
 }
 
@@ -213,7 +209,7 @@ fn the_budget_is_the_error_and_names_what_dominates() {
     for (degree, time, expected) in
         [(20, fine_space, Source::Time), (5, "t_end = 0.6\ndegree = 4\ndt = 0.004\ngrowth = 1.1", Source::Space)]
     {
-        let scene = AnyOrderScene { degree, ..scene("", time) };
+        let scene = Scene { degree, ..scene("", time) };
         let budget = estimate(&scene).expect("a budget");
         assert_eq!(budget.dominant, Some(expected), "{budget}");
         let exact = reference(&scene);

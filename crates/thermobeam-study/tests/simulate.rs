@@ -3,13 +3,13 @@
 use std::time::Duration;
 
 use convergence_study::run::time_limit::within;
+use thermobeam::dg::Stepping;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
 use thermobeam_study::run::any_order::{self, AnyOrderFailure};
 use thermobeam_study::run::driver::RunError;
 use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures};
-use thermobeam_study::scene::Scene;
-use thermobeam_study::scene::any_order::SceneFile;
+use thermobeam_study::scene::{Method, Scene};
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {
@@ -71,7 +71,7 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
     let scene = Scene::parse(text, "long.toml").unwrap();
     let run = run(&scene, Recording::History);
     let history = run.history.unwrap();
-    assert_eq!((scene.steps, history.steps_per_row), (500_001, 3));
+    assert_eq!((scene.steps(), history.steps_per_row), (500_001, 3));
     assert_eq!(history.rows.len(), 1 + 500_001 / 3);
     assert!(history.rows.len() <= MOST_ROWS + 1);
     assert_eq!(history.rows.last().unwrap().sample, run.last);
@@ -109,12 +109,12 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
     assert_eq!(Some(told), up);
     assert_eq!((told.step, told.t, told.limit), (stopped.steps, stopped.last.t, limit));
-    assert!(0 < stopped.steps && stopped.steps < scene.steps);
+    assert!(0 < stopped.steps && stopped.steps < scene.steps());
     let json = serde_json::to_value(Object::new(&scene, &stopped)).unwrap();
     assert_eq!(json["failure"]["kind"], "time-limit");
     assert_eq!(json["failure"]["limit_seconds"], 1e-3);
     let (whole, up) = within(Some(Duration::from_secs(600)), || run(&scene, Recording::Summary));
-    assert_eq!((whole.steps, whole.failure, up), (scene.steps, None, None));
+    assert_eq!((whole.steps, whole.failure, up), (scene.steps(), None, None));
 }
 
 #[test]
@@ -170,11 +170,10 @@ fn every_bit_of_the_history_can_be_read_back() {
 fn a_run_of_any_order_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[mesh]\ndegree = 6\n[time]\nscheme = \"dg\"\nt_end = 2.0\n\
                 restart_dt = 0.1\ndt = 0.1\n";
-    let SceneFile::AnyOrder(mut scene) = SceneFile::parse(text, "loose.toml").unwrap() else {
-        panic!("a one-step scheme")
-    };
+    let scene = Scene::parse(text, "loose.toml").unwrap();
     // Steps that are not solved.
-    scene.stepping.tolerance = 100.0;
+    let method = Method::Dg(Stepping { tolerance: 100.0, ..scene.dg_stepping() });
+    let scene = Scene { method, ..scene };
     let run = any_order::run(&scene, 0, &mut |_| ()).unwrap();
     let Some(AnyOrderFailure::Unsound { step, t, dt, .. }) = run.failure else { panic!("{:?}", run.failure) };
     assert_eq!((step, t + dt), (run.steps, run.ends[1].t));

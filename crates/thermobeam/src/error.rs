@@ -129,6 +129,14 @@ pub enum SetupError {
         /// The value.
         found: f64,
     },
+    /// A method that cannot do what is asked for.
+    #[error("scheme: expected {allowed}, found {found}")]
+    Method {
+        /// Its name.
+        found: &'static str,
+        /// The methods allowed, in words.
+        allowed: &'static str,
+    },
     /// A tolerance or an iteration limit out of range.
     #[error("{name}: expected {allowed}, found {found}")]
     Setting {

@@ -2,11 +2,12 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
+use thermobeam::simulation::Stepping;
 use thermobeam_study::error::evaluator;
 use thermobeam_study::predict::accuracy::{self, Choice, Request, Trust, Unreachable};
 use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::Run;
-use thermobeam_study::scene::Scene;
+use thermobeam_study::scene::{Method, Scene};
 
 /// What the error is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -43,7 +44,8 @@ pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(S
     let choice = accuracy::choose(&family, &Request::new(quantity, target))?;
     let mesh = family.mesh(choice.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
     let dt = scene.t_end / choice.steps as f64;
-    let scene = Scene { mesh, dt, steps: choice.steps, scheme: choice.scheme, settings: choice.settings, ..scene };
+    let stepping = Stepping { scheme: choice.scheme, settings: choice.settings, dt, loaded: false };
+    let scene = Scene { mesh, method: Method::OneStep(stepping), ..scene };
     Ok((scene, Planned { quantity, target, choice }))
 }
 

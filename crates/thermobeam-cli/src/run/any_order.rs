@@ -9,7 +9,7 @@ use convergence_study::store::atomic;
 use convergence_study::text::number::counted;
 use thermobeam_study::predict::any_order::{Budget, estimate};
 use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIMES, phase_name, run};
-use thermobeam_study::scene::any_order::AnyOrderScene;
+use thermobeam_study::scene::Scene;
 
 use super::any_order_accuracy::{self as accuracy, NotChosen, PlannedAnyOrder};
 use super::{Arguments, complaint, summary, write_files};
@@ -29,7 +29,7 @@ struct Printed<'a> {
 }
 
 /// Runs the scene, writes what was asked for and prints the result.
-pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome {
+pub(super) fn simulate(arguments: &Arguments, scene: &Scene) -> Outcome {
     let planned = match arguments.target_error {
         None => None,
         Some(target) => match accuracy::choose_any_order(scene, arguments.quantity, target) {
@@ -77,8 +77,8 @@ pub(super) fn simulate(arguments: &Arguments, scene: &AnyOrderScene) -> Outcome 
     })
 }
 
-fn text(scene: &AnyOrderScene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {
-    let stepping = scene.stepping;
+fn text(scene: &Scene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {
+    let stepping = scene.dg_stepping();
     let mut text = format!(
         "{}: {} of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
         scene.name,

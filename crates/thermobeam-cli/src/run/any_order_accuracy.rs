@@ -3,7 +3,7 @@
 use serde::Serialize;
 use thermobeam_study::predict::any_order::{Choice, Unreachable, choose};
 use thermobeam_study::run::any_order::AnyOrderRun;
-use thermobeam_study::scene::any_order::AnyOrderScene;
+use thermobeam_study::scene::Scene;
 
 use super::accuracy::{Expected, Quantity};
 
@@ -22,11 +22,7 @@ pub(super) struct PlannedAnyOrder {
 }
 
 /// The scene with the degrees, elements and steps that make the error asked for.
-pub(super) fn choose_any_order(
-    scene: &AnyOrderScene,
-    quantity: Quantity,
-    target: f64,
-) -> Result<PlannedAnyOrder, NotChosen> {
+pub(super) fn choose_any_order(scene: &Scene, quantity: Quantity, target: f64) -> Result<PlannedAnyOrder, NotChosen> {
     if quantity != Quantity::Tip {
         let reason = "--quantity: found theorem-3.4; expected tip where time.scheme is \"dg\"";
         return Err(NotChosen::Refused(reason.to_owned()));
@@ -52,7 +48,7 @@ pub(super) struct Object {
 }
 
 impl PlannedAnyOrder {
-    pub(super) fn scene(&self) -> &AnyOrderScene {
+    pub(super) fn scene(&self) -> &Scene {
         &self.choice.scene
     }
 
@@ -92,7 +88,7 @@ impl PlannedAnyOrder {
             ),
             ("space", format!("{space:.3e}"), format!("largest difference to {finer_space}")),
             ("time", format!("{time:.3e}"), "largest difference to steps half as long, growth included".to_owned()),
-            ("growth", format!("{:.4}", scene.stepping.growth), "of the steps after a contact event".to_owned()),
+            ("growth", format!("{:.4}", scene.dg_stepping().growth), "of the steps after a contact event".to_owned()),
             ("elements", scene.mesh.elements().to_string(), format!("between x = {}", nodes.join(", "))),
             (
                 "time spent",

@@ -56,20 +56,19 @@ pub(super) fn section(text: &mut String, title: &str, lines: Vec<Line>) {
 }
 
 fn headline(scene: &Scene, run: &Run) -> String {
-    let settings = scene.settings;
     let mut text = format!(
         "{}: {}, {} of dt = {:?} to t = {:?}\n{}, {}, tolerance {:?}\n",
         scene.name,
         counted(scene.mesh.elements(), "element"),
-        counted(scene.steps, "step"),
-        scene.dt,
+        counted(scene.steps(), "step"),
+        scene.dt(),
         scene.t_end,
-        scene.scheme.name,
-        settings.solver.name(),
-        settings.tolerance,
+        scene.method.name(),
+        scene.method.solver(),
+        scene.method.tolerance(),
     );
     if let Some(failure) = &run.failure {
-        let _ = writeln!(text, "\nFAILED after {} of {} steps: {failure}", run.steps, scene.steps);
+        let _ = writeln!(text, "\nFAILED after {} of {} steps: {failure}", run.steps, scene.steps());
     }
     text
 }

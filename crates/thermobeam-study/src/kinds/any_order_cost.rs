@@ -131,7 +131,7 @@ impl AnyOrderCost {
     fn tip(&self, way: (usize, usize, f64)) -> Result<(Vec<f64>, f64), CaseFailure> {
         let scene = by(&self.scene, way, self.scene.t_end)?;
         let run = finished(&scene, OBSERVED)?;
-        let stages = (scene.stepping.degree + 1) as f64;
+        let stages = (scene.dg_stepping().degree + 1) as f64;
         let blocks = (scene.mesh.elements() * (1 + 2 * (scene.degree / 2)) + 1) as f64;
         let solves = run.work.solves as f64 + 3.0 * stages * run.work.factorizations as f64;
         Ok((run.tip(), blocks * stages * stages * solves))

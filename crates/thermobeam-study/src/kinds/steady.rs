@@ -25,7 +25,7 @@ pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scen
 
 /// Reads the scene of a file name; as in [`listed_scenes`].
 pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
-    let scene = Scene::read(field.file(folder)?)?;
+    let scene = Scene::read_one_step(field, folder)?;
     if scene.obstacles.is_none() {
         return Err(field.refuse(format!("{}, without obstacles", scene.name), "a scene with obstacles"));
     }
@@ -34,8 +34,7 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
 
 /// The scene on a uniform mesh and with another time step.
 pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<Scene, MeshError> {
-    let steps = (scene.t_end / dt).round().max(1.0) as usize;
-    Ok(Scene { mesh: Mesh::uniform(elements)?, dt, steps, ..scene.clone() })
+    Ok(scene.at(Mesh::uniform(elements)?, dt))
 }
 
 /// A beam at rest.

@@ -15,10 +15,10 @@
 //!
 //! ```
 //! use thermobeam_study::predict::any_order::choose;
-//! use thermobeam_study::scene::any_order::SceneFile;
+//! use thermobeam_study::scene::Scene;
 //!
 //! let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 1.0";
-//! let SceneFile::AnyOrder(scene) = SceneFile::parse(text, "swing.toml")? else { panic!("a one-step scheme") };
+//! let scene = Scene::parse(text, "swing.toml")?;
 //! let choice = choose(&scene, 1e-7)?;
 //! assert!(choice.expected_error() <= 1e-7);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -33,7 +33,7 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
 use thiserror::Error;
 
-use crate::scene::any_order::AnyOrderScene;
+use crate::scene::{Method, Scene};
 pub use budget::{Budget, Estimate, Kind, Source, estimate};
 use sampled::{Apart, Sampled, Wanted, sample};
 
@@ -115,7 +115,7 @@ impl AddAssign for Cost {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// The scene with the mesh, the degrees and the steps chosen.
-    pub scene: AnyOrderScene,
+    pub scene: Scene,
     /// Largest difference of u(1, t) to a finer space.
     pub space: f64,
     /// Largest difference of u(1, t) to finer steps.
@@ -182,7 +182,7 @@ fn reachable(reached: f64, space: f64, time: f64) -> String {
 ///
 /// # Errors
 /// [`Unreachable`]: why there is no such run, and the error that was reached.
-pub fn choose(scene: &AnyOrderScene, target: f64) -> Result<Choice, Unreachable> {
+pub fn choose(scene: &Scene, target: f64) -> Result<Choice, Unreachable> {
     if !(target > 0.0 && target.is_finite()) {
         return Err(Unreachable::Target { target });
     }
@@ -193,8 +193,8 @@ pub fn choose(scene: &AnyOrderScene, target: f64) -> Result<Choice, Unreachable>
 
 /// Two finer runs and how far they are from a run.
 struct Compared {
-    finer: (AnyOrderScene, Sampled),
-    shorter: (AnyOrderScene, Sampled),
+    finer: (Scene, Sampled),
+    shorter: (Scene, Sampled),
     space: Apart,
     time: Apart,
 }
@@ -216,14 +216,14 @@ impl Search {
     /// Refines for the first two steps alone, which cost little: the start often needs the shortest steps of all.
     ///
     /// Returns the discretisation given where that finds none.
-    fn begin(&mut self, first: &AnyOrderScene) -> AnyOrderScene {
+    fn begin(&mut self, first: &Scene) -> Scene {
         let mut scene = first.clone();
         for _ in 0..ROUNDS {
-            let Stepping { dt, restart_dt, .. } = scene.stepping;
+            let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
             let t_end = 2.0 * restart_dt;
             // Shorter steps only: room is made for each length, and these are all that occur.
-            let stepping = Stepping { dt: t_end.min(dt), ..scene.stepping };
-            let short = AnyOrderScene { t_end: t_end.min(scene.t_end), stepping, ..scene.clone() };
+            let method = Method::Dg(Stepping { dt: t_end.min(dt), ..scene.dg_stepping() });
+            let short = Scene { t_end: t_end.min(scene.t_end), method, ..scene.clone() };
             let Ok(Compared { space, time, .. }) =
                 self.sample(&short, &[]).and_then(|base| self.compare(&short, &base))
             else {
@@ -242,7 +242,7 @@ impl Search {
     }
 
     /// Refines a discretisation until both differences are small enough.
-    fn refine(mut self, mut scene: AnyOrderScene) -> Result<Choice, Unreachable> {
+    fn refine(mut self, mut scene: Scene) -> Result<Choice, Unreachable> {
         let share = SHARE * self.target;
         let mut base = self.sample(&scene, &[])?;
         for _ in 0..ROUNDS {
@@ -261,7 +261,7 @@ impl Search {
     }
 
     /// The two comparisons of a scene, `base` being its run.
-    fn compare(&mut self, scene: &AnyOrderScene, base: &Sampled) -> Result<Compared, Unreachable> {
+    fn compare(&mut self, scene: &Scene, base: &Sampled) -> Result<Compared, Unreachable> {
         let finer = finer_space(scene).ok_or_else(|| self.not_reached(FINEST))?;
         let shorter = finer_steps(scene);
         let times = base.own_times();
@@ -272,7 +272,7 @@ impl Search {
     }
 
     /// Runs a scene, to be compared with the run whose times are `at`.
-    fn sample(&mut self, scene: &AnyOrderScene, at: &[f64]) -> Result<Sampled, Unreachable> {
+    fn sample(&mut self, scene: &Scene, at: &[f64]) -> Result<Sampled, Unreachable> {
         // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
         if !(4.0 * self.last.unknown_solves <= MOST_UNKNOWN_SOLVES) {
             return Err(self.not_reached("a finer run would take more than some ten minutes"));
@@ -306,7 +306,7 @@ impl Search {
 }
 
 /// Duration of an impact; without obstacles the longest step stands in for it.
-fn impact(scene: &AnyOrderScene) -> f64 {
+fn impact(scene: &Scene) -> f64 {
     scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
@@ -315,7 +315,7 @@ const LONGEST: f64 = 0.02;
 
 /// The discretisation tried first, from what scenes of the paper needed: two degrees in space for every decimal digit, half
 /// a degree in time, and steps that shrink by two for every four digits.
-fn first(scene: &AnyOrderScene, target: f64) -> AnyOrderScene {
+fn first(scene: &Scene, target: f64) -> Scene {
     let digits = (-target.log10()).clamp(1.0, 11.0);
     let shrink = 10.0_f64.powf(-(digits - 5.0).max(0.0) / 11.0);
     let dt = (LONGEST * shrink).min(0.125 * scene.t_end);
@@ -334,7 +334,7 @@ fn first(scene: &AnyOrderScene, target: f64) -> AnyOrderScene {
     let degree = (4.0 + 1.2 * digits).round() as usize | 1;
     // Nodes that increase from 0 to 1.
     let mesh = Mesh::from_nodes(nodes).unwrap_or_else(|_| scene.mesh.clone());
-    AnyOrderScene { mesh, degree, stepping, ..scene.clone() }
+    Scene { mesh, degree, method: Method::Dg(stepping), ..scene.clone() }
 }
 
 /// Elements towards x = 1 that grow by [`GRADING`] away from it, the last one of the width given.
@@ -346,30 +346,30 @@ fn graded(layer: f64) -> Vec<f64> {
 }
 
 /// Refined where a difference exceeds `share`; `None` where the elements are as fine as they get.
-fn refined(scene: &AnyOrderScene, space: &Apart, time: &Apart, share: f64) -> Option<AnyOrderScene> {
-    let mut next = scene.clone();
+fn refined(scene: &Scene, space: &Apart, time: &Apart, share: f64) -> Option<Scene> {
+    let (mut next, mut stepping) = (scene.clone(), scene.dg_stepping());
     if !(space.most() <= share) {
         next = more_space(&next, space, space.most() / share)?;
     }
     if !(time.late <= share) {
-        next.stepping = more_time(next.stepping, time.late / share);
+        stepping = more_time(stepping, time.late / share);
     }
     if !(time.early <= share) {
-        let restart_dt = scene.stepping.restart_dt / shortening(time.early / share);
-        next.stepping.restart_dt = next.stepping.restart_dt.min(restart_dt);
+        let restart_dt = scene.dg_stepping().restart_dt / shortening(time.early / share);
+        stepping.restart_dt = stepping.restart_dt.min(restart_dt);
     }
-    Some(next)
+    Some(Scene { method: Method::Dg(stepping), ..next })
 }
 
 /// p + 4, or the longest elements halved.
-fn finer_space(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
+fn finer_space(scene: &Scene) -> Option<Scene> {
     if scene.degree + FINER_DEGREES <= MAX_DEGREE {
-        return Some(AnyOrderScene { degree: scene.degree + FINER_DEGREES, ..scene.clone() });
+        return Some(Scene { degree: scene.degree + FINER_DEGREES, ..scene.clone() });
     }
     halved(scene)
 }
 
-fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
+fn halved(scene: &Scene) -> Option<Scene> {
     let mesh = &scene.mesh;
     let mut nodes = vec![];
     for x in mesh.nodes().windows(2) {
@@ -380,19 +380,19 @@ fn halved(scene: &AnyOrderScene) -> Option<AnyOrderScene> {
     }
     nodes.push(1.0);
     let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
-    Some(AnyOrderScene { mesh, ..scene.clone() })
+    Some(Scene { mesh, ..scene.clone() })
 }
 
 /// One more node.
-fn split(scene: &AnyOrderScene, x: f64) -> Option<AnyOrderScene> {
+fn split(scene: &Scene, x: f64) -> Option<Scene> {
     let mut nodes = scene.mesh.nodes().to_vec();
     nodes.insert(nodes.len() - 1, x);
     let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
-    Some(AnyOrderScene { mesh, ..scene.clone() })
+    Some(Scene { mesh, ..scene.clone() })
 }
 
 /// Space refined for an error smaller by `factor`, the difference being `apart`.
-fn more_space(scene: &AnyOrderScene, apart: &Apart, factor: f64) -> Option<AnyOrderScene> {
+fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
     let layer = (scene.beam.zeta * apart.since).sqrt();
     let last = scene.mesh.lengths().last().unwrap_or(1.0);
     if layer < RESOLVED * last / (scene.degree * scene.degree) as f64 {
@@ -402,7 +402,7 @@ fn more_space(scene: &AnyOrderScene, apart: &Apart, factor: f64) -> Option<AnyOr
     let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };
     let degree = scene.degree + degrees + degrees % 2;
     if degree <= HIGHEST_DEGREE {
-        return Some(AnyOrderScene { degree, ..scene.clone() });
+        return Some(Scene { degree, ..scene.clone() });
     }
     halved(scene)
 }
@@ -414,10 +414,10 @@ fn half_steps(stepping: Stepping) -> Stepping {
 }
 
 /// Half the steps; the first ones are shorter still, since the error there falls more slowly.
-fn finer_steps(scene: &AnyOrderScene) -> AnyOrderScene {
-    let half = half_steps(scene.stepping);
+fn finer_steps(scene: &Scene) -> Scene {
+    let half = half_steps(scene.dg_stepping());
     let stepping = Stepping { restart_dt: 0.5 * half.restart_dt, ..half };
-    AnyOrderScene { stepping, ..scene.clone() }
+    Scene { method: Method::Dg(stepping), ..scene.clone() }
 }
 
 /// What `restart_dt` is divided by, for an error in the first steps smaller by `factor`.
@@ -434,6 +434,6 @@ fn more_time(stepping: Stepping, factor: f64) -> Stepping {
     (0..halvings).fold(Stepping { degree, ..stepping }, |stepping, _| half_steps(stepping))
 }
 
-fn words(scene: &AnyOrderScene) -> String {
+fn words(scene: &Scene) -> String {
     format!("{} elements of degree {}", scene.mesh.elements(), scene.degree)
 }

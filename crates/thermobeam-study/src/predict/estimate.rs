@@ -142,9 +142,14 @@ const SPACE_ORDER: f64 = 2.0;
 pub fn estimate(scene: &Scene) -> Result<Budget, EstimateError> {
     let runs = Runs::new(scene)?;
     let estimates = OBSERVABLES.iter().map(|&observable| of(observable, scene, &runs)).collect();
-    let resolution = [scene.mesh.elements(), scene.steps];
-    let time_order = scene.scheme.order;
+    let resolution = [scene.mesh.elements(), scene.steps()];
+    let time_order = order(scene);
     Ok(Budget { scene: scene.name.clone(), resolution, measured: runs.resolution, time_order, estimates })
+}
+
+/// Order of the scheme in dt.
+fn order(scene: &Scene) -> f64 {
+    scene.one_step().map_or(f64::NAN, |stepping| stepping.scheme.order)
 }
 
 fn of((name, read): Observable, scene: &Scene, runs: &Runs) -> Estimate {
@@ -157,9 +162,9 @@ fn of((name, read): Observable, scene: &Scene, runs: &Runs) -> Estimate {
         (error * (from as f64 / to as f64).powf(order), rate)
     };
     let (space, space_rate) = richardson(&runs.space, SPACE_ORDER, runs.resolution[0], scene.mesh.elements());
-    let (time, time_rate) = richardson(&runs.time, scene.scheme.order, runs.resolution[1], scene.steps);
+    let (time, time_rate) = richardson(&runs.time, order(scene), runs.resolution[1], scene.steps());
     let value = if own.len() == 1 { own[0] } else { distance(&own, &vec![0.0; own.len()]) };
-    let summed = (scene.steps as f64).sqrt() * f64::EPSILON * value.abs();
+    let summed = (scene.steps() as f64).sqrt() * f64::EPSILON * value.abs();
     let moved = distance(&read(&runs.moved), &tight);
     // A NaN must stay a NaN.
     let round_off = if moved < summed { summed } else { moved };

@@ -13,7 +13,7 @@ use thiserror::Error;
 use super::simulate::Counts;
 use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally, Unsound};
 use crate::figures::SceneMotion;
-use crate::scene::any_order::{AnyOrderScene, SCHEME};
+use crate::scene::Scene;
 
 /// Times of a history: more than a figure has columns.
 pub const HISTORY_TIMES: usize = 4000;
@@ -92,7 +92,7 @@ pub struct AnyOrderRun {
 ///
 /// # Errors
 /// [`SetupError`] where the solver refuses the scene's numbers. A step that fails is part of the result.
-pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
+pub fn run(scene: &Scene, times: usize, progress: &mut dyn FnMut(f64)) -> Result<AnyOrderRun, SetupError> {
     watched(scene, &[], &mut |_, _| (), times, true, progress)
 }
 
@@ -102,7 +102,7 @@ pub fn run(scene: &AnyOrderScene, times: usize, progress: &mut dyn FnMut(f64)) -
 /// # Errors
 /// As [`run`].
 pub fn run_at(
-    scene: &AnyOrderScene,
+    scene: &Scene,
     at: &[f64],
     observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
@@ -112,16 +112,17 @@ pub fn run_at(
 }
 
 fn watched(
-    scene: &AnyOrderScene,
+    scene: &Scene,
     at: &[f64],
     observe: &mut dyn FnMut(&Simulation, Sample),
     times: usize,
     framed: bool,
     progress: &mut dyn FnMut(f64),
 ) -> Result<AnyOrderRun, SetupError> {
-    let mut simulation = Simulation::new(scene.problem(), scene.stepping)?;
+    let stepping = scene.dg_stepping();
+    let mut simulation = Simulation::new(scene.dg_problem(), stepping)?;
     let mut observed = Observed::new(&simulation, scene, times, framed && times > 0);
-    let mut patience = Patience::new(simulation.space().blocks() * (scene.stepping.degree + 1));
+    let mut patience = Patience::new(simulation.space().blocks() * (stepping.degree + 1));
     let (mut wall, mut failure) = (Duration::ZERO, None);
     loop {
         if let Err(up) = patience.check(simulation.work().steps, || simulation.t()) {
@@ -158,7 +159,7 @@ fn watched(
 
 /// What is seen of the steps.
 struct Observed<'s> {
-    scene: &'s AnyOrderScene,
+    scene: &'s Scene,
     level: Level,
     first: Sample,
     /// The energy now: that at the start and its changes.
@@ -172,7 +173,7 @@ struct Observed<'s> {
 }
 
 impl<'s> Observed<'s> {
-    fn new(simulation: &Simulation, scene: &'s AnyOrderScene, times: usize, framed: bool) -> Self {
+    fn new(simulation: &Simulation, scene: &'s Scene, times: usize, framed: bool) -> Self {
         let level = simulation.level().clone();
         let first = state(simulation, scene, &level);
         let points = (0..FRAME_POINTS).map(|i| i as f64 / (FRAME_POINTS - 1) as f64).collect();
@@ -265,7 +266,7 @@ fn grid(t_end: f64, count: usize, from: f64, to: f64) -> impl Iterator<Item = f6
     (first.max(1)..=count).map(time).skip_while(move |&t| t <= from).take_while(move |&t| t <= to)
 }
 
-fn state(simulation: &Simulation, scene: &AnyOrderScene, level: &Level) -> Sample {
+fn state(simulation: &Simulation, scene: &Scene, level: &Level) -> Sample {
     let space = simulation.space();
     let at = |field, x| level.value_and_slope(space, field, x).0;
     let u_tip = at(Field::U, 1.0);
@@ -305,7 +306,7 @@ impl AnyOrderRun {
     }
 
     /// Names of files and their SVG documents; none where no history was asked for.
-    pub fn pictures(&self, scene: &AnyOrderScene) -> Vec<(&'static str, String)> {
+    pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         if self.frames.times.is_empty() {
             return vec![];
         }
@@ -392,29 +393,30 @@ pub fn phase_name(phase: Phase) -> &'static str {
 
 impl<'r> AnyOrderObject<'r> {
     /// Everything there is to say about a run.
-    pub fn new(scene: &'r AnyOrderScene, run: &AnyOrderRun) -> Self {
+    pub fn new(scene: &'r Scene, run: &AnyOrderRun) -> Self {
         Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
     }
 
     /// The same without the time on the clock: the same run gives the same bytes.
-    pub fn reproducible(scene: &'r AnyOrderScene, run: &AnyOrderRun) -> Self {
+    pub fn reproducible(scene: &'r Scene, run: &AnyOrderRun) -> Self {
+        let stepping = scene.dg_stepping();
         let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
         Self {
             scene: &scene.name,
             elements: scene.mesh.elements(),
             steps: run.steps,
-            dt: scene.stepping.dt,
+            dt: stepping.dt,
             t_end: scene.t_end,
             iterations: run.iterations,
             wall_seconds: None,
             last: run.ends[1],
             extremes: run.extremes,
             energy: run.energy,
-            scheme: SCHEME,
+            scheme: scene.method.name(),
             degree: scene.degree,
-            time_degree: scene.stepping.degree,
-            restart_dt: scene.stepping.restart_dt,
-            growth: scene.stepping.growth,
+            time_degree: stepping.degree,
+            restart_dt: stepping.restart_dt,
+            growth: stepping.growth,
             work: Counts { passes: run.work.solves, factorizations: run.work.factorizations },
             events: run.events.iter().map(event).collect(),
             failure: run.failure.as_ref().map(|failure| {
@@ -432,17 +434,13 @@ impl<'r> AnyOrderObject<'r> {
 mod tests {
     use super::*;
     use crate::expression::{Expression, Variable};
-    use crate::scene::any_order::SceneFile;
 
-    fn scene(time: &str) -> AnyOrderScene {
+    fn scene(time: &str) -> Scene {
         let text = format!(
             "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
              [mesh]\ndegree = 12\n[time]\nscheme = \"dg\"\n{time}\n"
         );
-        match SceneFile::parse(&text, "s.toml").expect("a scene") {
-            SceneFile::AnyOrder(scene) => scene,
-            SceneFile::OneStep(_) => panic!("a one-step scene"),
-        }
+        Scene::parse(&text, "s.toml").expect("a scene")
     }
 
     #[test]

@@ -8,8 +8,7 @@ use thermobeam::mesh::Mesh;
 
 use super::any_order::{AnyOrderRun, run_at};
 use crate::error::curve::distance;
-use crate::scene::Scene;
-use crate::scene::any_order::AnyOrderScene;
+use crate::scene::{Method, Scene};
 
 /// Runs of which the fastest counts: other load on the machine only makes a run slower.
 const REPEATS: usize = 5;
@@ -88,25 +87,14 @@ pub fn times(scene: &Scene, t_end: f64) -> Result<Table, CaseFailure> {
     Ok(Table { title, head: head.map(str::to_owned).to_vec(), rows })
 }
 
-pub(crate) fn by(
-    scene: &Scene,
-    (degree, q, dt): (usize, usize, f64),
-    t_end: f64,
-) -> Result<AnyOrderScene, CaseFailure> {
+pub(crate) fn by(scene: &Scene, (degree, q, dt): (usize, usize, f64), t_end: f64) -> Result<Scene, CaseFailure> {
     let growth = 1.0 + GROWTH * dt / COARSE;
-    Ok(AnyOrderScene {
-        name: scene.name.clone(),
-        beam: scene.beam,
-        obstacles: scene.obstacles,
-        initial: scene.initial.clone(),
-        mesh: Mesh::from_nodes(GRADED.to_vec())?,
-        degree,
-        stepping: Stepping { degree: q, dt, restart_dt: RESTART * dt, growth, ..Stepping::default() },
-        t_end,
-    })
+    let stepping = Stepping { degree: q, dt, restart_dt: RESTART * dt, growth, ..Stepping::default() };
+    let mesh = Mesh::from_nodes(GRADED.to_vec())?;
+    Ok(Scene { mesh, degree, method: Method::Dg(stepping), t_end, ..scene.clone() })
 }
 
-pub(crate) fn finished(scene: &AnyOrderScene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
+pub(crate) fn finished(scene: &Scene, times: usize) -> Result<AnyOrderRun, CaseFailure> {
     let run = run_at(scene, &[], &mut |_, _| (), times, &mut |_| ())?;
     match run.failure {
         Some(failure) => Err(failure.into()),

@@ -21,7 +21,7 @@ pub(crate) struct Trace<S> {
 
 /// The scene on another mesh, with so many steps to a final time.
 pub(crate) fn at(scene: &Scene, mesh: Mesh, steps: usize, t_end: f64) -> Scene {
-    Scene { mesh, steps, t_end, dt: t_end / steps as f64, ..scene.clone() }
+    Scene { t_end, ..scene.at(mesh, t_end / steps as f64) }
 }
 
 /// Runs a scene to its end.
@@ -38,8 +38,8 @@ pub(crate) fn traced<S>(
     let mut driver = simulate::driver(scene)?;
     let last = scene.mesh.elements();
     let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
-    let stride = scene.steps / samples;
-    driver.run(scene.steps, |step| {
+    let stride = scene.steps() / samples;
+    driver.run(scene.steps(), |step| {
         let tip = step.new.u[last];
         trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
         if step.simulation.step() % stride == 0 {

@@ -31,7 +31,7 @@ use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Obstacles;
-use thermobeam::simulation::{self, Problem, Simulation, Stepping};
+use thermobeam::simulation::{self, Problem, Simulation};
 use thermobeam::solve::{Level, StepReport, Work};
 
 use super::tally::Tally;
@@ -125,8 +125,7 @@ pub fn problem(scene: &Scene) -> Problem {
 /// # Errors
 /// [`SetupError`] where the solver cannot work with the scene's numbers.
 pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
-    let stepping = Stepping { scheme: scene.scheme, settings: scene.settings, dt: scene.dt, loaded: false };
-    Driver::new(problem(scene), stepping)
+    Driver::new(problem(scene), scene.one_step()?)
 }
 
 /// A scene's initial data on any mesh, boundary values set as in [`problem`].
@@ -165,7 +164,7 @@ impl Simulator {
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let driver = driver(scene)?.timed();
         let sampler = Sampler::new(&scene.mesh);
-        Ok(Self { driver, sampler, steps: scene.steps })
+        Ok(Self { driver, sampler, steps: scene.steps() })
     }
 
     /// Steps to the end; `progress` hears the number of steps done after each of them.

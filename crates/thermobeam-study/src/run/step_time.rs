@@ -58,7 +58,7 @@ impl Setting<'_> {
     /// The best of several runs of one case.
     fn alone(&self) -> Result<StepTime, SetupError> {
         let (scene, settings) = (self.scene, self.settings);
-        let stepping = Stepping { scheme: scene.scheme, settings, dt: scene.dt, loaded: false };
+        let stepping = Stepping { settings, ..scene.one_step()? };
         best_of_several(|| {
             let mut driver = Driver::new(self.problem.clone(), stepping)?;
             let start = Instant::now();
@@ -88,8 +88,8 @@ impl Setting<'_> {
     fn in_lanes(&self) -> Result<StepTime, SetupError> {
         let (steps, cases) = (self.steps(), 4);
         best_of_several(|| {
-            let (problems, dt) = (vec![self.problem.clone(); cases], vec![self.scene.dt; cases]);
-            let mut driver = EnsembleDriver::new(problems, &dt, self.scene.scheme, self.settings)?;
+            let (problems, dt) = (vec![self.problem.clone(); cases], vec![self.scene.dt(); cases]);
+            let mut driver = EnsembleDriver::new(problems, &dt, self.scene.one_step()?.scheme, self.settings)?;
             let start = Instant::now();
             let _ = match self.observed {
                 Observed::Nothing => (0..steps).try_for_each(|_| driver.advance()),
@@ -123,9 +123,10 @@ fn best_of_several(run: impl Fn() -> Result<StepTime, SetupError>) -> Result<Ste
     Ok(best)
 }
 
-fn setting(scene: &Scene, mesh: Mesh) -> Setting<'_> {
+fn setting(scene: &Scene, mesh: Mesh) -> Result<Setting<'_>, SetupError> {
     let scene_on_mesh = Scene { mesh, ..scene.clone() };
-    Setting { problem: simulate::problem(&scene_on_mesh), scene, settings: scene.settings, observed: Observed::Nothing }
+    let settings = scene.one_step()?.settings;
+    Ok(Setting { problem: simulate::problem(&scene_on_mesh), scene, settings, observed: Observed::Nothing })
 }
 
 fn row(name: &str, time: &StepTime, against: f64) -> Vec<String> {
@@ -149,14 +150,15 @@ fn table(title: &str, first: &str, rows: Vec<Vec<String>>) -> Table {
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up on that mesh.
 pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
-    let base = || -> Result<Setting<'_>, SetupError> { Ok(setting(scene, Mesh::uniform(elements)?)) };
+    let base = || -> Result<Setting<'_>, SetupError> { setting(scene, Mesh::uniform(elements)?) };
     let with = |settings: Settings| -> Result<StepTime, SetupError> { Setting { settings, ..base()? }.alone() };
-    let newton = with(scene.settings)?;
-    let graded = setting(scene, Mesh::mapped(elements, |s| s + 0.1 * (std::f64::consts::TAU * s).sin())?).alone()?;
+    let settings = scene.one_step()?.settings;
+    let newton = with(settings)?;
+    let graded = setting(scene, Mesh::mapped(elements, |s| s + 0.1 * (std::f64::consts::TAU * s).sin())?)?.alone()?;
     let balanced = || -> Result<Setting<'_>, SetupError> { Ok(Setting { observed: Observed::Balance, ..base()? }) };
     let rows = [
-        ("the paper's fixed point", with(Settings { solver: Solver::FixedPoint, ..scene.settings })?),
-        ("Newton from the level before", with(Settings { start: Start::Previous, ..scene.settings })?),
+        ("the paper's fixed point", with(Settings { solver: Solver::FixedPoint, ..settings })?),
+        ("Newton from the level before", with(Settings { start: Start::Previous, ..settings })?),
         ("Newton, extrapolated start", newton),
         ("the same on a graded mesh", graded),
         ("four cases in lanes, per case", base()?.in_lanes()?),
@@ -172,9 +174,9 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up.
 pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
-    let full = setting(scene, Mesh::uniform(elements)?);
+    let full = setting(scene, Mesh::uniform(elements)?)?;
     let change = |apply: &dyn Fn(&mut Problem)| -> Result<StepTime, SetupError> {
-        let mut changed = setting(scene, Mesh::uniform(elements)?);
+        let mut changed = setting(scene, Mesh::uniform(elements)?)?;
         apply(&mut changed.problem);
         changed.alone()
     };
@@ -187,7 +189,7 @@ pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
         ("everything", whole),
         (
             "everything, observed with its energy at each step",
-            Setting { observed: Observed::Energy, ..setting(scene, Mesh::uniform(elements)?) }.alone()?,
+            Setting { observed: Observed::Energy, ..setting(scene, Mesh::uniform(elements)?)? }.alone()?,
         ),
         ("no obstacles: no contact", change(&|problem| problem.obstacles = None)?),
         ("rho = 0: no iteration", change(&|problem| problem.beam.rho = 0.0)?),
@@ -215,7 +217,7 @@ pub const SCALING: &str = "The ratio is to the first mesh of 1000 elements or mo
 /// [`SetupError`] where the scene cannot be set up.
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
     let times = |&n: &usize| {
-        let setting = setting(scene, Mesh::uniform(n)?);
+        let setting = setting(scene, Mesh::uniform(n)?)?;
         Ok((n, setting.alone()?, setting.in_lanes()?))
     };
     let times = elements.iter().map(times).collect::<Result<Vec<_>, SetupError>>()?;

@@ -1,4 +1,4 @@
-//! Scene files: one beam, its initial state, mesh and time steps.
+//! Scene files: one beam, its initial state, mesh and time steps, by whatever method.
 //!
 //! ```toml
 //! [beam]                      # all have defaults: (5.1), beta = 0, theta_a = 0
@@ -18,27 +18,43 @@
 //! dt = 1e-4
 //! t_end = 10.0
 //! ```
+//!
+//! With `scheme = "dg"` the elements have degree p in space, dG(q) steps in time, and steps end where contact begins or ends:
+//!
+//! ```toml
+//! [mesh]
+//! elements = 1
+//! degree = 12           # p
+//!
+//! [time]
+//! scheme = "dg"
+//! degree = 2            # q
+//! dt = 0.02             # the largest step; it need not divide t_end
+//! restart_dt = 1e-3     # the first step, at the start and after each contact event
+//! growth = 1.5          # of the steps in between
+//! t_end = 10.0
+//! ```
 
-pub mod any_order;
 pub(crate) mod functions;
 pub(crate) mod limits;
+mod method;
 pub(crate) mod tables;
 
 use crate::scene::functions::FunctionField;
 use std::path::Path;
 
+use thermobeam::dg;
+use thermobeam::error::SetupError;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::Scheme;
-use thermobeam::solve::Settings;
+use thermobeam::simulation::Stepping;
+
+pub use method::{DG, Method};
 
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
-use convergence_study::input::{self, Field, InputError, POSITIVE, Section};
-
-/// Elements of a scene that does not say: the paper's number.
-const DEFAULT_ELEMENTS: usize = 100;
+use convergence_study::input::{self, Field, InputError, Section};
 
 /// The tables of a scene.
 pub(crate) const TABLES: [&str; 5] = ["beam", "obstacles", "initial", "mesh", "time"];
@@ -58,7 +74,7 @@ pub struct Initial {
     pub theta: Option<Expression>,
 }
 
-/// Everything that a simulation needs, validated.
+/// Everything that a run needs, validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The file's name without folder and extension.
@@ -71,28 +87,35 @@ pub struct Scene {
     pub initial: Initial,
     /// The mesh.
     pub mesh: Mesh,
-    /// Time step.
-    pub dt: f64,
-    /// Final time, `steps * dt` up to round-off.
+    /// Degree p of the elements: 1 for one-step schemes.
+    pub degree: usize,
+    /// How it is stepped.
+    pub method: Method,
+    /// Final time; for a one-step scheme a multiple of dt up to round-off.
     pub t_end: f64,
-    /// Number of time steps.
-    pub steps: usize,
-    /// Time scheme.
-    pub scheme: Scheme,
-    /// How each step is solved.
-    pub settings: Settings,
 }
 
 impl Scene {
     /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         Self::parse(&input::read_text(path)?, &path.display().to_string())
     }
 
-    /// Reads a scene from `text`; complaints and the scene's name refer to `file_name`.
+    /// Reads a scene from `text`; messages and the scene's name refer to `file_name`.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
         input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
+    }
+
+    /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
+    pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
+        input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
@@ -104,44 +127,89 @@ impl Scene {
     pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         let beam = tables::beam(root)?;
         let obstacles = tables::obstacles(root)?;
-        let time = root.require("time", "a table with dt and t_end")?.section()?;
-        time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
-        let (dt, t_end, steps) = time_steps(&time)?;
-        let (scheme, settings) = (tables::scheme(&time)?, tables::settings(&time)?);
-        let mesh = mesh(root, DEFAULT_ELEMENTS)?;
-        linear_elements(root)?;
+        let is_dg = method::is_dg(root)?;
+        let expected = if is_dg { "a table with scheme and t_end" } else { "a table with dt and t_end" };
+        let time = root.require("time", expected)?.section()?;
+        let (method, t_end) =
+            if is_dg { method::dg(&time, &beam, obstacles.as_ref())? } else { method::one_step(&time)? };
+        let mesh = mesh(root, method.default_elements())?;
+        let degree = method.degree(root, &mesh)?;
         let initial = initial(root, &beam, &mesh)?;
-        Ok(Self { name, beam, obstacles, initial, mesh, dt, t_end, steps, scheme, settings })
+        Ok(Self { name, beam, obstacles, initial, mesh, degree, method, t_end })
+    }
+
+    /// The scene of a file that a field names, by a one-step scheme.
+    pub(crate) fn read_one_step(field: &Field<'_>, folder: &Path) -> Result<Self, InputError> {
+        let scene = Self::read(field.file(folder)?)?;
+        match scene.one_step() {
+            Ok(_) => Ok(scene),
+            Err(error) => Err(field.refuse(format!("{}: {error}", field.as_written()), "a scene by a one-step scheme")),
+        }
+    }
+
+    /// Its time step; of dG the largest.
+    pub fn dt(&self) -> f64 {
+        self.method.dt()
+    }
+
+    /// Steps of length dt to the end: all steps of a one-step scheme, the fewest of dG.
+    pub fn steps(&self) -> usize {
+        let quotient = self.t_end / self.dt();
+        let steps = match self.method {
+            Method::OneStep(_) => quotient.round(),
+            Method::Dg(_) => quotient.ceil(),
+        };
+        steps.max(1.0) as usize
+    }
+
+    /// The scene with the same method on another mesh and with another step.
+    pub(crate) fn at(&self, mesh: Mesh, dt: f64) -> Self {
+        Self { mesh, method: self.method.with_dt(dt), ..self.clone() }
+    }
+
+    /// The one-step scheme, its solver and its step.
+    ///
+    /// # Errors
+    /// [`SetupError::Method`] of a scene by dG.
+    pub fn one_step(&self) -> Result<Stepping, SetupError> {
+        match self.method {
+            Method::OneStep(stepping) => Ok(stepping),
+            Method::Dg(_) => Err(SetupError::Method { found: DG, allowed: "a one-step scheme" }),
+        }
+    }
+
+    /// The steps of dG; of a scene by a one-step scheme those of a scene that leaves all keys out.
+    pub fn dg_stepping(&self) -> dg::Stepping {
+        match self.method {
+            Method::Dg(stepping) => stepping,
+            Method::OneStep(_) => method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end),
+        }
+    }
+
+    /// dG's view of the scene.
+    pub fn dg_problem(&self) -> dg::Problem {
+        let function = |function: &Option<Expression>| -> dg::Function {
+            match function.clone() {
+                Some(function) => Box::new(move |x| function.eval(x)),
+                None => Box::new(|_| 0.0),
+            }
+        };
+        let Initial { u, u_t, phi, phi_t, theta } = &self.initial;
+        let initial = dg::Initial {
+            u: function(u),
+            u_t: function(u_t),
+            phi: function(phi),
+            phi_t: function(phi_t),
+            theta: function(theta),
+        };
+        let Self { beam, obstacles, degree, .. } = *self;
+        dg::Problem { beam, obstacles, mesh: self.mesh.clone(), degree, initial }
     }
 }
 
 /// A file's name without folder and extension.
 pub(crate) fn stem(file_name: &str) -> String {
     Path::new(file_name).file_stem().map_or(file_name.into(), |stem| stem.to_string_lossy()).into_owned()
-}
-
-/// dt, t_end and the number of steps.
-fn time_steps(time: &Section<'_>) -> Result<(f64, f64, usize), InputError> {
-    // Each of dt, t_end and their quotient is rounded once.
-    const SLACK: f64 = 4.0 * f64::EPSILON;
-    let t_end = time.positive("t_end")?;
-    let field = time.require("dt", POSITIVE)?;
-    let dt = field.positive()?;
-    let quotient = t_end / dt;
-    if quotient > limits::STEPS as f64 {
-        let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");
-        return Err(field.refuse(found, format!("at most {:e} steps", limits::STEPS as f64)));
-    }
-    let steps = quotient.round();
-    if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {
-        return Ok((dt, t_end, steps as usize));
-    }
-    let candidates = [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
-    let distance = |candidate: f64| (candidate - dt).abs();
-    let [low, high] = candidates;
-    let (steps, nearest) = if distance(low.1) <= distance(high.1) { low } else { high };
-    let found = format!("{dt:?}, which is {quotient} steps for t_end = {t_end:?}");
-    Err(field.refuse(found, format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)")))
 }
 
 /// The table `[mesh]`.
@@ -166,13 +234,6 @@ fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError>
     let map = field.expression(Variable::S)?;
     field.finite(&map, 1.0, 0)?;
     tables::checked_mesh(Mesh::mapped(elements, |s| map.eval(s)), &field)
-}
-
-/// Refuses elements of a higher degree: one-step schemes work on linear ones.
-fn linear_elements(root: &Section<'_>) -> Result<(), InputError> {
-    let degree = root.section("mesh")?.and_then(|section| section.get("degree"));
-    let Some(field) = degree.filter(|field| field.count(1..=1).is_err()) else { return Ok(()) };
-    Err(field.refuse(field.as_written(), "1, or time.scheme = \"dg\" for elements of higher degree"))
 }
 
 fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {

@@ -6,9 +6,7 @@ use super::design::Design;
 use super::key::{KEYS, TABLES};
 use super::values::{self, VariedKey};
 use super::{Base, Key, MOST_CASES, Sweep, SweepCase};
-use crate::scene::any_order::SceneFile;
-use crate::scene::limits;
-use crate::scene::stem;
+use crate::scene::{Scene, limits, stem};
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
 use convergence_study::store::content_hash;
 
@@ -49,7 +47,7 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     section.allow(&["scene"])?;
     let scene = section.require("scene", "a scene file beside this one")?.file(folder)?;
     let base = Base { file: scene.display().to_string(), text: input::read_text(&scene)? };
-    let plain = SceneFile::parse(&base.text, &base.file)?;
+    let plain = Scene::parse(&base.text, &base.file)?;
     let set = set(root)?;
     let varied = varied(root)?;
     check_placeholders(&set, &varied)?;
@@ -167,11 +165,8 @@ fn common_steps(base: &Base, template: &Template, varied: &[VariedKey<'_>]) -> O
 }
 
 /// dt and t_end where the one must divide the other.
-fn steps(scene: &SceneFile) -> Option<(f64, f64)> {
-    match scene {
-        SceneFile::OneStep(scene) => Some((scene.dt, scene.t_end)),
-        SceneFile::AnyOrder(_) => None,
-    }
+fn steps(scene: &Scene) -> Option<(f64, f64)> {
+    scene.one_step().ok().map(|stepping| (stepping.dt, scene.t_end))
 }
 
 fn is_step(key: Key) -> bool {
@@ -184,13 +179,13 @@ fn attempt(
     template: &Template,
     varied: &[&VariedKey<'_>],
     probed: Option<(usize, f64)>,
-) -> Result<SceneFile, InputError> {
+) -> Result<Scene, InputError> {
     let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
     let mut values: Vec<f64> = varied.iter().map(|varied| varied.probes[0].0).collect();
     if let Some((index, value)) = probed {
         values[index] = value;
     }
-    SceneFile::parse_overlaid(&base.text, &template.overlay(&SweepCase::new(0, &keys, values)), &base.file)
+    Scene::parse_overlaid(&base.text, &template.overlay(&SweepCase::new(0, &keys, values)), &base.file)
 }
 
 /// Builds a scene with every number that the file lists, the other keys at their first value.

@@ -12,8 +12,7 @@ use serde::Serialize;
 use super::{Sweep, SweepCase, lines};
 use crate::run::any_order::{self, AnyOrderObject};
 use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
-use crate::scene::Scene;
-use crate::scene::any_order::{AnyOrderScene, SceneFile};
+use crate::scene::{Method, Scene};
 use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.
@@ -82,7 +81,7 @@ fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
 }
 
 /// The scene of a case, or the line of its failure.
-fn scene(sweep: &Sweep, index: usize) -> Result<SceneFile, Line> {
+fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
     sweep.scene(&case).map_err(|error| {
         // The line number would refer to a generated text.
@@ -91,10 +90,10 @@ fn scene(sweep: &Sweep, index: usize) -> Result<SceneFile, Line> {
     })
 }
 
-fn simulate(sweep: &Sweep, index: usize, scene: &SceneFile) -> Line {
-    match scene {
-        SceneFile::OneStep(scene) => one_step(sweep, index, scene),
-        SceneFile::AnyOrder(scene) => any_order(sweep, index, scene),
+fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
+    match scene.method {
+        Method::OneStep(_) => one_step(sweep, index, scene),
+        Method::Dg(_) => any_order(sweep, index, scene),
     }
 }
 
@@ -105,7 +104,7 @@ fn one_step(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     }
 }
 
-fn any_order(sweep: &Sweep, index: usize, scene: &AnyOrderScene) -> Line {
+fn any_order(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     match any_order::run(scene, 0, &mut |_| ()) {
         Ok(run) => ended(sweep, index, run.complaint(), Found::AnyOrder(AnyOrderObject::reproducible(scene, &run))),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
@@ -131,7 +130,7 @@ struct Group {
     indices: Vec<usize>,
     scenes: Vec<Scene>,
     /// A scene of any order, or the line of a case without a scene.
-    alone: Option<Result<AnyOrderScene, Line>>,
+    alone: Option<Result<Scene, Line>>,
 }
 
 /// Groups cases; a scene of any order forms a group of its own, and so does a case without a scene.
@@ -139,10 +138,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for &index in indices {
         let read = caught(|| scene(sweep, index)).unwrap_or_else(|| Err(Line::panicked(sweep, index)));
-        let together = match &read {
-            Ok(SceneFile::OneStep(scene)) => Together::of(scene),
-            _ => None,
-        };
+        let together = read.as_ref().ok().and_then(Together::of);
         let fits = |group: &&mut Group| group.indices.len() < LANES && group.together == together;
         let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
             Some(group) => group,
@@ -153,8 +149,8 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
         };
         group.indices.push(index);
         match read {
-            Ok(SceneFile::OneStep(scene)) => group.scenes.push(scene),
-            Ok(SceneFile::AnyOrder(scene)) => group.alone = Some(Ok(scene)),
+            Ok(scene) if scene.one_step().is_ok() => group.scenes.push(scene),
+            Ok(scene) => group.alone = Some(Ok(scene)),
             Err(line) => group.alone = Some(Err(line)),
         }
     }

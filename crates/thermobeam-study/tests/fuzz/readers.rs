@@ -10,7 +10,7 @@ use tempfile::TempDir;
 use thermobeam::dg;
 use thermobeam_study::kinds;
 use thermobeam_study::run::simulate::Simulator;
-use thermobeam_study::scene::any_order::SceneFile;
+use thermobeam_study::scene::{Method, Scene};
 use thermobeam_study::sweep::{Journal, Line, Manifest, Share, Sweep};
 
 /// A kind of file.
@@ -156,10 +156,11 @@ impl Bench {
         match reading {
             Reading::Scene => {
                 let refused = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
-                match SceneFile::read(&path).map_err(|error| said(&error))? {
-                    SceneFile::OneStep(scene) => drop(Simulator::new(&scene).map_err(|error| refused(&error))?),
-                    SceneFile::AnyOrder(scene) => {
-                        drop(dg::Simulation::new(scene.problem(), scene.stepping).map_err(|error| refused(&error))?);
+                let scene = Scene::read(&path).map_err(|error| said(&error))?;
+                match scene.method {
+                    Method::OneStep(_) => drop(Simulator::new(&scene).map_err(|error| refused(&error))?),
+                    Method::Dg(stepping) => {
+                        drop(dg::Simulation::new(scene.dg_problem(), stepping).map_err(|error| refused(&error))?);
                     }
                 }
             }

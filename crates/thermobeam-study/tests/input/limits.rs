@@ -111,5 +111,5 @@ fn a_function_ten_thousand_brackets_deep_is_refused_at_its_place() {
 fn what_machines_do_have_goes_on_working() {
     let text = "[mesh]\nelements = 1000000\n[time]\ndt = 1e-9\nt_end = 10\n";
     let scene = Scene::parse(text, "s.toml").expect("a scene");
-    assert_eq!((scene.mesh.elements(), scene.steps), (1_000_000, 10_000_000_000));
+    assert_eq!((scene.mesh.elements(), scene.steps()), (1_000_000, 10_000_000_000));
 }

@@ -3,6 +3,7 @@ use std::path::Path;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
+use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 use thermobeam_study::scene::{Initial, Scene};
 
@@ -13,6 +14,10 @@ const TIME: &str = "[time]\ndt = 0.1\nt_end = 1\n";
 #[track_caller]
 fn scene(text: &str) -> Scene {
     Scene::parse(text, "dir/beam.toml").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn one_step(scene: &Scene) -> Stepping {
+    scene.one_step().expect("a one-step scheme")
 }
 
 #[track_caller]
@@ -30,8 +35,8 @@ fn what_is_left_out_is_the_papers_choice() {
     assert_eq!(scene.obstacles, None);
     assert_eq!(scene.initial, Initial::default());
     assert_eq!(scene.mesh, Mesh::uniform(100).expect("a mesh"));
-    assert_eq!((scene.dt, scene.t_end, scene.steps), (0.1, 1.0, 10));
-    assert_eq!((scene.scheme, scene.settings), (EULER_CRANK_NICOLSON, Settings::default()));
+    assert_eq!((scene.dt(), scene.t_end, scene.steps()), (0.1, 1.0, 10));
+    assert_eq!((one_step(&scene).scheme, one_step(&scene).settings), (EULER_CRANK_NICOLSON, Settings::default()));
     let with_table = Scene::parse(&format!("[obstacles]\n{TIME}"), "f").expect("a scene");
     assert_eq!(with_table.obstacles, Some(Obstacles::default()));
 }
@@ -66,9 +71,9 @@ fn every_key_arrives() {
     let sources = [u, u_t, phi, phi_t, theta].map(|f| f.as_ref().map(|f| f.source()));
     assert_eq!(sources, ["x", "2*x", "3*x", "4*x", "20*(1-x)"].map(Some));
     assert_eq!(scene.mesh.nodes(), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
-    assert_eq!((scene.steps, scene.scheme), (8, MIDPOINT));
+    assert_eq!((scene.steps(), one_step(&scene).scheme), (8, MIDPOINT));
     assert_eq!(
-        scene.settings,
+        one_step(&scene).settings,
         Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 7, ..Settings::default() }
     );
 }
@@ -89,8 +94,8 @@ fn the_papers_experiments_are_scenes() {
         assert_eq!(scene.name, name);
         assert_eq!(scene.beam, Beam { beta, theta_a, ..Beam::default() }, "{name}");
         assert_eq!(scene.obstacles, Some(Obstacles::default()), "{name}");
-        assert_eq!((scene.mesh.elements(), scene.steps, scene.dt), (100, 100_000, 1e-4), "{name}");
-        assert_eq!(scene.settings, Settings::default(), "{name}");
+        assert_eq!((scene.mesh.elements(), scene.steps(), scene.dt()), (100, 100_000, 1e-4), "{name}");
+        assert_eq!(one_step(&scene).settings, Settings::default(), "{name}");
         let at = |f: &Option<thermobeam_study::expression::Expression>| f.as_ref().map(|f| f.eval(0.5));
         assert_eq!([at(&scene.initial.u), at(&scene.initial.u_t)], [Some(-0.0075), Some(2.5)], "{name}");
         assert_eq!([at(&scene.initial.phi), at(&scene.initial.phi_t)], [None, None], "{name}");
@@ -174,7 +179,7 @@ fn the_dt_that_a_refusal_names_is_accepted() {
         let message = refusal(&text(dt));
         let nearest = message.split("nearest being ").nth(1).and_then(|rest| rest.split(' ').next());
         let nearest: f64 = nearest.and_then(|dt| dt.parse().ok()).unwrap_or_else(|| panic!("{message}"));
-        let steps = scene(&text(nearest)).steps as f64;
+        let steps = scene(&text(nearest)).steps() as f64;
         assert!((steps * nearest - t_end).abs() <= 1e-15 * t_end);
         // Neither neighbour is nearer to what was written.
         for neighbour in [steps - 1.0, steps + 1.0].into_iter().filter(|steps| *steps > 0.0) {
@@ -188,7 +193,7 @@ fn decimal_steps_divide_decimal_times_in_spite_of_rounding() {
     for (dt, t_end, steps) in
         [("1e-4", "10", 100_000), ("0.1", "0.3", 3), ("0.007", "0.7", 100), ("1e-9", "10.0", 10_000_000_000)]
     {
-        assert_eq!(scene(&format!("[time]\ndt = {dt}\nt_end = {t_end}")).steps, steps);
+        assert_eq!(scene(&format!("[time]\ndt = {dt}\nt_end = {t_end}")).steps(), steps);
     }
 }
 

@@ -5,7 +5,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Outcome, Quantity, run_here};
 use thermobeam_study::kinds::energy::End;
 use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes};
-use thermobeam_study::scene::any_order::SceneFile;
+use thermobeam_study::scene::Scene;
 
 use crate::planted::verdict_with;
 use crate::refused::refusal;
@@ -41,7 +41,7 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
 
 /// The keys that the readers of scenes know, table by table: they name them to a user who writes another.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
-    let allowed = |text: &str| match SceneFile::parse(text, "s.toml").map_err(|error| *error.complaint) {
+    let allowed = |text: &str| match Scene::parse(text, "s.toml").map_err(|error| *error.complaint) {
         Err(Complaint::UnknownKey { allowed, .. }) => allowed.split(", ").map(str::to_owned).collect::<Vec<_>>(),
         other => panic!("{other:?}"),
     };

@@ -127,17 +127,18 @@ fn case(section: &Section<'_>) -> Result<Run, InputError> {
     section.allow(&[&["name", "claim", "ends", "drift"], &scene::TABLES[..]].concat())?;
     let name = section.require("name", "a text")?.text()?.to_owned();
     let scene = Scene::from_tables(section, name.clone())?;
-    let newton = scene.settings.solver == Solver::Newton;
+    let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
+    let newton = stepping.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
-    let settings = if newton { Settings { tolerance: SOLVED, ..scene.settings } } else { scene.settings };
+    let settings = if newton { Settings { tolerance: SOLVED, ..stepping.settings } } else { stepping.settings };
     Ok(Run {
         name,
         claim: section.require("claim", "a text")?.text()?.to_owned(),
         end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
         drift: section.get("drift").map(|field| field.positive()).transpose()?,
         bound: Bound::Rounding,
-        stepping: Stepping { scheme: scene.scheme, settings, dt: scene.dt, loaded: false },
-        steps: scene.steps,
+        stepping: Stepping { settings, ..stepping },
+        steps: scene.steps(),
         is_drawn: false,
         origin: Origin::Scene(Box::new(scene)),
     })

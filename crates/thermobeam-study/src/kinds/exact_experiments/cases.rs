@@ -21,8 +21,8 @@ pub(super) fn cases(study: &ExactExperiments) -> Vec<Case<Run>> {
             cases.push(Case { label, cost, data: Run { scene, method: Method::AnyOrder(k) } });
         }
         if study.compare {
-            let label = format!("{}, {}", of.name, of.scheme.name);
-            let cost = of.mesh.elements() as f64 * of.steps as f64;
+            let label = format!("{}, {}", of.name, of.method.name());
+            let cost = of.mesh.elements() as f64 * of.steps() as f64;
             cases.push(Case { label, cost, data: Run { scene, method: Method::Own } });
         }
     }
@@ -54,7 +54,7 @@ fn any_order_run(study: &ExactExperiments, scene: &Scene, how: Discretisation) -
 /// The scene by its own scheme, its levels nearest to the times.
 fn own_run(study: &ExactExperiments, scene: &Scene) -> Result<Shown, CaseFailure> {
     let t_end = study.times.last().copied().unwrap_or(scene.t_end);
-    let step_of = |t: f64| (t / scene.dt).round() as usize;
+    let step_of = |t: f64| (t / scene.dt()).round() as usize;
     let steps = step_of(t_end);
     let mut driver = simulate::driver(scene)?;
     let tip_step: Vec<usize> = (1..=TIP_TIMES).map(|k| step_of(t_end * k as f64 / TIP_TIMES as f64)).collect();

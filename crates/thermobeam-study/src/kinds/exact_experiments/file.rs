@@ -51,19 +51,19 @@ fn scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError
     if items.is_empty() {
         return Err(field.refuse_as_written(allowed));
     }
-    items.iter().map(|item| Scene::read(item.file(folder)?)).collect()
+    items.iter().map(|item| Scene::read_one_step(item, folder)).collect()
 }
 
 /// Refuses scenes of which the times of comparison are no time levels: a difference in time would pass for an error.
 fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
     let level = |scene: &Scene, t: f64| {
-        let steps = t / scene.dt;
+        let steps = t / scene.dt();
         ((steps - steps.round()).abs() <= 1e-9 * steps).then_some(steps.round() as usize)
     };
     for scene in scenes {
         let levels: Option<Vec<usize>> = times.iter().map(|&t| level(scene, t)).collect();
         if !levels.is_some_and(|levels| levels.last().is_some_and(|last| last.is_multiple_of(TIP_TIMES))) {
-            let found = format!("{}, whose dt is {:?}", scene.name, scene.dt);
+            let found = format!("{}, whose dt is {:?}", scene.name, scene.dt());
             let expected = format!(
                 "scenes whose time levels include all `times`, the last after a multiple of {TIP_TIMES} steps, where compare = true"
             );

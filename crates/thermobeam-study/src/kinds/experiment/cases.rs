@@ -25,7 +25,7 @@ pub enum Found {
 
 pub(super) fn cases(study: &Experiments) -> Vec<Case<Task>> {
     let run = |(k, Experiment { scene, .. }): (usize, &Experiment)| {
-        let Scene { name, mesh, dt, .. } = scene;
+        let (Scene { name, mesh, .. }, dt) = (scene, scene.dt());
         // Steady states come at t = 50 to 100.
         Case { label: name.clone(), cost: 80.0 / dt * (mesh.nodes().len() - 1) as f64, data: Task::Run(k) }
     };

@@ -23,7 +23,7 @@ impl FromFile for Experiments {
         let t_max = run.require("t_max", POSITIVE)?;
         for experiment in &mut experiments {
             refine(&run, &mut experiment.scene)?;
-            limits::steps_until(&t_max, until.t_max, experiment.scene.dt, limits::STEPS)?;
+            limits::steps_until(&t_max, until.t_max, experiment.scene.dt(), limits::STEPS)?;
         }
         let (betas, rest) = steady(root)?;
         Ok(Self { header, experiments, until, betas, rest })
@@ -67,7 +67,7 @@ fn rests(section: &Section<'_>, count: usize) -> Result<Vec<Contact>, InputError
 fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
     let field = run.get("elements");
     let elements = field.as_ref().map_or(Ok(scene.mesh.nodes().len() - 1), tables::elements)?;
-    let dt = run.get("dt").map_or(Ok(scene.dt), |field| field.positive())?;
+    let dt = run.get("dt").map_or(Ok(scene.dt()), |field| field.positive())?;
     if field.is_some() || run.get("dt").is_some() {
         *scene =
             at_resolution(scene, elements, dt).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;

@@ -145,7 +145,7 @@ fn beta_label(experiment: &Experiment) -> String {
 fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> Vec<Series> {
     let curve = |(experiment, run): &(&Experiment, &Run)| {
         let scene = &experiment.scene;
-        let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt } else { f64::INFINITY };
+        let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt() } else { f64::INFINITY };
         let shown = run.points.iter().filter(|point| point.t <= end);
         Series {
             label: beta_label(experiment),

@@ -74,7 +74,7 @@ pub struct Point {
 pub(super) fn run(scene: &Scene, until: &Until) -> Result<Run, CaseFailure> {
     let mut driver = driver(scene)?;
     let mut log = Log::new(scene, &mut driver);
-    let window = (until.window / scene.dt).round().max(1.0) as usize;
+    let window = (until.window / scene.dt()).round().max(1.0) as usize;
     let mut fall = 0.0;
     let end = driver.run(usize::MAX, |step| {
         // Summed up from differences: the total's round-off would hide a slow fall.
@@ -138,9 +138,9 @@ impl<'a> Log<'a> {
             first_lower: None,
             crossings: Crossings::default(),
             largest_increase: f64::NEG_INFINITY,
-            stride: ((scene.t_end / scene.dt).round() as usize / POINTS).max(1),
+            stride: ((scene.t_end / scene.dt()).round() as usize / POINTS).max(1),
             points: vec![],
-            shapes: Shapes::new(scene.dt),
+            shapes: Shapes::new(scene.dt()),
         };
         let (simulation, level) = driver.present();
         log.add_point(simulation, level);
@@ -153,7 +153,7 @@ impl<'a> Log<'a> {
         self.largest_increase = max_or_nan(self.largest_increase, change);
         let (t, step) = (simulation.t(), simulation.step());
         // Half a step of slack: n dt is not t_end to the last bit.
-        if t <= self.scene.t_end + 0.5 * self.scene.dt {
+        if t <= self.scene.t_end + 0.5 * self.scene.dt() {
             self.add_motion(t, [old, new]);
         }
         self.shapes.add(step, t, new);
@@ -168,7 +168,7 @@ impl<'a> Log<'a> {
     fn add_motion(&mut self, t: f64, [old, new]: [&Level; 2]) {
         let tip = new.u.len() - 1;
         let [before, now] = [old.u[tip], new.u[tip]];
-        let passes = |at: f64| t - self.scene.dt * (now - at) / (now - before);
+        let passes = |at: f64| t - self.scene.dt() * (now - at) / (now - before);
         if let Some(obstacles) = self.scene.obstacles {
             if self.first_upper.is_none() && before <= obstacles.g2 && now > obstacles.g2 {
                 self.first_upper = Some(passes(obstacles.g2));

@@ -21,8 +21,7 @@ use convergence_study::study::{FromFile, Header};
 
 use super::{Answer, NUMBERS, Scenes, Whole};
 use crate::kinds::energy::End;
-use crate::scene;
-use crate::scene::any_order::SceneFile;
+use crate::scene::{self, Scene};
 
 impl FromFile for Scenes {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
@@ -55,7 +54,7 @@ fn case(section: &Section<'_>) -> Result<Whole, InputError> {
     };
     Ok(Whole {
         claim: section.require("claim", "a text")?.text()?.to_owned(),
-        scene: SceneFile::from_tables(section, name.clone())?,
+        scene: Scene::from_tables(section, name.clone())?,
         name,
         end,
         answer,

@@ -7,7 +7,6 @@ use convergence_study::text::number::{max_or_nan, short_text};
 
 use super::{COUNTS, NUMBERS, Scenes, Shown, Whole};
 use crate::kinds::energy::End;
-use crate::scene::any_order::{SCHEME, SceneFile};
 
 /// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10 or more, and may stop one
 /// earlier where rounding differs.
@@ -88,10 +87,7 @@ fn quantities(whole: &Whole, shown: &Shown) -> Vec<Quantity> {
 fn table(found: &[(&Whole, &Shown)]) -> Table {
     let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"].into_iter().chain(COUNTS);
     let row = |(whole, shown): &(&Whole, &Shown)| {
-        let (scheme, solver) = match &whole.scene {
-            SceneFile::OneStep(scene) => (scene.scheme.name, scene.settings.solver.name()),
-            SceneFile::AnyOrder(_) => (SCHEME, "newton"),
-        };
+        let (scheme, solver) = (whole.scene.method.name(), whole.scene.method.solver());
         let (name, distance) = farthest(whole, shown);
         let by = if whole.answer.is_empty() { "-".to_owned() } else { format!("{distance:.1e}") };
         let cells = [whole.name.as_str(), scheme, solver, shown.end.name(), name, &by].map(str::to_owned);

@@ -14,7 +14,7 @@ use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
 use crate::run::driver::RunError;
 use crate::run::simulate::{Recording, Run, Simulator, run_together};
 use crate::run::tally::{EnergySummary, Extremes, Sample};
-use crate::scene::any_order::{AnyOrderScene, SceneFile};
+use crate::scene::{Method, Scene};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -47,7 +47,7 @@ type Answer = Vec<(&'static str, f64)>;
 pub(super) struct Whole {
     name: String,
     claim: String,
-    scene: SceneFile,
+    scene: Scene,
     end: End,
     answer: Answer,
     /// Bound on the distance to each number of the answer.
@@ -150,10 +150,10 @@ impl Kind for Scenes {
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
-        let cost = |scene: &SceneFile| match scene {
-            SceneFile::OneStep(scene) => scene.steps as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
-            SceneFile::AnyOrder(scene) => {
-                let AnyOrderScene { degree, stepping, t_end, .. } = *scene;
+        let cost = |scene: &Scene| match scene.method {
+            Method::OneStep(_) => scene.steps() as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
+            Method::Dg(stepping) => {
+                let Scene { degree, t_end, .. } = *scene;
                 Discretisation { elements: scene.mesh.elements(), degree, stepping }.cost(t_end)
             }
         };
@@ -162,13 +162,14 @@ impl Kind for Scenes {
     }
 
     fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
-        match &self.scenes[*index].scene {
-            SceneFile::OneStep(scene) => {
+        let scene = &self.scenes[*index].scene;
+        match scene.method {
+            Method::OneStep(_) => {
                 let shown = Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ()))?;
                 let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::one_step).transpose()?;
                 Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
             }
-            SceneFile::AnyOrder(scene) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
+            Method::Dg(_) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
         }
     }
 

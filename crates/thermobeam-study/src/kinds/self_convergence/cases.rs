@@ -2,12 +2,13 @@
 
 use convergence_study::study::{Axis, Case, CaseFailure};
 use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::simulation::Stepping;
 
 use super::{Resolution, Run, Sample, SelfConvergence, Traced};
 use crate::error::reference::{Reference, fine_mesh};
 use crate::kinds::tables::Refine;
 use crate::run::rerun::{at, resampled, traced};
-use crate::scene::Scene;
+use crate::scene::{Method, Scene};
 
 /// Points of a curve in a figure: more than pixels.
 const CURVE_POINTS: usize = 2000;
@@ -50,7 +51,9 @@ fn common_mesh(study: &SelfConvergence) -> Result<Mesh, MeshError> {
 fn by_the_scheme(study: &SelfConvergence, level: Resolution) -> Result<Traced, CaseFailure> {
     let Resolution { elements, steps } = level;
     let mesh = resampled(&study.scene.mesh, elements)?;
-    let scene = Scene { scheme: study.scheme, ..at(&study.scene, mesh.clone(), steps, study.t_end) };
+    let scene = at(&study.scene, mesh.clone(), steps, study.t_end);
+    let method = Method::OneStep(Stepping { scheme: study.scheme, ..scene.one_step()? });
+    let scene = Scene { method, ..scene };
     // As many points as fit a figure, and all the times that are compared.
     let per_sample = (CURVE_POINTS / study.samples).max(1);
     let stride = largest_divisor(steps / study.samples, per_sample);

@@ -40,7 +40,9 @@ impl FromFile for SelfConvergence {
         root.allow(&["study", "scene", "refine", "reference", "expect"])?;
         let named = root.require("scene", "a table with the scene's file")?.section()?;
         named.allow(&["file"])?;
-        let scene = Scene::read(named.require("file", "the path of a scene, from this file's folder")?.file(folder)?)?;
+        let file = named.require("file", "the path of a scene, from this file's folder")?;
+        let scene = Scene::read(file.file(folder)?)?;
+        let own = scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
         let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
         section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
         let axis =
@@ -50,7 +52,7 @@ impl FromFile for SelfConvergence {
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
         let scheme = section
             .get("scheme")
-            .map_or(Ok(scene.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
+            .map_or(Ok(own.scheme), |field| field.choice(&SCHEMES.map(|scheme| (scheme.name, scheme))))?;
         let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
         Ok(Self {
             header,

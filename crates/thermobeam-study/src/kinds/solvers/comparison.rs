@@ -61,7 +61,7 @@ impl Comparison {
     pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
         let scene = Scene { mesh: Mesh::uniform(self.elements)?, ..self.scene.clone() };
         let driver = |settings| {
-            let stepping = Stepping { scheme: scene.scheme, settings, dt: scene.dt, loaded: false };
+            let stepping = Stepping { settings, ..scene.one_step()? };
             Driver::new(simulate::problem(&scene), stepping)
         };
         let mut newton = driver(Settings { tolerance: SOLVED, ..Settings::default() })?;
@@ -80,7 +80,7 @@ impl Comparison {
             iterations.push((t, report.iterations as f64));
             of_newton.push((t, solved.iterations as f64));
             if level.contact_force != 0.0 {
-                contact.push((t - scene.dt, t));
+                contact.push((t - scene.dt(), t));
             }
         }
         let mean_iterations = total as f64 / self.steps as f64;

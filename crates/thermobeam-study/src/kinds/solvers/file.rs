@@ -56,7 +56,7 @@ fn contraction(section: &Section<'_>) -> Result<Grid, InputError> {
 fn comparison(section: &Section<'_>, folder: &Path) -> Result<Comparison, InputError> {
     section.allow(&["scene", "elements", "steps", "tolerances"])?;
     Ok(Comparison {
-        scene: Scene::read(section.require("scene", "a scene file beside this one")?.file(folder)?)?,
+        scene: Scene::read_one_step(&section.require("scene", "a scene file beside this one")?, folder)?,
         elements: elements(section)?,
         // Each is a point of a figure.
         steps: section.require("steps", "a number of steps")?.count(1..=limits::RECORDED_STEPS)?,

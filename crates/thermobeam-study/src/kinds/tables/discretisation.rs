@@ -5,8 +5,7 @@ use convergence_study::study::CaseFailure;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
 use crate::run::rerun::resampled;
-use crate::scene::any_order::AnyOrderScene;
-use crate::scene::{Scene, limits, tables};
+use crate::scene::{Method, Scene, limits, tables};
 
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
@@ -26,20 +25,17 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// A scene of a one-step scheme, discretised in this way.
+    /// A scene, discretised in this way.
     ///
     /// # Errors
     /// [`CaseFailure`] where the mesh has elements that are too small.
-    pub fn of(&self, scene: &Scene, t_end: f64) -> Result<AnyOrderScene, CaseFailure> {
-        Ok(AnyOrderScene {
-            name: scene.name.clone(),
-            beam: scene.beam,
-            obstacles: scene.obstacles,
-            initial: scene.initial.clone(),
+    pub fn of(&self, scene: &Scene, t_end: f64) -> Result<Scene, CaseFailure> {
+        Ok(Scene {
             mesh: resampled(&scene.mesh, self.elements)?,
             degree: self.degree,
-            stepping: self.stepping,
+            method: Method::Dg(self.stepping),
             t_end,
+            ..scene.clone()
         })
     }
 

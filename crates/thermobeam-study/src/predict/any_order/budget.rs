@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::sampled::{Curves, POINTS};
 use super::{Sampled, Wanted, finer_space, finer_steps, sample};
 use crate::error::curve::distance;
-use crate::scene::any_order::AnyOrderScene;
+use crate::scene::Scene;
 
 /// Where an error comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -112,8 +112,8 @@ fn last_ends(own: &Sampled) -> Vec<usize> {
 ///
 /// # Errors
 /// The solver's own words, with the run that failed.
-pub fn estimate(scene: &AnyOrderScene) -> Result<Budget, String> {
-    let run = |what: &str, scene: &AnyOrderScene, wanted: Wanted<'_>| {
+pub fn estimate(scene: &Scene) -> Result<Budget, String> {
+    let run = |what: &str, scene: &Scene, wanted: Wanted<'_>| {
         sample(scene, wanted).map_err(|failure| format!("the run with {what}: {failure}"))
     };
     let wanted = Wanted { at: &[], ends: &[], own: true, all: true };

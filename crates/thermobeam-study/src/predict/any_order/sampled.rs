@@ -9,7 +9,7 @@ use thermobeam::dg::{Field, Level, Simulation};
 
 use super::Cost;
 use crate::run::any_order::AnyOrderFailure;
-use crate::scene::any_order::AnyOrderScene;
+use crate::scene::Scene;
 
 /// Times of comparison in a step, its end among them: dense at its ends, since a layer at the start of a step is shorter than that.
 pub(super) const POINTS: usize = 12;
@@ -80,9 +80,10 @@ impl Sampled {
 ///
 /// # Errors
 /// The solver's own words: a scene that it refuses, a step that fails, or the time limit.
-pub(super) fn sample(scene: &AnyOrderScene, wanted: Wanted<'_>) -> Result<Sampled, String> {
-    let mut simulation = Simulation::new(scene.problem(), scene.stepping).map_err(|error| error.to_string())?;
-    let unknowns = 3 * simulation.space().blocks() * (scene.stepping.degree + 1);
+pub(super) fn sample(scene: &Scene, wanted: Wanted<'_>) -> Result<Sampled, String> {
+    let stepping = scene.dg_stepping();
+    let mut simulation = Simulation::new(scene.dg_problem(), stepping).map_err(|error| error.to_string())?;
+    let unknowns = 3 * simulation.space().blocks() * (stepping.degree + 1);
     let mut patience = Patience::new(unknowns / 3);
     let mut watch = Watch::new(scene, wanted, &simulation);
     let mut wall = Duration::ZERO;
@@ -122,8 +123,8 @@ struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    fn new(scene: &AnyOrderScene, wanted: Wanted<'a>, simulation: &Simulation) -> Self {
-        let stepping = scene.stepping;
+    fn new(scene: &Scene, wanted: Wanted<'a>, simulation: &Simulation) -> Self {
+        let stepping = scene.dg_stepping();
         Self {
             wanted,
             sampled: Sampled { range: simulation.tip_range(), ..Sampled::default() },

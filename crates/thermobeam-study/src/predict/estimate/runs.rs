@@ -3,8 +3,10 @@
 use super::EstimateError;
 use crate::run::driver::RunError;
 use crate::run::rerun::{at, resampled, traced};
-use crate::scene::Scene;
+use crate::scene::{Method, Scene};
+use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 
 /// Times at which curves are compared, at most.
@@ -49,27 +51,30 @@ pub(super) struct Runs {
 impl Runs {
     pub(super) fn new(scene: &Scene) -> Result<Self, EstimateError> {
         let elements = scene.mesh.elements().next_multiple_of(4);
-        let steps = scene.steps.next_multiple_of(4);
+        let stepping = named_stepping(scene)?;
+        let steps = scene.steps().next_multiple_of(4);
         let samples = (1..=SAMPLES.min(steps / 4)).rev().find(|&k| (steps / 4).is_multiple_of(k)).unwrap_or(1);
         let mesh = |elements| resampled(&scene.mesh, elements);
         let run = |mesh: Result<Mesh, _>, steps: usize, settings: Settings| {
-            read(&Scene { settings, ..at(scene, mesh?, steps, scene.t_end) }, samples)
+            let method = Method::OneStep(Stepping { settings, ..stepping });
+            let scene = Scene { method, ..scene.clone() };
+            read(&at(&scene, mesh?, steps, scene.t_end), samples)
         };
         let named = |mesh, steps: usize, settings, name: &str| {
             run(mesh, steps, settings).map_err(|failure| EstimateError { run: name.into(), failure })
         };
-        let tolerance = scene.settings.tolerance;
+        let tolerance = stepping.settings.tolerance;
         let tight = Settings {
             solver: Solver::Newton,
             tolerance: (tolerance / TIGHTENING).max(TIGHTEST).min(tolerance),
-            ..scene.settings
+            ..stepping.settings
         };
         let fewer = |name: &str, part: usize| format!("1/{part} of the {name}");
         let space = |part| named(mesh(elements / part), steps, tight, &fewer("elements", part));
         let time = |part| named(mesh(elements), steps / part, tight, &fewer("time steps", part));
         Ok(Self {
             resolution: [elements, steps],
-            own: named(mesh(elements), steps, scene.settings, "the scene's own settings")?,
+            own: named(mesh(elements), steps, stepping.settings, "the scene's own settings")?,
             tight: named(mesh(elements), steps, tight, "a tighter tolerance")?,
             space: [space(2)?, space(4)?],
             time: [time(2)?, time(4)?],
@@ -81,6 +86,11 @@ impl Runs {
             )?,
         })
     }
+}
+
+fn named_stepping(scene: &Scene) -> Result<Stepping, EstimateError> {
+    let failed = |error: SetupError| EstimateError { run: "the scene's own settings".into(), failure: error.into() };
+    scene.one_step().map_err(failed)
 }
 
 fn read(scene: &Scene, samples: usize) -> Result<Reading, RunError> {

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use thermobeam::ensemble::Ensemble;
 use thermobeam::scheme::Scheme;
+use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::{Middle, Run, Sample, Sums, problem};
@@ -23,8 +24,8 @@ pub struct Together {
 impl Together {
     /// Of a scene; `None` where it can only run alone.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let Scene { scheme, settings, steps, .. } = *scene;
-        let common = Self { elements: scene.mesh.elements(), steps, scheme, settings };
+        let Stepping { scheme, settings, .. } = scene.one_step().ok()?;
+        let common = Self { elements: scene.mesh.elements(), steps: scene.steps(), scheme, settings };
         (settings.solver == Solver::Newton).then_some(common)
     }
 }
@@ -38,13 +39,13 @@ impl Together {
 /// [`RunError::Setup`] of the first scene that cannot be set up, and where the scenes do not agree; [`RunError::TimeUp`].
 pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
-    let dt: Vec<f64> = scenes.iter().map(|scene| scene.dt).collect();
+    let dt: Vec<f64> = scenes.iter().map(|scene| scene.dt()).collect();
     let mut driver = EnsembleDriver::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
     let mut level = Level::new(common.elements + 1);
     let sample = |ensemble: &Ensemble, level: &mut Level, k: usize, step: usize| {
         ensemble.observe(k, level);
         let scene = &scenes[k];
-        let t = step as f64 * scene.dt;
+        let t = step as f64 * scene.dt();
         Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, ensemble.energy(k, level).total())
     };
     let start = |k: usize| sample(driver.ensemble(), &mut level, k, 0).at_the_start(scenes[k].obstacles);

@@ -1,0 +1,264 @@
+//! How a scene is stepped: the table `[time]`, and the degree of the elements that goes with it.
+
+use convergence_study::input::{InputError, POSITIVE, Section};
+use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::SCHEMES;
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::Solver;
+
+use super::{limits, tables};
+
+/// The value of `time.scheme` for elements of any degree and dG(q).
+pub const DG: &str = "dg";
+
+/// Degree p of a scene that does not say: 1e-8 for the paper's first experiment on one element.
+const DEGREE: usize = 13;
+
+/// Largest step of a scene that does not say.
+const DT: f64 = 0.02;
+
+/// Growth of the steps of a scene that does not say.
+const GROWTH: f64 = 1.5;
+
+/// First step of a scene that does not say, in units of the duration of an impact.
+const RESTART: f64 = 0.2;
+
+const DG_KEYS: [&str; 8] = ["scheme", "degree", "dt", "restart_dt", "growth", "t_end", "tolerance", "max_iterations"];
+
+/// How a scene is stepped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// By a one-step scheme on linear elements.
+    OneStep(Stepping),
+    /// By dG(q) on elements of degree p.
+    Dg(dg::Stepping),
+}
+
+impl Method {
+    /// The value of `time.scheme`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::OneStep(stepping) => stepping.scheme.name,
+            Self::Dg(_) => DG,
+        }
+    }
+
+    /// The value of `time.solver`; dG has one.
+    pub fn solver(&self) -> &'static str {
+        match self {
+            Self::OneStep(stepping) => stepping.settings.solver.name(),
+            Self::Dg(_) => Solver::Newton.name(),
+        }
+    }
+
+    /// Bound on the last increment of a step's iteration.
+    pub fn tolerance(&self) -> f64 {
+        match self {
+            Self::OneStep(stepping) => stepping.settings.tolerance,
+            Self::Dg(stepping) => stepping.tolerance,
+        }
+    }
+
+    /// The time step; of dG the largest.
+    pub fn dt(&self) -> f64 {
+        match self {
+            Self::OneStep(stepping) => stepping.dt,
+            Self::Dg(stepping) => stepping.dt,
+        }
+    }
+
+    /// The same with another step.
+    pub(crate) fn with_dt(self, dt: f64) -> Self {
+        match self {
+            Self::OneStep(stepping) => Self::OneStep(Stepping { dt, ..stepping }),
+            Self::Dg(stepping) => Self::Dg(dg::Stepping { dt, restart_dt: stepping.restart_dt.min(dt), ..stepping }),
+        }
+    }
+
+    /// Elements of a scene that does not say: the paper's number, or one.
+    pub(super) fn default_elements(&self) -> usize {
+        match self {
+            Self::OneStep(_) => 100,
+            Self::Dg(_) => 1,
+        }
+    }
+
+    /// `mesh.degree`. One-step schemes work on linear elements; others must fit into memory.
+    pub(super) fn degree(&self, root: &Section<'_>, mesh: &Mesh) -> Result<usize, InputError> {
+        let section = root.section("mesh")?;
+        let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
+        let Self::Dg(stepping) = self else {
+            let refused = get("degree").filter(|field| field.count(1..=1).is_err());
+            let allowed = "1, or time.scheme = \"dg\" for elements of higher degree";
+            return refused.map_or(Ok(1), |field| Err(field.refuse(field.as_written(), allowed)));
+        };
+        let degree = get("degree").map_or(Ok(DEGREE), |field| field.count(1..=MAX_DEGREE))?;
+        if let Some(field) = get("nodes").or_else(|| get("elements")) {
+            let shortest = mesh.nodes().windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
+            let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest { 1 } else { mesh.elements() };
+            limits::any_order_memory(&field, mesh.elements(), lengths, degree, stepping.degree)?;
+        }
+        Ok(degree)
+    }
+}
+
+/// Whether `time.scheme` is `dg`.
+///
+/// # Errors
+/// No scheme has that name: said first, since the keys of `[time]` depend on it.
+pub(super) fn is_dg(root: &Section<'_>) -> Result<bool, InputError> {
+    let Some(time) = root.section("time")? else { return Ok(false) };
+    let names: Vec<_> = SCHEMES.iter().map(|scheme| (scheme.name, false)).chain([(DG, true)]).collect();
+    time.get("scheme").map_or(Ok(false), |field| field.choice(&names))
+}
+
+/// A one-step scheme, and t_end.
+pub(super) fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
+    time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
+    let (dt, t_end) = time_steps(time)?;
+    let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
+    Ok((Method::OneStep(Stepping { scheme, settings, dt, loaded: false }), t_end))
+}
+
+/// dt and t_end, which dt divides.
+fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
+    // Each of dt, t_end and their quotient is rounded once.
+    const SLACK: f64 = 4.0 * f64::EPSILON;
+    let t_end = time.positive("t_end")?;
+    let field = time.require("dt", POSITIVE)?;
+    let dt = field.positive()?;
+    let quotient = t_end / dt;
+    if quotient > limits::STEPS as f64 {
+        let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");
+        return Err(field.refuse(found, format!("at most {:e} steps", limits::STEPS as f64)));
+    }
+    let steps = quotient.round();
+    if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {
+        return Ok((dt, t_end));
+    }
+    let candidates = [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
+    let distance = |candidate: f64| (candidate - dt).abs();
+    let [low, high] = candidates;
+    let (steps, nearest) = if distance(low.1) <= distance(high.1) { low } else { high };
+    let found = format!("{dt:?}, which is {quotient} steps for t_end = {t_end:?}");
+    Err(field.refuse(found, format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)")))
+}
+
+/// dG(q), and t_end.
+pub(super) fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<(Method, f64), InputError> {
+    time.allow(&DG_KEYS)?;
+    let t_end = time.positive("t_end")?;
+    let defaults = default_stepping(beam, obstacles, t_end);
+    let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());
+    let count = |key: &str, default: usize, allowed| time.get(key).map_or(Ok(default), |field| field.count(allowed));
+    let dt = or("dt", defaults.dt)?;
+    if let Some(field) = time.get("dt") {
+        limits::steps_until(&field, t_end, dt, limits::STEPS)?;
+    }
+    let restart_dt = match time.get("restart_dt") {
+        Some(field) => field.number_where(&format!("a number > 0 and at most dt = {dt:?}"), |h| h > 0.0 && h <= dt)?,
+        None => first_step(beam, obstacles, dt),
+    };
+    let growth = match time.get("growth") {
+        Some(field) => field.number_where("a finite number >= 1", |growth| growth >= 1.0)?,
+        None => GROWTH,
+    };
+    let stepping = dg::Stepping {
+        degree: count("degree", defaults.degree, 0..=MAX_TIME_DEGREE)?,
+        dt,
+        restart_dt,
+        growth,
+        tolerance: or("tolerance", defaults.tolerance)?,
+        max_iterations: count("max_iterations", defaults.max_iterations, 1..=usize::MAX)?,
+    };
+    Ok((Method::Dg(stepping), t_end))
+}
+
+/// The steps of a scene that leaves all keys out.
+pub(super) fn default_stepping(beam: &Beam, obstacles: Option<&Obstacles>, t_end: f64) -> dg::Stepping {
+    let dt = DT.min(t_end);
+    dg::Stepping { dt, restart_dt: first_step(beam, obstacles, dt), growth: GROWTH, ..dg::Stepping::default() }
+}
+
+/// A fifth of the duration of an impact, and at most dt.
+fn first_step(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64) -> f64 {
+    let impact = obstacles.map_or(dt, |obstacles| obstacles.impact_time(beam.zeta));
+    (RESTART * impact).min(dt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn read(text: &str) -> Result<(Scene, dg::Stepping), String> {
+        let scene = Scene::parse(text, "s.toml").map_err(|error| error.to_string())?;
+        match scene.method {
+            Method::Dg(stepping) => Ok((scene, stepping)),
+            Method::OneStep(_) => Err(format!("a scene by {}", scene.method.name())),
+        }
+    }
+
+    #[test]
+    fn keys_are_read_and_defaults_follow_the_scene() {
+        let text = "[obstacles]\n[mesh]\ndegree = 4\n[time]\nscheme = \"dg\"\ndegree = 3\ndt = 0.3\nt_end = 1.0\n";
+        let (scene, stepping) = read(text).unwrap();
+        assert_eq!((scene.degree, scene.mesh.elements(), stepping.degree), (4, 1, 3));
+        assert_eq!((stepping.dt, scene.t_end, stepping.growth), (0.3, 1.0, 1.5));
+        // (1e-3 √0.1)^(2/3) / 5.
+        assert!((stepping.restart_dt - 9.283e-4).abs() < 1e-7, "{}", stepping.restart_dt);
+        assert_eq!(read("[time]\nscheme = \"midpoint\"\ndt = 0.5\nt_end = 1.0").unwrap_err(), "a scene by midpoint");
+    }
+
+    #[test]
+    fn values_out_of_range_are_refused_with_their_field() {
+        let with = |mesh: &str, time: &str| {
+            read(&format!("[mesh]\n{mesh}\n[time]\nscheme = \"dg\"\nt_end = 1.0\n{time}\n")).unwrap_err()
+        };
+        for (mesh, time, words) in [
+            ("degree = 0", "", "mesh.degree"),
+            ("degree = 100", "", "mesh.degree"),
+            ("", "degree = 6", "time.degree"),
+            (
+                "",
+                "dt = 0.1\nrestart_dt = 0.2",
+                "time.restart_dt: found 0.2; expected a number > 0 and at most dt = 0.1",
+            ),
+            ("", "growth = 0.5", "time.growth"),
+            ("", "solver = \"newton\"", "unknown key `solver`"),
+            ("", "dt = -1", "time.dt"),
+            ("", "dt = 1e-20", "time.dt: found 1e-20, which is 1.000e20 steps"),
+            ("elements = 100000\ndegree = 40", "degree = 5", "mesh.elements: found 100000, which would take about 7."),
+        ] {
+            let message = with(mesh, time);
+            assert!(message.contains(words), "{message}");
+        }
+    }
+
+    #[test]
+    fn a_beam_without_viscosity_has_an_impact_time_too() {
+        let text = "[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0";
+        assert_eq!(read(text).unwrap().1.restart_dt, 0.2 * 1e-3);
+    }
+
+    #[test]
+    fn a_one_step_scheme_refuses_a_degree_and_counts_its_steps() {
+        let degree = read("[mesh]\ndegree = 2\n[time]\ndt = 0.5\nt_end = 1.0\n").unwrap_err();
+        assert!(degree.contains("mesh.degree: found 2"), "{degree}");
+        let steps = |text: &str| Scene::parse(text, "s.toml").unwrap().steps();
+        assert_eq!(steps("[time]\ndt = 0.1\nt_end = 0.3\n"), 3);
+        assert_eq!(steps("[time]\nscheme = \"dg\"\ndt = 0.2\nt_end = 0.3\n"), 2);
+    }
+
+    #[test]
+    fn dg_steps_of_a_one_step_scene_are_the_defaults() {
+        let [one_step, dg] = ["dt = 0.1", "scheme = \"dg\""].map(|time| {
+            let text = format!("[obstacles]\nepsilon = 1e-4\n[time]\n{time}\nt_end = 1.0\n");
+            Scene::parse(&text, "s.toml").unwrap()
+        });
+        assert_eq!(one_step.dg_stepping(), dg.dg_stepping());
+        assert!(one_step.one_step().is_ok() && dg.one_step().unwrap_err().to_string().contains("found dg"));
+    }
+}

@@ -1,6 +1,6 @@
 //! A table with its place in the file.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use toml::de::DeTable;
 
@@ -71,6 +71,33 @@ impl<'a> Section<'a> {
     /// The value of a key that has no default; `allowed` says what would have to be there.
     pub fn require(&self, key: &str, allowed: &str) -> Result<Field<'a>, InputError> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
+    }
+
+    /// The table of that name, which has no keys but these.
+    pub fn table(&self, key: &str, keys: &[&str]) -> Result<Section<'a>, InputError> {
+        let table = self.require(key, &format!("a table with {}", keys.join(", ")))?.section()?;
+        table.allow(keys)?;
+        Ok(table)
+    }
+
+    /// The values of a list that has no default, each by `read`.
+    ///
+    /// * `fits`: whether the list as a whole is one that `allowed` describes.
+    pub fn list<T>(
+        &self,
+        key: &str,
+        allowed: &str,
+        read: impl Fn(&Field<'a>) -> Result<T, InputError>,
+        fits: impl Fn(&[T]) -> bool,
+    ) -> Result<Vec<T>, InputError> {
+        let field = self.require(key, allowed)?;
+        let list = field.items(allowed)?.iter().map(read).collect::<Result<Vec<T>, InputError>>()?;
+        if fits(&list) { Ok(list) } else { Err(field.refuse_as_written(allowed)) }
+    }
+
+    /// The whole number of a key that has no default.
+    pub fn count(&self, key: &str, range: RangeInclusive<usize>) -> Result<usize, InputError> {
+        self.require(key, &format!("a whole number >= {}", range.start()))?.count(range)
     }
 
     /// The finite number > 0 of a key that has no default.

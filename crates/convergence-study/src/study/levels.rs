@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use super::axis::Axis;
 use super::case::{Ran, by_reason};
-#[cfg(feature = "reports")]
-use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Quantity, Table};
+#[cfg(feature = "reports")]
+use super::outcome::{Figure, Outcome};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 #[cfg(feature = "reports")]
@@ -84,6 +84,12 @@ pub struct Refinement {
 }
 
 impl Refinement {
+    /// * `parameters`: counts by name, such as elements and steps.
+    pub fn new(label: String, parameters: &[(&str, usize)], step: f64) -> Self {
+        let parameters = parameters.iter().map(|(name, count)| ((*name).to_owned(), *count as f64)).collect();
+        Self { label, parameters, step }
+    }
+
     /// Levels that are identified by one count each, such as cells or steps.
     ///
     /// * `name`: what is counted; the labels are `name = count`.
@@ -95,10 +101,7 @@ impl Refinement {
         counts: impl IntoIterator<Item = usize>,
         step: impl Fn(usize) -> f64,
     ) -> Vec<(Self, usize)> {
-        let level = |count: usize| {
-            let parameters = vec![(name.to_owned(), count as f64)];
-            (Self { label: format!("{name} = {count}"), parameters, step: step(count) }, count)
-        };
+        let level = |count: usize| (Self::new(format!("{name} = {count}"), &[(name, count)], step(count)), count);
         counts.into_iter().map(level).collect()
     }
 }
@@ -202,6 +205,23 @@ impl Levels {
             axis: self.axis,
             refinements: self.refinements.iter().take(levels).cloned().collect(),
             columns: self.columns.iter().map(column).collect(),
+        }
+    }
+
+    /// All that errors over levels give: rates with their verdicts, errors, guarded numbers and the figure `<id>-<what>.svg`.
+    #[cfg(feature = "reports")]
+    pub fn outcome(&self, id: &str, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
+        let rates = self.judge();
+        Outcome {
+            levels: self.errors(),
+            figures: vec![self.figure(
+                format!("{id}-{what}.svg"),
+                title.map(str::to_owned),
+                caption.to_owned(),
+                &rates,
+            )],
+            quantities: self.quantities(&rates),
+            ..Outcome::new(summary(&rates), rates, checks)
         }
     }
 

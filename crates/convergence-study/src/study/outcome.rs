@@ -82,6 +82,18 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
+impl Table {
+    /// * `head`: a word for each cell of a row.
+    pub fn new<H: Into<String>>(
+        title: impl Into<String>,
+        head: impl IntoIterator<Item = H>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Self {
+        let head = head.into_iter().map(Into::into).collect();
+        Self { title: title.into(), head, rows: rows.into_iter().collect() }
+    }
+}
+
 /// A picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -91,6 +103,13 @@ pub struct Figure {
     pub caption: String,
     /// The picture.
     pub svg: String,
+}
+
+impl Figure {
+    /// A picture of the study `id`, in the file `<id>-<what>.svg`.
+    pub fn new(id: &str, what: &str, caption: impl Into<String>, svg: String) -> Self {
+        Self { file: format!("{id}-{what}.svg"), caption: caption.into(), svg }
+    }
 }
 
 /// A number that must not move unnoticed.
@@ -104,6 +123,13 @@ pub struct Quantity {
     /// Relative change that is tolerated.
     #[serde(deserialize_with = "null_is_nan")]
     pub tolerance: f64,
+}
+
+impl Quantity {
+    /// * `tolerance`: relative change that is tolerated.
+    pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
+        Self { name: name.into(), value, tolerance }
+    }
 }
 
 /// A number of a record; `null` is NaN.

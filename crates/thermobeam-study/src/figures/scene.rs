@@ -3,7 +3,7 @@
 use convergence_study::plots::{self, Axis, Guide, History, Phases, Series, SpaceTime};
 use thermobeam::parameters::{Beam, Obstacles};
 
-use super::{Animation, animation};
+use super::{Animation, animation, obstacle_lines};
 
 /// What a run of a scene shows.
 pub struct SceneMotion<'r> {
@@ -43,10 +43,7 @@ impl SceneMotion<'_> {
     }
 
     fn tip_displacement(&self) -> String {
-        let guides = self.obstacles.map_or(vec![], |obstacles| {
-            let guide = |label: &str, value| Guide { label: label.into(), value };
-            vec![guide("g₁", obstacles.g1), guide("g₂", obstacles.g2)]
-        });
+        let guides = obstacle_lines(self.obstacles);
         let y = Axis::linear("displacement u(1, t) (dimensionless)");
         let figure = self.over_time("displacement of the free end", y, "u(1, t)", &self.u_tip);
         let phases = Phases { label: "in contact".into(), intervals: self.contact.clone() };

@@ -10,17 +10,12 @@
 //! coefficients = ["zeta", "a"]                 # names of [beam] and [obstacles]; none may be zero in a study
 //! ```
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::levels::completion;
-use convergence_study::study::{Case, CaseFailure, Check, FromFile, Header, Kind, Outcome, Quantity, Ran, Table};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::study::run_cases_here;
 
-use super::fault::{coefficients, perturbed};
-use super::without_a_fault;
-use crate::kinds::any_order::{AnyOrder, Errors, Resolution};
+use super::{Fault, Matrix, below_one, coefficients, perturbed};
+use crate::kinds::any_order::AnyOrder;
+use crate::kinds::prelude::*;
 use crate::kinds::tables::Control;
 
 /// Relative change of an error that the baseline tolerates.
@@ -31,16 +26,17 @@ pub struct AnyOrderControls {
     header: Header,
     relative: f64,
     studies: Vec<AnyOrder>,
-    coefficients: Vec<&'static str>,
+    /// None at all, then each coefficient.
+    faults: Vec<Fault>,
 }
 
 /// One study under one fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Faulty {
     /// The study, by its place in the list.
     pub study: usize,
-    /// The coefficient that is off; `None` for the honest solver.
-    pub coefficient: Option<&'static str>,
+    /// What is wrong.
+    pub fault: Fault,
 }
 
 /// What the study says.
@@ -54,45 +50,23 @@ pub struct Judged {
 
 impl FromFile for AnyOrderControls {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "any-order"])?;
-        let section = root.require("any-order", "a table with relative, studies and coefficients")?.section()?;
-        section.allow(&["relative", "studies", "coefficients"])?;
-        let allowed = "a number between 0 and 1";
-        let relative = section.require("relative", allowed)?.number_where(allowed, |r| r > 0.0 && r < 1.0)?;
+        let section = root.table("any-order", &["relative", "studies", "coefficients"])?;
+        let relative = below_one(&section.require("relative", "a number between 0 and 1")?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
-        let field = section.require("studies", allowed)?;
-        let files = field.items(allowed)?;
-        let studies = files.iter().map(|file| AnyOrder::read(file.file(folder)?)).collect::<Result<Vec<_>, _>>()?;
-        if studies.is_empty() {
-            return Err(field.refuse_as_written(allowed));
-        }
+        let read = |file: &Field<'_>| AnyOrder::read(file.file(folder)?);
+        let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
         let names: Vec<(&str, &'static str)> = coefficients().map(|name| (name, name)).collect();
         let allowed = "a list of at least one coefficient";
-        let field = section.require("coefficients", allowed)?;
-        let items = field.items(allowed)?;
-        let listed = items.iter().map(|item| item.choice(&names)).collect::<Result<Vec<_>, _>>()?;
-        if listed.is_empty() {
-            return Err(field.refuse_as_written(allowed));
-        }
+        let listed = section.list("coefficients", allowed, |item| item.choice(&names), |list| !list.is_empty())?;
         for study in &studies {
             let (beam, obstacles) = study.coefficients();
             if let Some(absent) = listed.iter().find(|key| perturbed(beam, obstacles, key, relative).is_none()) {
                 let found = format!("{absent}, which {} does not have or has zero", study.header().id);
-                return Err(field.refuse(found, "coefficients that every study has"));
+                return Err(section.refuse("coefficients", found, "coefficients that every study has"));
             }
         }
-        Ok(Self { header, relative, studies, coefficients: listed })
-    }
-}
-
-impl AnyOrderControls {
-    /// The study with the solver's coefficient off.
-    fn planted(&self, Faulty { study, coefficient }: Faulty) -> Option<AnyOrder> {
-        let study = &self.studies[study];
-        let Some(key) = coefficient else { return Some(study.with_control(None)) };
-        let (beam, obstacles) = study.coefficients();
-        let (beam, obstacles) = perturbed(beam, obstacles, key, self.relative)?;
-        Some(study.with_control(Some(Control { beam, obstacles, changed: vec![key] })))
+        let faults = [Fault::None].into_iter().chain(listed.into_iter().map(Fault::Coefficient)).collect();
+        Ok(Self { header, relative, studies, faults })
     }
 }
 
@@ -105,75 +79,66 @@ impl Kind for AnyOrderControls {
     }
 
     fn cases(&self) -> Vec<Case<Faulty>> {
-        let faults = || [None].into_iter().chain(self.coefficients.iter().copied().map(Some));
-        let case = |study: usize, coefficient: Option<&'static str>| Case {
-            label: format!("{}, {}", self.studies[study].header().id, coefficient.unwrap_or("no fault")),
-            cost: self.studies[study].cases().iter().map(|case| case.cost).sum(),
-            data: Faulty { study, coefficient },
+        let case = |study: usize, fault: Fault| {
+            let name = if fault == Fault::None { "no fault" } else { fault.name() };
+            Case {
+                label: format!("{}, {name}", self.studies[study].header().id),
+                cost: self.studies[study].cases().iter().map(|case| case.cost).sum(),
+                data: Faulty { study, fault },
+            }
         };
-        (0..self.studies.len()).flat_map(|study| faults().map(move |fault| case(study, fault))).collect()
+        let of_study = |study: usize| self.faults.iter().map(move |&fault| case(study, fault));
+        (0..self.studies.len()).flat_map(of_study).collect()
     }
 
-    fn run(&self, faulty: &Faulty) -> Result<Judged, CaseFailure> {
-        let study =
-            self.planted(*faulty).ok_or_else(|| CaseFailure { reason: "the coefficient is absent".to_owned() })?;
-        let run = |case: Case<Resolution>| Ran { found: study.run(&case.data), case };
-        let ran: Vec<Ran<Resolution, Errors>> = study.cases().into_iter().map(run).collect();
-        if let (None, Some(Err(failure))) =
-            (faulty.coefficient, ran.iter().map(|ran| &ran.found).find(|found| found.is_err()))
-        {
+    fn run(&self, &Faulty { study, fault }: &Faulty) -> Result<Judged, CaseFailure> {
+        let study = &self.studies[study];
+        let planted = match fault {
+            Fault::Coefficient(key) => {
+                let (beam, obstacles) = study.coefficients();
+                let absent = || CaseFailure { reason: "the coefficient is absent".to_owned() };
+                let (beam, obstacles) = perturbed(beam, obstacles, key, self.relative).ok_or_else(absent)?;
+                study.with_control(Some(Control { beam, obstacles, changed: vec![key] }))
+            }
+            _ => study.with_control(None),
+        };
+        let ran = run_cases_here(&planted);
+        // A fault that breaks a run down is detected; only the honest runs have to end.
+        if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {
             return Err(failure.clone());
         }
         let error = ran.last().and_then(Ran::ok).map_or(f64::NAN, |errors| errors.fields);
-        Ok(Judged { verdict: study.judge(&ran).verdict, error })
+        Ok(Judged { verdict: planted.judge(&ran).verdict, error })
     }
 
     fn judge(&self, ran: &[Ran<Faulty, Judged>]) -> Outcome {
         // Of a wrong run a number that is not finite is a detection.
-        let mut checks = vec![completion(ran, |_| vec![])];
-        let of = |study: usize, coefficient: Option<&'static str>| {
-            ran.iter().find(|ran| ran.case.data == Faulty { study, coefficient }).and_then(Ran::ok)
-        };
-        let (mut rows, mut quantities, mut detected, mut honest) = (vec![], vec![], 0, 0.0);
-        for coefficient in [None].into_iter().chain(self.coefficients.iter().copied().map(Some)) {
-            let wanted = if coefficient.is_none() { Verdict::Pass } else { Verdict::Fail };
-            let name = coefficient.unwrap_or("none");
-            let mut cells = vec![name.to_owned()];
-            let mut right = 0;
-            for (number, study) in self.studies.iter().enumerate() {
-                let judged = of(number, coefficient);
-                right += usize::from(judged.is_some_and(|judged| judged.verdict == wanted));
+        let completion = completion(ran, |_| vec![]);
+        let mut matrix = Matrix::new(self.studies.iter().map(Kind::header), true, completion);
+        let (mut quantities, mut honest) = (vec![], 0.0);
+        for &fault in &self.faults {
+            let judged = |study: usize| ran.iter().find(|ran| ran.case.data == Faulty { study, fault })?.ok();
+            let judged: Vec<Option<&Judged>> = (0..self.studies.len()).map(judged).collect();
+            for (study, judged) in self.studies.iter().zip(&judged) {
                 let error = judged.map_or(f64::NAN, |judged| judged.error);
-                cells.push(judged.map_or("missing".to_owned(), |judged| format!("{} ({error:.1e})", judged.verdict)));
-                if coefficient.is_none() {
+                if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    let name = format!("error with {name} off, {}", study.header().id);
-                    quantities.push(Quantity { name, value: error, tolerance: TOLERANCE });
+                    let name = format!("error with {} off, {}", fault.name(), study.header().id);
+                    quantities.push(Quantity::new(name, error, TOLERANCE));
                 }
             }
-            rows.push(cells);
-            let all = self.studies.len();
-            checks.push(if coefficient.is_none() {
-                let passes = |number: usize| of(number, None).is_some_and(|judged| judged.verdict == wanted);
-                let ids = self.studies.iter().map(|study| study.header().id.as_str()).enumerate();
-                without_a_fault(ids.map(|(number, id)| (id, passes(number))))
-            } else {
-                detected += usize::from(right == all);
-                let evidence = format!("{right} of {all} studies notice it");
-                Check::that(right == all, format!("{name} is detected by every study"), evidence)
-            });
+            let cell = |judged: &Option<&Judged>| match judged {
+                Some(Judged { verdict, error }) => format!("{verdict} ({error:.1e})"),
+                None => "missing".to_owned(),
+            };
+            let verdicts: Vec<_> = judged.iter().map(|judged| judged.map(|judged| judged.verdict)).collect();
+            matrix.add(fault, &verdicts, judged.iter().map(cell).collect());
         }
-        let faults = self.coefficients.len();
-        let headline = format!("{detected} of {faults} wrong coefficients detected");
+        let headline = format!("{} of {} wrong coefficients detected", matrix.detected, matrix.faults);
         let summary = format!("{headline}, each off by {:e}; error without a fault {honest:.1e}", self.relative);
-        let head = ["coefficient"].into_iter().chain(self.studies.iter().map(|study| study.header().id.as_str()));
-        let table = Table {
-            title: "Verdict of each study with one coefficient of the solver off, and the error of its finest run"
-                .to_owned(),
-            head: head.map(str::to_owned).collect(),
-            rows,
-        };
-        Outcome { headline, tables: vec![table], quantities, ..Outcome::new(summary, vec![], checks) }
+        let title = "Verdict of each study with one coefficient of the solver off, and the error of its finest run";
+        let tables = vec![matrix.table(title, "coefficient")];
+        Outcome { headline, tables, quantities, ..Outcome::new(summary, vec![], matrix.checks) }
     }
 }

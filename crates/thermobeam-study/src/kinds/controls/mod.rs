@@ -9,17 +9,20 @@
 //! | `[sensitivity]` | from which relative error of each coefficient on does a study fail? |
 
 pub mod any_order;
-mod fault;
 pub mod matrix;
 pub mod sensitivity;
 mod untested;
 
-use std::path::Path;
+use convergence_study::judge::verdict::{Level, Verdict, judge};
+use convergence_study::study::Study;
+use thermobeam::parameters::{Beam, Obstacles};
 
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Check, Header, KindRow, Study, reader};
+use super::convergence::Convergence;
+use super::prelude::*;
+use crate::error::design::{Defect, Disagreement};
+use crate::exact::norm::Norms;
+use crate::scene::tables;
 
-pub use fault::Fault;
 pub(in crate::kinds) use untested::untested;
 
 /// The row of the table of kinds.
@@ -35,31 +38,154 @@ pub const ROW: KindRow = KindRow {
               levels or its tolerance has grown.",
 };
 
-/// What is found of studies without a fault: how many pass, and which do not.
-fn without_a_fault<'s>(studies: impl Iterator<Item = (&'s str, bool)>) -> Check {
-    let (passing, others): (Vec<_>, Vec<_>) = studies.partition(|(_, passes)| *passes);
-    let others: Vec<&str> = others.into_iter().map(|(id, _)| id).collect();
-    let mut evidence = format!("{} of {} pass", passing.len(), passing.len() + others.len());
-    if !others.is_empty() {
-        evidence += &format!("; not {}", others.join(", "));
-    }
-    Check::that(others.is_empty(), "without a fault every study passes", evidence)
-}
-
-/// The tables of which a study file has one.
-const TABLES: [&str; 3] = ["controls", "any-order", "sensitivity"];
-
 /// Reads a study of planted faults, or of the smallest that are detected, whichever table the file has.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    root.allow(&[&["study"], &TABLES[..]].concat())?;
+    let tables = ["controls", "any-order", "sensitivity"];
+    root.allow(&[&["study"], &tables[..]].concat())?;
     let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
-    let found: Vec<&str> = TABLES.into_iter().filter(|table| root.get(table).is_some()).collect();
-    match found[..] {
+    match tables.into_iter().filter(|table| root.get(table).is_some()).collect::<Vec<_>>()[..] {
         [] => Err(root.missing("controls", allowed)),
         ["controls"] => reader::<matrix::Controls>(header, root, folder),
         ["any-order"] => reader::<any_order::AnyOrderControls>(header, root, folder),
-        ["sensitivity"] => reader::<sensitivity::Sensitivity>(header, root, folder),
+        [_] => reader::<sensitivity::Sensitivity>(header, root, folder),
         [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
-        [other] => Err(root.missing(other, allowed)),
+    }
+}
+
+/// What a run that broke down has measured: NaN, on which every study fails.
+const BROKEN: Norms = Norms::NAN;
+
+/// What is wrong in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fault {
+    /// Nothing.
+    None,
+    /// A coefficient of the solver.
+    Coefficient(&'static str),
+    /// The sources.
+    Defect(Defect),
+}
+
+/// The names of all coefficients, those of the obstacles last.
+fn coefficients() -> impl Iterator<Item = &'static str> + Clone {
+    tables::BEAM_KEYS.iter().chain(&tables::OBSTACLE_KEYS).copied()
+}
+
+impl Fault {
+    fn all() -> Vec<Self> {
+        let defects = Defect::ALL.map(Fault::Defect);
+        [Fault::None].into_iter().chain(coefficients().map(Fault::Coefficient)).chain(defects).collect()
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Fault::None => "none",
+            Fault::Coefficient(key) => key,
+            Fault::Defect(defect) => defect.name(),
+        }
+    }
+
+    /// What solver and sources disagree in; `None` where the study does not have the coefficient, or has it zero.
+    ///
+    /// * `relative`: relative error of a coefficient.
+    fn plant(self, spec: &Convergence, relative: f64) -> Option<Disagreement> {
+        let honest = Disagreement { beam: spec.beam, obstacles: spec.obstacles, defect: None };
+        match self {
+            Fault::None => Some(honest),
+            Fault::Defect(defect) => Some(Disagreement { defect: Some(defect), ..honest }),
+            Fault::Coefficient(key) => {
+                let (beam, obstacles) = perturbed(spec.beam, spec.obstacles, key, relative)?;
+                Some(Disagreement { beam, obstacles, defect: None })
+            }
+        }
+    }
+}
+
+/// The coefficients with one of them off by a relative amount; `None` where it is not there, or zero.
+fn perturbed(
+    mut beam: Beam,
+    mut obstacles: Option<Obstacles>,
+    key: &'static str,
+    relative: f64,
+) -> Option<(Beam, Option<Obstacles>)> {
+    let of_obstacles = obstacles.as_mut().and_then(|obstacles| tables::obstacle_coefficient(obstacles, key));
+    let coefficient = tables::beam_coefficient(&mut beam, key).or(of_obstacles)?;
+    if *coefficient == 0.0 {
+        return None;
+    }
+    *coefficient *= 1.0 + relative;
+    Some((beam, obstacles))
+}
+
+/// A relative error.
+fn below_one(field: &Field<'_>) -> Result<f64, InputError> {
+    field.number_where("a number between 0 and 1", |r| r > 0.0 && r < 1.0)
+}
+
+/// The studies that a section names, with its own levels where it gives them.
+fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence>, InputError> {
+    let file = |item: &Field<'_>| Convergence::read(item.file(folder)?);
+    let allowed = "a list of at least one study file beside this one";
+    let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
+    if section.get("elements").is_some() {
+        let levels = section.list("elements", "a list of numbers of elements", tables::elements, |_| true)?;
+        studies.iter_mut().filter(|_| !levels.is_empty()).for_each(|spec| spec.refine.elements.clone_from(&levels));
+    }
+    Ok(studies)
+}
+
+/// The verdicts of a study on the errors of its levels, one for each norm that it judges.
+///
+/// * `levels`: elements, steps and errors of each level, coarse to fine.
+fn verdicts<'a>(spec: &'a Convergence, levels: &'a [((usize, usize), Norms)]) -> impl Iterator<Item = Verdict> + 'a {
+    spec.expect.iter().map(move |expectation| {
+        let level = |((elements, steps), errors): &((usize, usize), Norms)| Level {
+            step: spec.step(*elements, *steps),
+            error: errors[expectation.norm],
+        };
+        judge(&levels.iter().map(level).collect::<Vec<_>>(), expectation.order, expectation.tolerance).verdict
+    })
+}
+
+/// What each study says under each fault, and how the matrix of verdicts is judged.
+struct Matrix<'s> {
+    /// Ids of the studies.
+    ids: Vec<&'s str>,
+    /// Whether every study must notice each fault; else one is enough.
+    every: bool,
+    checks: Vec<Check>,
+    rows: Vec<Vec<String>>,
+    faults: usize,
+    detected: usize,
+}
+
+impl<'s> Matrix<'s> {
+    fn new(ids: impl Iterator<Item = &'s Header>, every: bool, completion: Check) -> Self {
+        let ids = ids.map(|header| header.id.as_str()).collect();
+        Self { ids, every, checks: vec![completion], rows: vec![], faults: 0, detected: 0 }
+    }
+
+    /// Adds a fault: the verdict of each study, `None` where there is none, and its cell of the table.
+    fn add(&mut self, fault: Fault, verdicts: &[Option<Verdict>], cells: Vec<String>) {
+        self.rows.push([vec![fault.name().to_owned()], cells].concat());
+        let all = verdicts.len();
+        if fault == Fault::None {
+            let fail = self.ids.iter().zip(verdicts).filter(|(_, verdict)| **verdict != Some(Verdict::Pass));
+            let others: Vec<&str> = fail.map(|(id, _)| *id).collect();
+            let not = if others.is_empty() { String::new() } else { format!("; not {}", others.join(", ")) };
+            let evidence = format!("{} of {all} pass{not}", all - others.len());
+            self.checks.push(Check::that(others.is_empty(), "without a fault every study passes", evidence));
+            return;
+        }
+        let failed = verdicts.iter().filter(|verdict| **verdict == Some(Verdict::Fail)).count();
+        let (holds, by) = if self.every { (failed == all, " by every study") } else { (failed > 0, "") };
+        let evidence = format!("{failed} of {all} studies notice it");
+        self.checks.push(Check::that(holds, format!("{} is detected{by}", fault.name()), evidence));
+        self.faults += 1;
+        self.detected += usize::from(holds);
+    }
+
+    fn table(&mut self, title: &str, first: &str) -> Table {
+        Table::new(title, [first].into_iter().chain(self.ids.iter().copied()), std::mem::take(&mut self.rows))
     }
 }

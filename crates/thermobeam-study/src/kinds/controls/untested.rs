@@ -7,8 +7,8 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::Untested;
 use thermobeam::parameters::Obstacles;
 
-use super::fault::{Errors, Fault, coefficients, verdicts};
 use super::sensitivity::Detector;
+use super::{Fault, coefficients, verdicts};
 use crate::kinds::convergence::Convergence;
 use crate::kinds::tables::Norm;
 use crate::scene::tables;
@@ -40,7 +40,7 @@ pub(in crate::kinds) fn untested(study: &Convergence) -> Vec<Untested> {
         };
         found.extend(why.map(|why| Untested { what: key.to_owned(), why }));
     }
-    let is_exact = |norm: &Norm| levels.iter().all(|(_, errors): &(_, Errors)| errors[*norm] <= ROUND_OFF);
+    let is_exact = |norm: &Norm| levels.iter().all(|(_, errors)| errors[*norm] <= ROUND_OFF);
     found.extend(Norm::ALL.into_iter().filter(is_exact).map(|norm| Untested {
         what: norm.name().to_owned(),
         why: "its error is round-off on every level: the solution lies in the space of the scheme".to_owned(),

@@ -1,14 +1,14 @@
 //! The verdict: rates of both readings where an order is claimed, and contact where the study is one of contact.
 
-use convergence_study::judge::verdict::RateVerdict;
-use convergence_study::study::levels::{self, Claim, ErrorColumn, Levels, Refinement};
-use convergence_study::study::{Axis, Check, Figure, LevelErrors, Outcome, Quantity, Ran, Table};
+use convergence_study::judge::richardson;
+use convergence_study::study::LevelErrors;
+use convergence_study::study::levels::{Rates, rate_table, summary};
 
-use super::{Observable, Resolution, Run, Sample, SelfConvergence, Traced, figures};
+use super::{Observable, Run, Sample, SelfConvergence, Traced};
+use crate::figures::obstacle_lines;
+use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
 use crate::run::rerun::resampled;
-use convergence_study::judge::richardson;
-use convergence_study::text::number::max_or_nan;
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;
@@ -19,68 +19,51 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-pub(super) type Found = Ran<Run, Traced>;
+type Found = Ran<Run, Traced>;
 
 /// Which run a level is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Reading {
+enum Against {
     /// The next finer one.
     Successive,
     /// The reference.
     Reference,
 }
 
-impl Reading {
-    const ALL: [Reading; 2] = [Reading::Successive, Reading::Reference];
-
-    fn name(self) -> &'static str {
-        match self {
-            Reading::Successive => "successive",
-            Reading::Reference => "reference",
-        }
-    }
-}
-
 pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
     let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
-    for reading in Reading::ALL {
-        let claimed = differences(study, ran, reading, |claim| claim.is_some());
+    for against in [Against::Successive, Against::Reference] {
+        let claimed = differences(study, ran, against, |claim| claim.is_some());
         let judged = claimed.judge();
         quantities.extend(claimed.quantities(&judged));
         rates.extend(judged);
-        let others = differences(study, ran, reading, |claim| claim.is_none());
+        let others = differences(study, ran, against, |claim| claim.is_none());
         shown.extend(others.judge());
         append(&mut errors, claimed.errors());
         append(&mut errors, others.errors());
     }
     quantities.extend(values_guarded(study, ran));
-    let mut checks = vec![levels::completion(ran, not_finite)];
-    checks.push(reference_known(study, ran));
+    let mut checks = vec![completion(ran, not_finite), reference_known(study, ran)];
     checks.extend(contact(study, ran));
     let mut tables = vec![values(study, ran)];
     if !shown.is_empty() {
-        tables.insert(0, levels::rate_table("Rates shown, not claimed: not needed for a pass", &shown));
+        tables.insert(0, rate_table("Rates shown, not claimed: not needed for a pass", &shown));
     }
     Outcome {
         levels: errors,
         tables,
-        figures: vec![to_reference(study, ran, &rates, &shown), figures::tip(study, ran)],
+        figures: vec![to_reference(study, ran, &rates, &shown), tip(study, ran)],
         quantities,
-        ..Outcome::new(levels::summary(&rates), rates, checks)
+        ..Outcome::new(summary(&rates), rates, checks)
     }
 }
 
 /// All differences to the reference; of those of which nothing is claimed, the legend says so.
-fn to_reference(
-    study: &SelfConvergence,
-    ran: &[Found],
-    claimed: &[(String, RateVerdict)],
-    shown: &[(String, RateVerdict)],
-) -> Figure {
+fn to_reference(study: &SelfConvergence, ran: &[Found], claimed: &Rates, shown: &Rates) -> Figure {
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();
     rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
-    let mut differences = differences(study, ran, Reading::Reference, |_| true);
+    let mut differences = differences(study, ran, Against::Reference, |_| true);
     for column in differences.columns.iter_mut().filter(|column| shown.iter().any(|(name, _)| *name == column.name)) {
         column.name = not_claimed(&column.name);
     }
@@ -90,6 +73,30 @@ fn to_reference(
         "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
         &rates,
     )
+}
+
+/// The tip's displacement over time, with the obstacles.
+fn tip(study: &SelfConvergence, ran: &[Found]) -> Figure {
+    let (reference, finest) = (study.levels.len(), study.levels.len() - 1);
+    let name = |k: usize| match study.axis {
+        Axis::Time => format!("{} steps", study.levels[k].steps),
+        Axis::Space | Axis::Both => format!("n = {}", study.levels[k].elements),
+    };
+    let curve = |(k, label): (usize, String)| plots::Series {
+        label,
+        points: found(ran, k).map_or(vec![], |found| found.tip.clone()),
+    };
+    let shown =
+        [(reference, format!("reference, {}", study.references[0].label())), (0, name(0)), (finest, name(finest))];
+    let svg = plots::history(&plots::History {
+        title: Some(format!("Tip of {}", study.scene.name)),
+        y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
+        series: shown.into_iter().map(curve).collect(),
+        guides: obstacle_lines(study.scene.obstacles),
+        ..plots::History::default()
+    });
+    let caption = "Tip displacement on the coarsest and the finest level and in the reference run, with the obstacles.";
+    Figure::new(&study.header.id, "tip", caption, svg)
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.
@@ -105,47 +112,41 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
     }
 }
 
-/// Differences of each level to what the reading compares it with, of the observables whose claim is `wanted`.
+/// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.
 fn differences(
     study: &SelfConvergence,
     ran: &[Found],
-    reading: Reading,
+    against: Against,
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
     let reference = study.levels.len();
-    let count = if reading == Reading::Successive { reference - 1 } else { reference };
-    let finer = |k: usize| if reading == Reading::Successive { k + 1 } else { reference };
-    let found = |k: usize| ran.get(k).and_then(Ran::ok);
+    let (name, count) = match against {
+        Against::Successive => ("successive", reference - 1),
+        Against::Reference => ("reference", reference),
+    };
+    let finer = |k: usize| if against == Against::Successive { k + 1 } else { reference };
     let column = |observable: Observable| {
-        let claim = study.claim(observable);
-        let difference = |k: usize| match (found(k), found(finer(k))) {
-            (Some(coarse), Some(fine)) => Some(observable.difference(coarse, fine)),
-            _ => None,
-        };
+        let claim = study.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim);
+        let difference = |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
         let smooth = Claim { order: observable.order(study.axis, study.order_in_time()), tolerance: SHOWN_TOLERANCE };
         wanted(claim).then(|| ErrorColumn {
-            name: format!("{}, {}", observable.name(), reading.name()),
+            name: format!("{}, {name}", observable.name()),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
             look: observable.look(),
         })
     };
+    let refinement = |k: usize| Refine::level(study.levels[k].elements, study.levels[k].steps, study.step(k));
     Levels {
         axis: study.axis,
-        refinements: study.levels.iter().take(count).map(|&level| refinement(study, level)).collect(),
+        refinements: (0..count).map(refinement).collect(),
         columns: Observable::of(study.axis).filter_map(column).collect(),
     }
 }
 
-fn refinement(study: &SelfConvergence, level: Resolution) -> Refinement {
-    let Resolution { elements, steps } = level;
-    Refinement {
-        label: Refine::label(elements, steps),
-        parameters: [("elements", elements), ("steps", steps)]
-            .map(|(name, count)| (name.to_owned(), count as f64))
-            .into(),
-        step: study.step(level),
-    }
+/// The result of a run: the levels, then the references.
+fn found(ran: &[Found], run: usize) -> Option<&Traced> {
+    ran.get(run)?.ok()
 }
 
 fn not_finite(found: &Traced) -> Vec<String> {
@@ -161,14 +162,14 @@ fn not_finite(found: &Traced) -> Vec<String> {
 
 /// A number of a run at sample `k` from 1; NaN where there is none.
 fn at_sample(ran: &[Found], run: usize, k: usize, number: impl Fn(&Sample) -> f64) -> f64 {
-    ran.get(run).and_then(Ran::ok).and_then(|found| found.samples.get(k - 1)).map_or(f64::NAN, number)
+    found(ran, run).and_then(|found| found.samples.get(k - 1)).map_or(f64::NAN, number)
 }
 
 /// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
 fn values(study: &SelfConvergence, ran: &[Found]) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
-    let ratio = study.step(study.levels[before]) / study.step(study.levels[finest]);
+    let ratio = study.step(before) / study.step(finest);
     let order = Observable::Tip.order(study.axis, study.order_in_time());
     let row = |k: usize| {
         let value = |run: usize| at_sample(ran, run, k, Sample::tip);
@@ -183,16 +184,12 @@ fn values(study: &SelfConvergence, ran: &[Found]) -> Table {
         ]
     };
     let head = ["t", "u(1), finest", "extrapolated", "reference", "error estimated", "against reference"];
-    Table {
-        title: "Tip displacement: finest level, extrapolated, reference".into(),
-        head: head.map(str::to_owned).into(),
-        rows: (1..=study.samples).map(row).collect(),
-    }
+    Table::new("Tip displacement: finest level, extrapolated, reference", head, (1..=study.samples).map(row))
 }
 
 fn contact(study: &SelfConvergence, ran: &[Found]) -> Option<Check> {
     let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
-    let [low, high] = ran.get(study.levels.len()).and_then(Ran::ok).map_or([f64::NAN; 2], |found| found.tip_range);
+    let [low, high] = found(ran, study.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
     let evidence =
         format!("u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}", obstacles.g1, obstacles.g2);
     Some(Check::that(low < obstacles.g1 || high > obstacles.g2, "the tip meets an obstacle", evidence))
@@ -200,50 +197,41 @@ fn contact(study: &SelfConvergence, ran: &[Found]) -> Option<Check> {
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
 fn reference_known(study: &SelfConvergence, ran: &[Found]) -> Check {
-    let found = |k: usize| ran.get(study.levels.len() + k).and_then(Ran::ok);
-    let finest = ran.get(study.levels.len() - 1).and_then(Ran::ok);
-    let part = |&(observable, _): &(Observable, Claim)| {
-        let (Some(finest), Some(one), Some(other)) = (finest, found(0), found(1)) else { return f64::NAN };
-        observable.difference(one, other) / observable.difference(finest, one)
+    let reference = study.levels.len();
+    let part = |observable: Observable| {
+        let (finest, one, other) = (found(ran, reference - 1)?, found(ran, reference)?, found(ran, reference + 1)?);
+        Some(observable.difference(one, other) / observable.difference(finest, one))
     };
-    let parts: Vec<f64> = study.claims.iter().map(part).collect();
-    let worst = parts.iter().copied().fold(0.0, max_or_nan);
-    let named =
-        study.claims.iter().zip(&parts).map(|((observable, _), part)| format!("{} {part:.0e}", observable.name()));
+    let part = |(observable, _): &(Observable, Claim)| (observable.name(), part(*observable).unwrap_or(f64::NAN));
+    let parts: Vec<(&str, f64)> = study.claims.iter().map(part).collect();
+    let worst = parts.iter().map(|(_, part)| *part).fold(0.0, max_or_nan);
     Check::that(
         worst <= KNOWN,
         format!("another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"),
-        named.collect::<Vec<_>>().join(", "),
+        parts.iter().map(|(name, part)| format!("{name} {part:.0e}")).collect::<Vec<_>>().join(", "),
     )
 }
 
 /// Values of the finest level.
-fn values_guarded(study: &SelfConvergence, ran: &[Found]) -> Vec<Quantity> {
-    let finest = study.levels.len() - 1;
-    let last = study.samples;
-    let tip_max = ran.get(finest).and_then(Ran::ok).map_or(f64::NAN, |found| found.tip_range[1]);
-    let values = [
+fn values_guarded(study: &SelfConvergence, ran: &[Found]) -> [Quantity; 3] {
+    let (finest, last) = (study.levels.len() - 1, study.samples);
+    let tip_max = found(ran, finest).map_or(f64::NAN, |found| found.tip_range[1]);
+    [
         (format!("tip {last}"), at_sample(ran, finest, last, Sample::tip)),
         (format!("energy {last}"), at_sample(ran, finest, last, |sample| sample.energy)),
         ("tip max".to_owned(), tip_max),
-    ];
-    let quantity =
-        |(name, value)| Quantity { name: format!("{name}, finest level"), value, tolerance: VALUE_TOLERANCE };
-    values.into_iter().map(quantity).collect()
+    ]
+    .map(|(name, value)| Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE))
 }
 
 impl SelfConvergence {
-    fn claim(&self, observable: Observable) -> Option<&Claim> {
-        self.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim)
-    }
-
-    /// h, or dt where time alone is refined.
-    fn step(&self, level: Resolution) -> f64 {
+    /// h of a level, or dt where time alone is refined.
+    fn step(&self, level: usize) -> f64 {
         match self.axis {
             Axis::Space | Axis::Both => {
-                resampled(&self.scene.mesh, level.elements).map_or(f64::NAN, |mesh| mesh.size())
+                resampled(&self.scene.mesh, self.levels[level].elements).map_or(f64::NAN, |mesh| mesh.size())
             }
-            Axis::Time => self.t_end / level.steps as f64,
+            Axis::Time => self.t_end / self.levels[level].steps as f64,
         }
     }
 

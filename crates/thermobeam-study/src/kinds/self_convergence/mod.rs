@@ -16,21 +16,44 @@
 //! should survive at fixed times, with a constant that depends on where in its step the event falls, so that rates scatter.
 //! The largest displacement over all levels has no such claim: it sits beside the true maximum by a share of a step.
 //! Only what the file claims under `[[expect]]` is judged; the rest is shown with the verdict that it would get.
+//!
+//! ```toml
+//! [scene]
+//! file = "scenes/paper-1-beta-0.toml"
+//!
+//! [refine]
+//! axis = "both"                      # dt = c h, or dt = c h^2; or "time", on one mesh
+//! elements = [10, 20, 40]
+//! steps = [200, 800, 3200]
+//! samples = 10                       # times of comparison
+//!
+//! [[reference]]                      # two of them, that share nothing; with axis = "time" elements of degree 1 on the mesh
+//! elements = 1
+//! degree = 28
+//! time_degree = 4
+//! dt = 0.003
+//! restart_dt = 1e-4
+//! growth = 1.3
+//!
+//! [[expect]]
+//! quantity = "tip"
+//! order = 2.0
+//! tolerance = 0.1
+//! ```
 
-mod cases;
-mod figures;
-mod file;
 mod judge;
 mod observable;
 
-use convergence_study::study::levels::Claim;
-use convergence_study::study::{Axis, Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
-use thermobeam::mesh::Mesh;
-use thermobeam::scheme::Scheme;
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::scheme::{SCHEMES, Scheme};
+use thermobeam::simulation::Stepping;
 use thermobeam::solve::Level;
 
-use crate::kinds::tables::Discretisation;
-use crate::scene::Scene;
+use super::prelude::*;
+use super::tables::{Discretisation, Refine, claims, discretisations};
+use crate::error::reference::{Reference, fine_mesh};
+use crate::run::rerun::{at, resampled, traced};
+use crate::scene::{Method, tables};
 pub use observable::Observable;
 
 /// The row of the table of kinds.
@@ -43,6 +66,9 @@ pub const ROW: KindRow = KindRow {
     failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
               reference fail, scheme and reference solve different equations.",
 };
+
+/// Points of a curve in a figure: more than pixels.
+const CURVE_POINTS: usize = 2000;
 
 /// A study of rates without exact solution.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,13 +132,90 @@ pub struct Traced {
     pub samples: Vec<Sample>,
 }
 
-impl Sample {
-    fn tip(&self) -> f64 {
-        self.level.u.last().copied().unwrap_or(f64::NAN)
+impl FromFile for SelfConvergence {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "scene", "refine", "reference", "expect"])?;
+        let named = root.table("scene", &["file"])?;
+        let file = named.require("file", "the path of a scene, from this file's folder")?;
+        let scene = Scene::read(file.file(folder)?)?;
+        let own = scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
+        let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
+        section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
+        let axes = [("time", Axis::Time), ("both", Axis::Both)];
+        let axis = section.require("axis", "\"time\", \"both\"")?.choice(&axes)?;
+        let samples = section.count("samples", 1..=1000)?;
+        let (levels, power) = levels(&section, axis, samples)?;
+        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
+        let schemes = SCHEMES.map(|scheme| (scheme.name, scheme));
+        let observables: Vec<_> = Observable::of(axis).map(|observable| (observable.name(), observable)).collect();
+        let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
+        Ok(Self {
+            header,
+            axis,
+            scheme: section.get("scheme").map_or(Ok(own.scheme), |field| field.choice(&schemes))?,
+            levels,
+            power,
+            references: discretisations(root, "reference", of_mesh, t_end)?,
+            t_end,
+            samples,
+            contact: contact(&section, &scene)?,
+            claims: claims(root, "quantity", &observables)?,
+            scene,
+        })
     }
+}
 
-    fn rotation(&self) -> f64 {
-        self.level.phi.last().copied().unwrap_or(f64::NAN)
+fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
+    let Some(field) = section.get("contact") else { return Ok(false) };
+    let contact = field.boolean()?;
+    if contact && scene.obstacles.is_none() {
+        return Err(field.refuse("true, of a scene without obstacles", "false, or a scene with obstacles"));
+    }
+    Ok(contact)
+}
+
+/// The levels, coarse to fine, and the power of h that dt is proportional to where both are refined.
+fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<Resolution>, f64), InputError> {
+    let steps = nested_list(section, "steps")?;
+    let (elements, power) = if axis == Axis::Time {
+        let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
+        (vec![one; steps.len()], 1.0)
+    } else {
+        let elements = nested_list(section, "elements")?;
+        (elements.clone(), power(section, &elements, &steps)?)
+    };
+    if !steps[0].is_multiple_of(samples) {
+        let found = format!("{} steps", steps[0]);
+        return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
+    }
+    let level = |(elements, steps)| Resolution { elements, steps };
+    Ok((elements.into_iter().zip(steps).map(level).collect(), power))
+}
+
+/// A list of levels, each of which the one before divides.
+fn nested_list(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of at least two whole numbers, each a multiple of the one before";
+    let list = section.require(key, allowed)?;
+    let mut levels = vec![];
+    for item in list.items(allowed)? {
+        let level = if key == "elements" { tables::elements(&item)? } else { item.count(1..=limits::STEPS)? };
+        if let Some(&before) = levels.last().filter(|before| level <= **before || !level.is_multiple_of(**before)) {
+            return Err(item.refuse_as_written(format!("a multiple of {before}, the level before")));
+        }
+        levels.push(level);
+    }
+    if levels.len() < 2 { Err(list.refuse_as_written(allowed)) } else { Ok(levels) }
+}
+
+/// 1 for dt = c h from level to level, 2 for dt = c h².
+fn power(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<f64, InputError> {
+    let ratios = |list: &[usize]| list.windows(2).map(|pair| pair[1] / pair[0]).collect::<Vec<usize>>();
+    let (finer, shorter) = (ratios(elements), ratios(steps));
+    let is = |power: &u32| finer.iter().map(|ratio| ratio.pow(*power)).eq(shorter.iter().copied());
+    let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+    match [1, 2].into_iter().find(is) {
+        Some(power) => Ok(f64::from(power)),
+        None => Err(section.require("steps", allowed)?.refuse_as_written(allowed)),
     }
 }
 
@@ -124,15 +227,62 @@ impl Kind for SelfConvergence {
         &self.header
     }
 
+    /// Every level, then the two references.
     fn cases(&self) -> Vec<Case<Run>> {
-        cases::cases(self)
+        let level = |&level: &Resolution| Case {
+            label: Refine::label(level.elements, level.steps),
+            cost: level.elements as f64 * level.steps as f64,
+            data: Run::Level(level),
+        };
+        let reference = |(k, how): (usize, &Discretisation)| Case {
+            label: format!("reference, {}", how.label()),
+            cost: how.cost(self.t_end),
+            data: Run::Reference(k),
+        };
+        self.levels.iter().map(level).chain(self.references.iter().enumerate().map(reference)).collect()
     }
 
     fn run(&self, run: &Run) -> Result<Traced, CaseFailure> {
-        cases::run(self, *run)
+        match *run {
+            Run::Level(level) => self.by_the_scheme(level),
+            Run::Reference(k) => self.reference(&self.references[k]),
+        }
     }
 
     fn judge(&self, ran: &[Ran<Run, Traced>]) -> Outcome {
         judge::judge(self, ran)
+    }
+}
+
+impl SelfConvergence {
+    fn reference(&self, how: &Discretisation) -> Result<Traced, CaseFailure> {
+        let found = Reference::compute(&self.scene, how, self.common_mesh()?, self.t_end, self.samples, CURVE_POINTS)?;
+        let sample = |(level, energy)| Sample { level, energy };
+        let samples = found.levels.into_iter().zip(found.energies).map(sample).collect();
+        Ok(Traced { mesh: found.mesh, tip_range: found.tip_range, tip: found.tip, samples })
+    }
+
+    /// The mesh on which levels are compared with a reference.
+    fn common_mesh(&self) -> Result<Mesh, MeshError> {
+        let finest = self.levels.last().map_or(0, |level| level.elements);
+        if self.axis == Axis::Time { resampled(&self.scene.mesh, finest) } else { fine_mesh(&self.scene, finest) }
+    }
+
+    fn by_the_scheme(&self, Resolution { elements, steps }: Resolution) -> Result<Traced, CaseFailure> {
+        let mesh = resampled(&self.scene.mesh, elements)?;
+        let scene = at(&self.scene, mesh.clone(), steps, self.t_end);
+        let method = Method::OneStep(Stepping { scheme: self.scheme, ..scene.one_step()? });
+        let scene = Scene { method, ..scene };
+        // As many points as fit a figure, and all the times that are compared.
+        let (per_sample, most) = (steps / self.samples, (CURVE_POINTS / self.samples).max(1));
+        let stride = (1..=most.min(per_sample)).rev().find(|&divisor| per_sample.is_multiple_of(divisor)).unwrap_or(1);
+        let (mut tip, mut samples) = (vec![], vec![]);
+        let trace = traced(&scene, self.samples * stride, |simulation, level| {
+            tip.push((simulation.t(), level.u[elements]));
+            if tip.len() % stride == 0 {
+                samples.push(Sample { level: level.clone(), energy: simulation.energy(level).total() });
+            }
+        })?;
+        Ok(Traced { mesh, tip_range: trace.tip, tip, samples })
     }
 }

@@ -1,11 +1,10 @@
 //! What is compared between two runs of different resolution.
 
-use convergence_study::study::Axis;
-use convergence_study::text::number::max_or_nan;
 use thermobeam::solve::Level;
 
 use super::{Sample, Traced};
 use crate::error::evaluator::{distance, prolong, restrict};
+use crate::kinds::prelude::*;
 use crate::kinds::tables::Norm;
 
 /// A difference of two runs; each the maximum over the times compared.
@@ -86,10 +85,21 @@ impl Observable {
         match self {
             Observable::TipMax => (coarse.tip_range[1] - fine.tip_range[1]).abs(),
             Observable::Tip => largest(&|a, b| (a.tip() - b.tip()).abs()),
-            Observable::Rotation => largest(&|a, b| (a.rotation() - b.rotation()).abs()),
+            Observable::Rotation => largest(&|a, b| (last(&a.level.phi) - last(&b.level.phi)).abs()),
             Observable::Energy => largest(&|a, b| (a.energy - b.energy).abs()),
             Observable::Theorem34 => largest(&|a, b| distance(&many, &extended(&a.level), &b.level)),
             Observable::Superclose => largest(&|a, b| distance(&few, &a.level, &restrict(&b.level, stride))),
         }
     }
+}
+
+impl Sample {
+    /// u(1).
+    pub(super) fn tip(&self) -> f64 {
+        last(&self.level.u)
+    }
+}
+
+fn last(values: &[f64]) -> f64 {
+    values.last().copied().unwrap_or(f64::NAN)
 }

@@ -1,11 +1,11 @@
 //! Two discretisations of any order, tables with elements, degrees and steps: what one says is checked by the other.
 
-use convergence_study::input::{Field, InputError, POSITIVE, Section};
-use convergence_study::study::CaseFailure;
+use convergence_study::input::POSITIVE;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
+use crate::kinds::prelude::*;
 use crate::run::rerun::resampled;
-use crate::scene::{Method, Scene, limits, tables};
+use crate::scene::{Method, tables};
 
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
@@ -58,8 +58,8 @@ impl Discretisation {
         let growth = "a finite number >= 1";
         let field = section.require("elements", "a whole number >= 1")?;
         let elements = tables::elements(&field)?;
-        let degree = section.require("degree", "a whole number >= 1")?.count(1..=MAX_DEGREE)?;
-        let time_degree = section.require("time_degree", "a whole number >= 0")?.count(0..=MAX_TIME_DEGREE)?;
+        let degree = section.count("degree", 1..=MAX_DEGREE)?;
+        let time_degree = section.count("time_degree", 0..=MAX_TIME_DEGREE)?;
         // Elements of different lengths take more.
         limits::any_order_memory(&field, elements, 1, degree, time_degree)?;
         Ok(Self {
@@ -89,11 +89,9 @@ pub(crate) fn discretisations(
 ) -> Result<[Discretisation; 2], InputError> {
     let allowed = match elements {
         None => format!("two tables [[{key}]] that differ in elements, degree, time_degree and dt"),
-        Some(n) => {
-            format!(
-                "two tables [[{key}]] of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
-            )
-        }
+        Some(n) => format!(
+            "two tables [[{key}]] of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
+        ),
     };
     let field = root.require(key, &allowed)?;
     let items = field.items(&allowed)?;

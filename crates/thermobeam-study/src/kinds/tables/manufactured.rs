@@ -1,11 +1,11 @@
 //! The table `[exact]`: sums of products of a function of x and a function of t.
 
-use crate::scene::functions::FunctionField;
 use thermobeam::parameters::Beam;
 
 use crate::exact::solution::{Manufactured, Product};
 use crate::expression::Variable;
-use convergence_study::input::{Field, InputError, Section};
+use crate::kinds::prelude::*;
+use crate::scene::functions::FunctionField;
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;

@@ -1,22 +1,147 @@
 //! Tables that several kinds of study file have: exact solution, refinement, orders expected, coefficients of a control,
 //! two discretisations of any order.
 
-mod control;
 mod discretisation;
-mod expectation;
-mod levels;
 mod manufactured;
 mod refine;
 
+use thermobeam::parameters::{Beam, Obstacles};
+
+use super::prelude::*;
+use crate::scene::tables;
+
 pub use crate::exact::norm::{Norm, Norms};
 pub use crate::exact::solution::{Manufactured, Product};
-pub use control::Control;
-pub(crate) use control::control;
 pub use discretisation::Discretisation;
 pub(crate) use discretisation::{DISCRETISATION_KEYS, discretisations};
-pub use expectation::Expectation;
-pub(crate) use expectation::expectations;
-pub(crate) use levels::{norm_levels, not_finite};
 pub(crate) use manufactured::manufactured;
-pub(crate) use refine::refine;
 pub use refine::{Perturbation, Refine};
+pub(crate) use refine::{mapped_mesh, mesh_map, refine};
+
+/// The order that theory gives for a norm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expectation {
+    /// The norm.
+    pub norm: Norm,
+    /// The order, > 0.
+    pub order: f64,
+    /// How far the observed rate may be from it, above or below, > 0.
+    pub tolerance: f64,
+}
+
+/// All tables `[[expect]]`: in which norm which order.
+pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
+    let norms = Norm::ALL.map(|norm| (norm.name(), norm));
+    let claims = claims(root, "norm", &norms)?;
+    let expectation = |(norm, Claim { order, tolerance })| Expectation { norm, order, tolerance };
+    Ok(claims.into_iter().map(expectation).collect())
+}
+
+/// All tables `[[expect]]`: of what which order, each once.
+///
+/// * `key`: the key that says of what; `choices`: what it may be.
+pub(crate) fn claims<T: Copy + PartialEq>(
+    root: &Section<'_>,
+    key: &str,
+    choices: &[(&'static str, T)],
+) -> Result<Vec<(T, Claim)>, InputError> {
+    let allowed = format!("at least one table [[expect]] with {key}, order and tolerance");
+    let names = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let field = root.require("expect", &allowed)?;
+    let mut claims: Vec<(T, Claim)> = vec![];
+    for item in field.items(&allowed)? {
+        let section = item.section()?;
+        section.allow(&[key, "order", "tolerance"])?;
+        let of = section.require(key, &names)?.choice(choices)?;
+        if claims.iter().any(|(earlier, _)| *earlier == of) {
+            let name = choices.iter().find(|(_, choice)| *choice == of).map_or("", |(name, _)| name);
+            return Err(section.refuse(key, format!("\"{name}\" a second time"), format!("each {key} once")));
+        }
+        claims.push((of, Claim { order: section.positive("order")?, tolerance: section.positive("tolerance")? }));
+    }
+    if claims.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(claims) }
+}
+
+/// Errors in each norm over the levels of a refinement: a column for each norm, with the order that is expected in it.
+///
+/// * `step`: the step that the errors are judged over, of elements and steps.
+/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` where the case failed.
+pub(crate) fn norm_levels<'r>(
+    refine: &Refine,
+    expect: &[Expectation],
+    step: impl Fn(usize, usize) -> f64,
+    ran: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
+) -> Levels {
+    let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
+    let column = |norm: Norm| ErrorColumn {
+        name: norm.name().to_owned(),
+        errors: ran.clone().map(|(_, errors)| errors.map(|errors| errors[norm])).collect(),
+        claim: expect
+            .iter()
+            .find(|expectation| expectation.norm == norm)
+            .map(|&Expectation { order, tolerance, .. }| Claim { order, tolerance }),
+        look: norm as usize,
+    };
+    Levels {
+        axis: refine.axis,
+        refinements: ran.clone().map(refinement).collect(),
+        columns: Norm::ALL.into_iter().map(column).collect(),
+    }
+}
+
+/// Names of the norms in which the error is not finite.
+pub(crate) fn not_finite(errors: &Norms) -> Vec<String> {
+    errors.iter().filter(|(_, error)| !error.is_finite()).map(|(norm, _)| norm.name().to_owned()).collect()
+}
+
+/// The solver's coefficients in a negative control.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Control {
+    /// The solver's coefficients.
+    pub beam: Beam,
+    /// The solver's obstacles.
+    pub obstacles: Option<Obstacles>,
+    /// The names of those that differ; at least one.
+    pub changed: Vec<&'static str>,
+}
+
+/// The table `[control]`: coefficients in which the solver differs from the sources, whose own are given.
+pub(crate) fn control(
+    root: &Section<'_>,
+    beam: Beam,
+    obstacles: Option<Obstacles>,
+) -> Result<Option<Control>, InputError> {
+    let Some(section) = root.section("control")? else { return Ok(None) };
+    let keys = [&tables::BEAM_KEYS[..], &tables::OBSTACLE_KEYS[..]].concat();
+    section.allow(&keys)?;
+    let mut control = Control { beam, obstacles, changed: Vec::new() };
+    for key in keys {
+        change(&section, key, &mut control)?;
+    }
+    if control.changed.is_empty() {
+        return Err(root.refuse("control", "an empty table", "a table that changes at least one coefficient"));
+    }
+    control.beam.validate().map_err(|error| tables::out_of_range(&section, &error))?;
+    if let Some(obstacles) = control.obstacles {
+        obstacles.validate().map_err(|error| tables::out_of_range(&section, &error))?;
+    }
+    Ok(Some(control))
+}
+
+fn change(section: &Section<'_>, key: &'static str, control: &mut Control) -> Result<(), InputError> {
+    let Some(field) = section.get(key) else { return Ok(()) };
+    let value = field.number()?;
+    let of_obstacles = control.obstacles.as_mut().and_then(|obstacles| tables::obstacle_coefficient(obstacles, key));
+    let Some(coefficient) = tables::beam_coefficient(&mut control.beam, key).or(of_obstacles) else {
+        let found = format!("{} without a table [obstacles]", field.as_written());
+        return Err(field.refuse(found, tables::BEAM_KEYS.join(", ")));
+    };
+    // A control that changes nothing can only pass where it has to fail.
+    if *coefficient == value {
+        let found = format!("{}, which is the value of the sources", field.as_written());
+        return Err(field.refuse(found, "another value"));
+    }
+    *coefficient = value;
+    control.changed.push(key);
+    Ok(())
+}

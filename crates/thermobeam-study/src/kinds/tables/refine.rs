@@ -1,16 +1,14 @@
 //! The table `[refine]`: which meshes and time steps a study runs through.
 
-use crate::scene::functions::FunctionField;
+use convergence_study::judge::random::SplitMix;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
 
 use crate::expression::{Expression, Variable};
-use crate::scene::limits;
+use crate::kinds::prelude::*;
+use crate::scene::functions::FunctionField;
 use crate::scene::tables;
-use convergence_study::input::{Field, InputError, Section};
-use convergence_study::judge::random::SplitMix;
-use convergence_study::study::Axis;
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,23 +74,20 @@ impl Refine {
         format!("n = {elements}, {steps} steps")
     }
 
+    /// A run as a level of refinement.
+    pub(crate) fn level(elements: usize, steps: usize, step: f64) -> Refinement {
+        Refinement::new(Self::label(elements, steps), &[("elements", elements), ("steps", steps)], step)
+    }
+
     /// The mesh of that many elements, displaced and mapped as the study says.
     pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        mesh(elements, self.map.as_ref(), self.perturbation)
+        mapped_mesh(elements, self.map.as_ref(), self.perturbation)
     }
 
     /// The time step, of which there are `steps`.
     pub fn dt(&self, steps: usize) -> f64 {
         self.t_end / steps as f64
     }
-}
-
-fn mesh(elements: usize, map: Option<&Expression>, perturbation: Option<Perturbation>) -> Result<Mesh, MeshError> {
-    Mesh::mapped(elements, |s| {
-        let index = (s * elements as f64).round() as usize;
-        let s = perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
-        map.map_or(s, |map| map.eval(s))
-    })
 }
 
 /// The table `[refine]`.
@@ -103,14 +98,15 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
     let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
+    let perturbation = perturbation(&section)?;
     let refine = Refine {
         axis,
         isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
         steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
         grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
         t_end: section.positive("t_end")?,
-        perturbation: perturbation(&section)?,
-        map: map(&section, &elements, perturbation(&section)?)?,
+        perturbation,
+        map: mesh_map(&section, &elements, perturbation)?,
         elements,
         scheme: tables::scheme(&section)?,
         settings: tables::settings(&section)?,
@@ -173,8 +169,8 @@ fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputErro
     Ok(Some(Perturbation { amount, seed }))
 }
 
-/// The mesh map, tried out on every level.
-fn map(
+/// The key `map`, a function of s, tried out on every level.
+pub(crate) fn mesh_map(
     section: &Section<'_>,
     elements: &[usize],
     perturbation: Option<Perturbation>,
@@ -183,7 +179,23 @@ fn map(
     let map = field.expression(Variable::S)?;
     field.finite(&map, 1.0, 0)?;
     for &elements in elements {
-        tables::checked_mesh(mesh(elements, Some(&map), perturbation), &field)?;
+        tables::checked_mesh(mapped_mesh(elements, Some(&map), perturbation), &field)?;
     }
     Ok(Some(map))
+}
+
+/// The mesh of so many elements, displaced and then mapped.
+///
+/// # Errors
+/// [`MeshError`] where its nodes do not increase from 0 to 1.
+pub(crate) fn mapped_mesh(
+    elements: usize,
+    map: Option<&Expression>,
+    perturbation: Option<Perturbation>,
+) -> Result<Mesh, MeshError> {
+    Mesh::mapped(elements, |s| {
+        let index = (s * elements as f64).round() as usize;
+        let s = perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
+        map.map_or(s, |map| map.eval(s))
+    })
 }

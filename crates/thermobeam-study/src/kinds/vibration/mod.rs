@@ -2,20 +2,31 @@
 //!
 //! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] moves by itself, and a beam started
 //! from a sum of modes stays that sum for ever. Nothing is manufactured: no load keeps the solution in place, so an
-//! error in the scheme and the same error in the sources cannot cancel. The module `clock` tells how space and time errors
+//! error in the scheme and the same error in the sources cannot cancel. The module `motion` tells how space and time errors
 //! are measured one without the other.
 
-mod cases;
-mod clock;
-mod file;
-mod judge;
 mod mesh_modes;
 mod motion;
 
-use convergence_study::study::{Axis, Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
-use thermobeam::parameters::Beam;
+use std::ops::ControlFlow;
 
-use crate::kinds::tables::{Expectation, Norms, Refine};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::Beam;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::Level;
+use thermobeam::vibration::Mode;
+
+use super::prelude::*;
+use super::tables::{
+    Expectation, Norm, Norms, Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine,
+};
+use crate::error::design;
+use crate::exact::errors::ErrorMeter;
+use crate::exact::factors::Factors;
+use crate::exact::sources::Nodal;
+use crate::run::driver::{Driver, RunError};
+use crate::scene::tables;
+use motion::{Modes, Motion};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -28,6 +39,10 @@ pub const ROW: KindRow = KindRow {
     failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
               can be to blame.",
 };
+
+/// How far the solver may be from the closed form of its own steps, relative to the motion's size in the norm of
+/// Theorem 3.4. Measured are 3e-14; a coefficient that is off by 1e-10 would show.
+const CLOSED_FORM: f64 = 1e-12;
 
 /// A study of exact vibrations.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,10 +90,81 @@ pub struct Vibrated {
     pub tip: Vec<(f64, f64)>,
 }
 
-impl Vibration {
-    fn isolates(&self, axis: Axis) -> bool {
-        self.refine.isolate && self.refine.axis == axis
+impl FromFile for Vibration {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
+        let beam = linear_beam(root)?;
+        let refine = refine(root)?;
+        bounded(root, &refine)?;
+        let (modes, heat) = (modes(root, &refine)?, heat(root, &refine)?);
+        let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
+        Ok(Self { header, beam, solver, modes, heat, refine, expect: expectations(root)? })
     }
+}
+
+/// The beam, which must be one whose modes are exact.
+fn linear_beam(root: &Section<'_>) -> Result<Beam, InputError> {
+    let beam = tables::beam(root)?;
+    for (key, value) in [("a", beam.a), ("rho", beam.rho), ("beta", beam.beta), ("theta_a", beam.theta_a)] {
+        if value != 0.0 {
+            let allowed = "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
+            let section = root.require("beam", "a table with zeta, a = 0 and rho = 0")?.section()?;
+            return Err(section.refuse(key, format!("{value:?}"), allowed));
+        }
+    }
+    Ok(beam)
+}
+
+/// The tip is kept at every step, and the modes of a mesh are found by a dense method.
+fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
+    let section = root.require("refine", "a table")?.section()?;
+    let (steps, elements) = (section.require("steps", "a number")?, section.require("elements", "a number")?);
+    for &level in &refine.steps {
+        limits::steps_until(&steps, refine.t_end, refine.dt(level), limits::RECORDED_STEPS)?;
+    }
+    if isolates(refine, Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
+}
+
+fn isolates(refine: &Refine, axis: Axis) -> bool {
+    refine.isolate && refine.axis == axis
+}
+
+/// The indices that may be asked for: a study that starts from the modes of its mesh has `of_mesh` of them.
+fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
+    1..=if isolates(refine, Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
+}
+
+fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<Vibrating>, InputError> {
+    let read = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["index", "amplitude", "velocity"])?;
+        let index = section.count("index", indices(refine, 2 * refine.elements[0]))? - 1;
+        let amplitude = section.get("amplitude").map_or(Ok(0.0), |field| field.number())?;
+        let velocity = section.get("velocity").map_or(Ok(0.0), |field| field.number())?;
+        if amplitude == 0.0 && velocity == 0.0 {
+            let allowed = "an amplitude or a velocity other than 0";
+            return Err(section.refuse("amplitude", "a mode that does not move", allowed));
+        }
+        Ok(Vibrating { index, start: [amplitude, velocity] })
+    };
+    let allowed = "at least one table [[mode]] with index and amplitude or velocity";
+    root.list("mode", allowed, read, |modes| !modes.is_empty())
+}
+
+fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<Cooling>, InputError> {
+    if root.get("heat").is_none() {
+        return Ok(vec![]);
+    }
+    let read = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["index", "amplitude"])?;
+        let allowed = "a finite number other than 0";
+        Ok(Cooling {
+            k: section.count("index", indices(refine, refine.elements[0].saturating_sub(1).max(1)))?,
+            amplitude: section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?,
+        })
+    };
+    root.list("heat", "tables [[heat]] with index and amplitude", read, |_| true)
 }
 
 impl Kind for Vibration {
@@ -91,14 +177,146 @@ impl Kind for Vibration {
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        cases::cases(self)
+        let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
+        let case = |data: (usize, usize)| Case { label: Refine::label(data.0, data.1), cost: cost(data), data };
+        self.refine.cases().into_iter().map(case).collect()
     }
 
-    fn run(&self, resolution: &(usize, usize)) -> Result<Vibrated, CaseFailure> {
-        cases::run(self, *resolution)
+    /// The solver beside the motion that it has to give.
+    fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
+        let Refine { scheme, settings, .. } = self.refine;
+        let (dt, mesh) = (self.refine.dt(steps), self.refine.mesh(elements)?);
+        let of_mesh = isolates(&self.refine, Axis::Time);
+        let modes = if of_mesh { Modes::of_mesh(self, &mesh)? } else { Modes::of_beam(self)? };
+        let by_scheme = || modes.by(scheme, dt, steps);
+        let reference = if isolates(&self.refine, Axis::Space) { by_scheme() } else { modes.exactly(dt, steps) };
+        let closed = of_mesh.then(by_scheme);
+
+        let mut factors = Factors::default();
+        reference.at(0, &mut factors);
+        let nodal = Nodal::of(&modes.exact, &mesh);
+        let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.solver.theta_a);
+        let mut meter = ErrorMeter::new(&modes.exact, &mesh, of_mesh);
+        meter.lift(&mesh, self.solver.theta_a);
+        let tips = nodal.u.iter().map(|values| values[elements]).collect();
+        let problem = Problem { beam: self.solver, obstacles: None, mesh: Mesh::clone(&mesh), initial };
+        let driver = Driver::new(problem, Stepping { scheme, settings, dt, loaded: false })?;
+        Ok(Comparison { meter, tips, factors, reference, closed }.follow(driver, steps)?)
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
-        judge::judge(self, ran)
+        let mut checks = vec![completion(ran, |found| {
+            let mut names = norms_not_finite(&found.errors);
+            names.extend(readings::not_finite(&[Reading::new("closed form", found.closed_form)]));
+            names
+        })];
+        if isolates(&self.refine, Axis::Time) {
+            checks.push(closed_form(ran));
+        }
+        // Over dt where only time is refined, else over h.
+        let step = |elements: usize, steps: usize| match self.refine.axis {
+            Axis::Time => self.refine.dt(steps),
+            Axis::Space | Axis::Both => self.refine.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+        };
+        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
+        let levels = norm_levels(&self.refine, &self.expect, step, errors);
+        let caption = "Errors against exact damped modes, with the orders that theory gives.";
+        let title = Some("Damped vibration, no source term");
+        let mut outcome = levels.outcome(&self.header.id, "errors", title, caption, checks);
+        if self.refine.axis == Axis::Both {
+            outcome.figures.extend(self.tip_figure(ran));
+        }
+        Outcome { tables: vec![self.modes_table()], ..outcome }
+    }
+}
+
+/// The motion that the solver is held against.
+struct Comparison {
+    meter: ErrorMeter,
+    /// U(1) of each mode.
+    tips: Vec<f64>,
+    factors: Factors,
+    reference: Motion,
+    closed: Option<Motion>,
+}
+
+impl Comparison {
+    /// Runs the solver and keeps the largest error in each norm.
+    fn follow(mut self, mut driver: Driver, steps: usize) -> Result<Vibrated, RunError> {
+        let dt = driver.simulation().dt();
+        let start = driver.level();
+        let tip = start.u.len() - 1;
+        let zero = Level::new(start.u.len());
+        let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
+        let (mut exact_tip, mut tips) = (vec![(0.0, self.exact_tip())], vec![(0.0, start.u[tip])]);
+        driver.run(steps, |step| {
+            let n = step.simulation.step();
+            if let Some(closed) = &self.closed {
+                closed.at(n, &mut self.factors);
+                let mut distance = |level: &Level| self.meter.measure(level, &self.factors)[Norm::Theorem34];
+                deviation = max_or_nan(deviation, distance(step.new));
+                size = max_or_nan(size, distance(&zero));
+            }
+            self.reference.at(n, &mut self.factors);
+            errors = errors.max(&self.meter.measure(step.new, &self.factors));
+            let t = n as f64 * dt;
+            exact_tip.push((t, self.exact_tip()));
+            tips.push((t, step.new.u[tip]));
+            ControlFlow::<()>::Continue(())
+        })?;
+        Ok(Vibrated { errors, closed_form: self.closed.map(|_| deviation / size), exact_tip, tip: tips })
+    }
+
+    /// u(1) of the motion with the present factors.
+    fn exact_tip(&self) -> f64 {
+        self.tips.iter().zip(&self.factors.u.value).map(|(tip, factor)| tip * factor).sum()
+    }
+}
+
+/// In the design that isolates time the solver's result is known to the last digit.
+fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
+    let deviation = |ran: &Ran<_, Vibrated>| ran.ok().and_then(|found| found.closed_form).unwrap_or(f64::NAN);
+    let worst = ran.iter().map(deviation).fold(0.0, max_or_nan);
+    Check::that(
+        worst <= CLOSED_FORM && !ran.is_empty(),
+        "each step is the scheme's own step of each mode of the mesh, to round-off",
+        format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
+    )
+}
+
+impl Vibration {
+    fn modes_table(&self) -> Table {
+        let row = |&Vibrating { index, start }: &Vibrating| {
+            let omega = Mode::new(index).omega();
+            let damping = 0.5 * self.beam.zeta * omega;
+            vec![
+                (index + 1).to_string(),
+                format!("{omega:.11}"),
+                format!("{damping:.4}"),
+                if damping < 1.0 { "underdamped" } else { "overdamped" }.into(),
+                start[0].to_string(),
+                start[1].to_string(),
+            ]
+        };
+        let head = ["mode", "ω", "ζω/2", "motion", "u(1) at t = 0", "u_t(1) at t = 0"];
+        Table::new("Modes superposed", head, self.modes.iter().map(row))
+    }
+
+    /// The tip's displacement on the coarsest and the finest level beside the exact one.
+    fn tip_figure(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Option<Figure> {
+        let (first, last) = (ran.first()?, ran.last()?);
+        let (coarsest, finest) = (first.ok()?, last.ok()?);
+        let curves =
+            [("exact", &finest.exact_tip), (&first.case.label, &coarsest.tip), (&last.case.label, &finest.tip)];
+        let svg = plots::history(&plots::History {
+            title: Some("Tip of the vibrating beam".into()),
+            y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
+            series: curves
+                .map(|(label, points)| plots::Series { label: label.to_owned(), points: points.clone() })
+                .into(),
+            ..plots::History::default()
+        });
+        let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
+        Some(Figure::new(&self.header.id, "tip", caption, svg))
     }
 }

@@ -11,16 +11,13 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
-mod judge;
+use convergence_study::judge::verdict::Verdict;
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, Outcome, Ran};
-
-use super::fault::{BROKEN, Errors, Fault, named_studies};
+use super::{BROKEN, Fault, Matrix, below_one, named_studies, verdicts};
 use crate::error::design::Prepared;
+use crate::exact::norm::Norms;
 use crate::kinds::convergence::Convergence;
+use crate::kinds::prelude::*;
 
 /// A study of planted faults.
 pub struct Controls {
@@ -45,17 +42,15 @@ pub struct LevelOf {
 pub struct Planted {
     /// What was wrong.
     pub fault: Fault,
-    /// Errors in the order of [`Norm::ALL`](crate::kinds::tables::Norm::ALL); NaN where the run broke down.
-    pub errors: Errors,
+    /// The error in each norm; NaN where the run broke down.
+    pub errors: Norms,
 }
 
 impl FromFile for Controls {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "controls"])?;
         let section = root.require("controls", "a table with relative and studies")?.section()?;
         section.allow(&["relative", "studies", "elements"])?;
-        let allowed = "a number between 0 and 1";
-        let relative = section.require("relative", allowed)?.number_where(allowed, |r| r > 0.0 && r < 1.0)?;
+        let relative = below_one(&section.require("relative", "a number between 0 and 1")?)?;
         Ok(Self { header, relative, studies: named_studies(&section, folder)? })
     }
 }
@@ -76,10 +71,8 @@ impl Kind for Controls {
             cost: n as f64 * (steps as f64 * faults + 50.0),
             data: LevelOf { study, elements: n, steps },
         };
-        let of_study = |(study, spec): (usize, &Convergence)| {
-            spec.refine.cases().into_iter().map(move |level| (study, level)).collect::<Vec<_>>()
-        };
-        self.studies.iter().enumerate().flat_map(of_study).map(|(study, level)| case(study, level)).collect()
+        let levels = |study: usize| self.studies[study].refine.cases().into_iter().map(move |level| case(study, level));
+        (0..self.studies.len()).flat_map(levels).collect()
     }
 
     fn run(&self, level: &LevelOf) -> Result<Vec<Planted>, CaseFailure> {
@@ -89,7 +82,7 @@ impl Kind for Controls {
         for fault in Fault::all() {
             let Some(disagreement) = fault.plant(spec, self.relative) else { continue };
             // A fault that breaks a run down is detected; only the honest run has to end.
-            let errors: Errors = match prepared.run(level.steps, disagreement) {
+            let errors = match prepared.run(level.steps, disagreement) {
                 Ok(errors) => errors,
                 Err(failure) if fault == Fault::None => return Err(failure),
                 Err(_) => BROKEN,
@@ -100,6 +93,37 @@ impl Kind for Controls {
     }
 
     fn judge(&self, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Outcome {
-        judge::judge(self, ran)
+        // Of a wrong run a number that is not finite is a detection.
+        let not_finite = |found: &Vec<Planted>| {
+            let honest = found.iter().find(|planted| planted.fault == Fault::None);
+            let finite = honest.is_some_and(|planted| planted.errors.iter().all(|(_, error)| error.is_finite()));
+            if finite { vec![] } else { vec!["an error without a fault".to_owned()] }
+        };
+        let headers = self.studies.iter().map(|spec| &spec.header);
+        let mut matrix = Matrix::new(headers, false, completion(ran, not_finite));
+        for fault in Fault::all() {
+            let verdicts: Vec<_> = (0..self.studies.len()).map(|study| self.verdict(study, fault, ran)).collect();
+            let cell = |verdict: &Option<Verdict>| verdict.map_or("n/a", Verdict::name).to_owned();
+            matrix.add(fault, &verdicts, verdicts.iter().map(cell).collect());
+        }
+        let headline = format!("{} of {} planted faults detected", matrix.detected, matrix.faults);
+        let summary = format!("{headline}, coefficients being off by {:e}", self.relative);
+        let title = "Verdict of each study under each fault: `fail` detects it; n/a: term absent";
+        let tables = vec![matrix.table(title, "fault")];
+        Outcome { headline, tables, ..Outcome::new(summary, vec![], matrix.checks) }
+    }
+}
+
+impl Controls {
+    /// The verdict of one study under one fault, the worst over its norms; `None` where the fault cannot be planted.
+    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Option<Verdict> {
+        let spec = &self.studies[study];
+        fault.plant(spec, self.relative)?;
+        let level = |ran: &Ran<LevelOf, Vec<Planted>>| {
+            let planted = ran.ok().and_then(|found| found.iter().find(|planted| planted.fault == fault));
+            ((ran.case.data.elements, ran.case.data.steps), planted.map_or(BROKEN, |planted| planted.errors))
+        };
+        let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.study == study).map(level).collect();
+        Some(Verdict::worst(verdicts(spec, &levels)))
     }
 }

@@ -1,0 +1,110 @@
+//! Numbers that a case finds, each declared once: shown in tables, looked through for NaN, guarded by the baseline.
+
+use super::outcome::{Quantity, Table};
+
+/// A number that a case finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Its name, which heads its column of a table.
+    pub name: String,
+    /// The number; `None` where there need not be one.
+    pub value: Option<f64>,
+    /// How a table shows it; `None` where no table does.
+    text: Option<String>,
+    /// The name under which the baseline guards it, and the relative change that is tolerated.
+    guard: Option<(String, f64)>,
+}
+
+impl Reading {
+    /// A number that no table shows and that is not guarded.
+    pub fn new(name: impl Into<String>, value: impl Into<Option<f64>>) -> Self {
+        Self { name: name.into(), value: value.into(), text: None, guard: None }
+    }
+
+    /// A cell that is no number.
+    pub fn text(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { text: Some(text.into()), ..Self::new(name, None) }
+    }
+
+    /// The same number, shown in tables; as a dash where there is none.
+    pub fn shown(self, text: impl Fn(f64) -> String) -> Self {
+        Self { text: Some(self.value.map_or_else(|| "-".to_owned(), text)), ..self }
+    }
+
+    /// The same number, shown with so many digits after the first.
+    pub fn scientific(self, digits: usize) -> Self {
+        self.shown(|value| format!("{value:.digits$e}"))
+    }
+
+    /// The same number, shown with so many digits after the point.
+    pub fn fixed(self, digits: usize) -> Self {
+        self.shown(|value| format!("{value:.digits$}"))
+    }
+
+    /// The same number, guarded by the baseline.
+    ///
+    /// * `tolerance`: relative change that is tolerated.
+    pub fn guarded(self, name: impl Into<String>, tolerance: f64) -> Self {
+        Self { guard: Some((name.into(), tolerance)), ..self }
+    }
+}
+
+/// Names of the readings that are NaN or infinite, for [`completion`](super::levels::completion).
+pub fn not_finite(readings: &[Reading]) -> Vec<String> {
+    let broken = readings.iter().filter(|reading| reading.value.is_some_and(|value| !value.is_finite()));
+    broken.map(|reading| reading.name.clone()).collect()
+}
+
+/// The readings that the baseline guards; one without a value is NaN.
+pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quantity> {
+    let quantity = |reading: &Reading| {
+        let (name, tolerance) = reading.guard.clone()?;
+        Some(Quantity { name, value: reading.value.unwrap_or(f64::NAN), tolerance })
+    };
+    readings.into_iter().filter_map(quantity).collect()
+}
+
+/// The readings that are shown, a column each; a row that lacks one has a dash.
+///
+/// * `rows`: the cells of a row that are no readings, and its readings.
+pub fn table(title: impl Into<String>, first: &[&str], rows: &[(Vec<String>, Vec<Reading>)]) -> Table {
+    let mut names: Vec<&str> = vec![];
+    for reading in rows.iter().flat_map(|(_, readings)| readings).filter(|reading| reading.text.is_some()) {
+        if !names.contains(&reading.name.as_str()) {
+            names.push(&reading.name);
+        }
+    }
+    let cell = |readings: &[Reading], name: &str| {
+        let text = readings.iter().find(|reading| reading.name == name).and_then(|reading| reading.text.clone());
+        text.unwrap_or_else(|| "-".to_owned())
+    };
+    let row = |(first, readings): &(Vec<String>, Vec<Reading>)| {
+        [first.clone(), names.iter().map(|name| cell(readings, name)).collect()].concat()
+    };
+    Table::new(title, first.iter().chain(&names).copied(), rows.iter().map(row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_declaration_gives_completion_table_and_guarded_numbers() {
+        let readings = |force: f64, time: Option<f64>| {
+            let force = Reading::new("force", force).scientific(1).guarded("peak", 1e-6);
+            vec![force, Reading::new("time", time).fixed(2), Reading::new("size", f64::NAN)]
+        };
+        let rows = [
+            (vec!["a".to_owned()], readings(0.25, None)),
+            (vec!["b".to_owned()], readings(f64::NAN, Some(1.0))),
+            (vec!["c".to_owned()], vec![Reading::text("end", "rest")]),
+        ];
+        let table = table("t", &["case"], &rows);
+        assert_eq!(table.head, ["case", "force", "time", "end"]);
+        assert_eq!(table.rows, [["a", "2.5e-1", "-", "-"], ["b", "NaN", "1.00", "-"], ["c", "-", "-", "rest"]]);
+        assert_eq!(not_finite(&rows[0].1), ["size"]);
+        assert_eq!(not_finite(&rows[1].1), ["force", "size"]);
+        assert_eq!(guarded(&rows[0].1), [Quantity::new("peak", 0.25, 1e-6)]);
+        assert!(guarded([&Reading::new("x", None).guarded("x", 0.1)])[0].value.is_nan());
+    }
+}

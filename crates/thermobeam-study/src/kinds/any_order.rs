@@ -1,0 +1,444 @@
+//! Orders of the scheme of any order: elements of degree p in space, dG(q) in time.
+//!
+//! Against a manufactured solution, contact included, or a free vibration without any load: the error at the end falls like h^(p+1) in the fields and h^p in
+//! their slopes; like dt^(2q+1) at the ends of steps and, inside steps, dt^(q+2) in u and dt^(q+1) in its velocity; and
+//! exponentially in p.
+//!
+//! ```toml
+//! [run]
+//! over = "space"        # "space", "time" or "degree"
+//! t_end = 0.3
+//! time_degree = 4       # but for "time"
+//! steps = 15            # but for "time"
+//! degree = 14           # for "time"
+//! elements = 1          # for "time" and "degree"
+//! map = "0.8*s + 0.2*s^2"
+//!
+//! [vibration]           # instead of [beam], [obstacles] and [exact]: modes that no load keeps in place
+//! zeta = 0.1
+//! modes = [1, 3]        # from 1, the lowest
+//!
+//! [control]             # optional: coefficients in which the solver differs from the loads; then the study must fail
+//! zeta = 0.101
+//!
+//! [[series]]
+//! degree = 2            # "space"; or time_degree = 1 for "time"
+//! elements = [4, 8, 16] # "space"; or steps = [...] for "time"; or degrees = [...] for "degree"
+//! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
+//! ```
+
+use convergence_study::plots::look::look;
+use convergence_study::plots::marker::Marks;
+use convergence_study::plots::xy::{Curve, Xy};
+use convergence_study::run::time_limit::Patience;
+use convergence_study::study::levels::summary;
+use convergence_study::text::number::counted;
+use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::parameters::{Beam, Obstacles};
+
+use super::prelude::*;
+use super::tables::{Control, Manufactured, control, manufactured, mapped_mesh, mesh_map};
+use crate::error::free_vibration;
+use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
+use crate::expression::Expression;
+use crate::scene::tables;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "any-order",
+    read: reader::<AnyOrder>,
+    why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
+          error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
+          polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",
+    judged: "For each degree the rate over h or dt by the rule of every rate, other errors being at round-off; over p the error \
+             must fall by the factor claimed for each degree until it reaches round-off.",
+    failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
+              is stopped too early: look at the highest degree that still passes.",
+};
+
+/// Steps of a run: at high degree a few hundred reach round-off.
+const MOST_STEPS: usize = 100_000;
+
+/// Where inside a step the errors are measured: no Gauss or Radau point, where they are smaller.
+const INSIDE: [f64; 2] = [0.13, 0.61];
+
+/// Error below which a further degree gains nothing: round-off of the loads and the initial data.
+const ROUND_OFF: f64 = 2e-12;
+
+/// What is refined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Over {
+    /// The mesh, for each degree p.
+    Space,
+    /// The steps, for each degree q.
+    Time,
+    /// The degree p itself.
+    Degree,
+}
+
+/// One run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resolution {
+    /// Degree p of the elements.
+    pub degree: usize,
+    /// Elements n.
+    pub elements: usize,
+    /// Degree q in time.
+    pub time_degree: usize,
+    /// Number of steps, all of the same length.
+    pub steps: usize,
+}
+
+/// Errors of one run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Root of the sum of the squares of the L2 errors of u, φ, u_t, φ_t, θ at the end.
+    pub fields: f64,
+    /// The same of their slopes.
+    pub slopes: f64,
+    /// Largest L2 error of u inside steps.
+    pub inside_u: f64,
+    /// Largest L2 error of u_t inside steps.
+    pub inside_u_t: f64,
+}
+
+/// Runs that are judged together.
+#[derive(Debug, Clone, PartialEq)]
+struct RunsOfDegree {
+    /// The runs, coarse to fine.
+    runs: Vec<Resolution>,
+    /// How far a rate may be from its order; for runs over p the factor by which the error falls for each degree.
+    tolerance: f64,
+}
+
+/// A study of orders.
+#[derive(Clone)]
+pub struct AnyOrder {
+    header: Header,
+    beam: Beam,
+    obstacles: Option<Obstacles>,
+    exact: Manufactured,
+    /// Whether loads keep the exact solution in place; a free vibration needs none.
+    loaded: bool,
+    /// The solver's own coefficients, where they differ: then the study must fail.
+    control: Option<Control>,
+    map: Option<Expression>,
+    t_end: f64,
+    over: Over,
+    series: Vec<RunsOfDegree>,
+}
+
+impl FromFile for AnyOrder {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        let vibration = root.section("vibration")?;
+        let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
+        root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
+        let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
+        let overs = [("space", Over::Space), ("time", Over::Time), ("degree", Over::Degree)];
+        let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&overs)?;
+        run.allow(match over {
+            Over::Space => &["over", "t_end", "time_degree", "steps", "map"][..],
+            Over::Time => &["over", "t_end", "degree", "elements", "map"],
+            Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
+        })?;
+        let t_end = run.positive("t_end")?;
+        let (beam, obstacles, exact) = match &vibration {
+            Some(section) => free(section)?,
+            None => {
+                let beam = tables::beam(root)?;
+                (beam, tables::obstacles(root)?, manufactured(root, &beam, t_end)?)
+            }
+        };
+        let one = |item: &Field<'_>| series(&run, over, &item.section()?);
+        let series = root.list("series", "at least one table [[series]]", one, |list| !list.is_empty())?;
+        let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
+        let (control, map) = (control(root, beam, obstacles)?, mesh_map(&run, &elements, None)?);
+        Ok(AnyOrder { header, beam, obstacles, exact, loaded: vibration.is_none(), control, map, t_end, over, series })
+    }
+}
+
+/// Free vibrations: the beam whose modes are exact, and the modes, each released from a tip displacement of 0.1.
+fn free(section: &Section<'_>) -> Result<(Beam, Option<Obstacles>, Manufactured), InputError> {
+    const AMPLITUDE: f64 = 0.1;
+    section.allow(&["zeta", "modes"])?;
+    let zeta = section.positive("zeta")?;
+    let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
+    let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
+    let modes = section.list("modes", &allowed, mode, |modes| !modes.is_empty())?;
+    let refused = |_| section.refuse("modes", "modes without a motion", allowed);
+    Ok((free_vibration::beam(zeta), None, free_vibration::vibration(&modes, zeta).map_err(refused)?))
+}
+
+/// A table `[[series]]`, and what the runs of all series have in common.
+fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOfDegree, InputError> {
+    let elements = || tables::elements(&run.require("elements", "a whole number >= 1")?);
+    let increasing = |key: &str, read: &dyn Fn(&Field<'_>) -> Result<usize, InputError>| {
+        let allowed = "a list of at least three increasing whole numbers";
+        section.list(key, allowed, read, |list| list.len() >= 3 && increases(list))
+    };
+    let with = |degree, elements, time_degree, steps| Resolution { degree, elements, time_degree, steps };
+    let time_degree = |of: &Section<'_>| of.count("time_degree", 0..=MAX_TIME_DEGREE);
+    let degree = |of: &Section<'_>| of.count("degree", 1..=MAX_DEGREE);
+    let (runs, key): (Vec<Resolution>, _) = match over {
+        Over::Space => {
+            section.allow(&["degree", "elements", "tolerance"])?;
+            let (q, steps, p) = (time_degree(run)?, run.count("steps", 1..=MOST_STEPS)?, degree(section)?);
+            let list = increasing("elements", &tables::elements)?;
+            (list.into_iter().map(|elements| with(p, elements, q, steps)).collect(), "tolerance")
+        }
+        Over::Time => {
+            section.allow(&["time_degree", "steps", "tolerance"])?;
+            let (p, q, elements) = (degree(run)?, time_degree(section)?, elements()?);
+            let list = increasing("steps", &|field| field.count(1..=MOST_STEPS))?;
+            (list.into_iter().map(|steps| with(p, elements, q, steps)).collect(), "tolerance")
+        }
+        Over::Degree => {
+            section.allow(&["degrees", "factor"])?;
+            let (q, steps, elements) = (time_degree(run)?, run.count("steps", 1..=MOST_STEPS)?, elements()?);
+            let list = increasing("degrees", &|field| field.count(1..=MAX_DEGREE))?;
+            (list.into_iter().map(|degree| with(degree, elements, q, steps)).collect(), "factor")
+        }
+    };
+    let least = if over == Over::Degree { 1.0 } else { 0.0 };
+    let allowed = format!("a finite number > {least}");
+    let tolerance = section.require(key, &allowed)?.number_where(&allowed, |value| value > least)?;
+    Ok(RunsOfDegree { runs, tolerance })
+}
+
+impl Kind for AnyOrder {
+    type Data = Resolution;
+    type Found = Errors;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<Resolution>> {
+        let case = |&data: &Resolution| {
+            let Resolution { degree, elements, time_degree, steps } = data;
+            let label = match self.over {
+                Over::Space => format!("p = {degree}, n = {elements}"),
+                Over::Time => format!("q = {time_degree}, {steps} steps"),
+                Over::Degree => format!("p = {degree}"),
+            };
+            let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
+            Case { label, cost, data }
+        };
+        self.series.iter().flat_map(|series| &series.runs).map(case).collect()
+    }
+
+    /// The errors at the end and, for a study over time, inside every step.
+    fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
+        let mut simulation = self.simulation(*resolution)?;
+        // The temperature that the solver means: what it computes is lifted by its own.
+        let theta_a = self.solver_coefficients().0.theta_a;
+        let mut level = simulation.level().clone();
+        let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
+        let mut patience = Patience::new(simulation.space().blocks() * (resolution.time_degree + 1));
+        let mut meter = ErrorMeter::new(&self.exact, theta_a, simulation.space());
+        loop {
+            patience.check(simulation.work().steps, || simulation.t())?;
+            if simulation.step(self.t_end)?.is_none() {
+                break;
+            }
+            // Only a study over time judges these.
+            if self.over == Over::Time {
+                let (from, to) = (simulation.old_level().t, simulation.t());
+                for s in INSIDE {
+                    if simulation.level_into(from + s * (to - from), &mut level) {
+                        let LevelErrors { values: [u, _, u_t, ..], .. } = meter.errors(&level);
+                        inside_u = max_or_nan(inside_u, u);
+                        inside_u_t = max_or_nan(inside_u_t, u_t);
+                    }
+                }
+            }
+        }
+        let LevelErrors { values, slopes } = meter.errors(simulation.level());
+        let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
+        Ok(Errors { fields: together(values), slopes: together(slopes), inside_u, inside_u_t })
+    }
+
+    fn judge(&self, ran: &[Ran<Resolution, Errors>]) -> Outcome {
+        let completion = completion(ran, |&Errors { fields, slopes, inside_u, inside_u_t }| {
+            let named = [("fields", fields), ("slopes", slopes), ("u inside", inside_u), ("u_t inside", inside_u_t)];
+            readings::not_finite(&named.map(|(name, error)| Reading::new(name, error)))
+        });
+        let mut rest = ran;
+        let of_series = |series| {
+            // Fewer where some are missing.
+            let series: &RunsOfDegree = series;
+            let (mine, others) = rest.split_at(series.runs.len().min(rest.len()));
+            rest = others;
+            (series, mine)
+        };
+        let runs: Vec<(&RunsOfDegree, &[Run])> = self.series.iter().map(of_series).collect();
+        if self.over == Over::Degree {
+            self.over_degrees(&runs, completion)
+        } else {
+            self.over_steps(&runs, completion)
+        }
+    }
+}
+
+type Run = Ran<Resolution, Errors>;
+
+impl AnyOrder {
+    /// The coefficients from which the loads are derived.
+    pub(super) fn coefficients(&self) -> (Beam, Option<Obstacles>) {
+        (self.beam, self.obstacles)
+    }
+
+    /// The same study with other coefficients in the solver, or with none.
+    pub(super) fn with_control(&self, control: Option<Control>) -> Self {
+        Self { control, ..self.clone() }
+    }
+
+    /// The coefficients that the solver works with: those of the control, or else those of the loads.
+    fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
+        self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
+    }
+
+    fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        mapped_mesh(elements, self.map.as_ref(), None)
+    }
+
+    fn simulation(&self, resolution: Resolution) -> Result<Simulation, CaseFailure> {
+        let Resolution { degree, elements, time_degree, steps } = resolution;
+        let dt = self.t_end / steps as f64;
+        let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
+        let (beam, obstacles) = self.solver_coefficients();
+        // A wrong temperature of the clamped end is one from the start: the initial data meet it, or no step would be done.
+        let shift = beam.theta_a - self.beam.theta_a;
+        let exact = any_order::initial(&self.exact);
+        let theta = exact.theta;
+        let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
+        let problem = Problem { beam, obstacles, mesh: self.mesh(elements)?, degree, initial };
+        if !self.loaded {
+            return Ok(Simulation::new(problem, stepping)?);
+        }
+        let load = |space: &Space| -> Box<dyn Load> {
+            Box::new(ManufacturedLoad::new(&self.exact, &self.beam, self.obstacles, space))
+        };
+        Ok(Simulation::with_load(problem, stepping, load)?)
+    }
+
+    /// Rates over h or dt, a figure for each degree's errors together.
+    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Run])], completion: Check) -> Outcome {
+        let mut all = Outcome::new("", vec![], vec![]);
+        for (series, runs) in runs {
+            let Resolution { degree, time_degree, .. } = series.runs[0];
+            let (letter, degree) = if self.over == Over::Time { ("q", time_degree) } else { ("p", degree) };
+            let title = format!("{letter} = {degree}");
+            let caption = format!("Errors for {title}, with the orders of theory (triangles).");
+            let what = format!("{letter}{degree}");
+            let levels = self.levels(series, runs);
+            let one = levels.outcome(&self.header.id, &what, Some(&title), &caption, vec![]);
+            all.rates.extend(one.rates);
+            all.levels.extend(one.levels);
+            all.figures.extend(one.figures);
+            all.quantities.extend(one.quantities);
+        }
+        let Outcome { rates, levels, figures, quantities, .. } = all;
+        Outcome { levels, figures, quantities, ..Outcome::new(summary(&rates), rates, vec![completion]) }
+    }
+
+    fn levels(&self, series: &RunsOfDegree, ran: &[Run]) -> Levels {
+        /// Name and order of an error, and the error itself.
+        type ClaimOf = (String, usize, fn(&Errors) -> f64);
+        let Resolution { degree: p, time_degree: q, .. } = series.runs[0];
+        let claims: Vec<ClaimOf> = match self.over {
+            Over::Time => vec![
+                (format!("q = {q}, ends"), 2 * q + 1, |errors| errors.fields),
+                (format!("q = {q}, u inside"), (q + 2).min(2 * q + 1), |errors| errors.inside_u),
+                (format!("q = {q}, u_t inside"), q + 1, |errors| errors.inside_u_t),
+            ],
+            _ => vec![
+                (format!("p = {p}, fields"), p + 1, |errors| errors.fields),
+                (format!("p = {p}, slopes"), p, |errors| errors.slopes),
+            ],
+        };
+        let column = |(look, (name, order, of)): (usize, ClaimOf)| ErrorColumn {
+            name,
+            errors: ran.iter().map(|ran| ran.ok().map(of)).collect(),
+            claim: Some(Claim { order: order as f64, tolerance: series.tolerance }),
+            look,
+        };
+        let refinement = |ran: &Run| {
+            let Resolution { degree, elements, time_degree, steps } = ran.case.data;
+            let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
+            let step = match self.over {
+                Over::Time => self.t_end / steps as f64,
+                _ => self.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+            };
+            Refinement::new(ran.case.label.clone(), &numbers, step)
+        };
+        Levels {
+            axis: if self.over == Over::Time { Axis::Time } else { Axis::Space },
+            refinements: ran.iter().map(refinement).collect(),
+            columns: claims.into_iter().enumerate().map(column).collect(),
+        }
+    }
+
+    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
+    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Run])], completion: Check) -> Outcome {
+        let mut checks = vec![completion];
+        let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
+        for (k, (series, runs)) in runs.iter().enumerate() {
+            let error = |run: &Run| run.ok().map_or(f64::NAN, |errors| errors.fields);
+            let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
+            checks.extend(exponential(&points, series.tolerance));
+            let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
+            quantities
+                .extend(measurable.map(|(p, error)| Quantity::new(format!("error fields, p = {p}"), *error, 1e-4)));
+            let name = counted(series.runs[0].elements, "element");
+            rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
+            let listed = plots::Series { label: name, points };
+            curves.push(Curve { look: look(k), marks: Marks::Filled, ..Curve::line(k, &listed) });
+        }
+        let drawing = Xy {
+            title: Some("Error over the degree of the elements".into()),
+            x: plots::Axis::linear("degree p"),
+            y: plots::Axis::log("L2 error of all fields (dimensionless)"),
+            curves,
+            ..Xy::default()
+        };
+        let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
+        let summary = checks.iter().skip(1).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+        Outcome {
+            headline: summary.clone(),
+            tables: vec![Table::new(
+                "Error of all fields at the end over the degree",
+                ["mesh", "degree p", "error"],
+                rows,
+            )],
+            figures: vec![Figure::new(&self.header.id, "degrees", caption, drawing.draw())],
+            quantities,
+            ..Outcome::new(summary, vec![], checks)
+        }
+    }
+}
+
+fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
+    let reached = points.iter().position(|(_, error)| *error <= ROUND_OFF);
+    let last = reached.unwrap_or(points.len().saturating_sub(1));
+    let fall = match (points.first(), points.get(last)) {
+        (Some((p0, e0)), Some((p1, e1))) if last > 0 => (e0 / e1).powf(1.0 / (p1 - p0)),
+        _ => f64::NAN,
+    };
+    let monotone = points.iter().zip(points.iter().skip(1)).take(last).all(|(one, next)| next.1 < one.1);
+    let rest = points.iter().skip(last).all(|(_, error)| *error <= ROUND_OFF);
+    let end = points.get(last).map_or(f64::NAN, |(p, _)| *p);
+    [
+        Check::that(
+            fall >= factor && monotone,
+            format!("the error falls with every degree, {factor} times on average"),
+            format!("{fall:.1} times a degree, up to p = {end}"),
+        ),
+        Check::that(
+            reached.is_some() && rest,
+            format!("it reaches round-off, {ROUND_OFF:e}, and stays there"),
+            format!("error at most {ROUND_OFF:e} from p = {end} on"),
+        ),
+    ]
+}

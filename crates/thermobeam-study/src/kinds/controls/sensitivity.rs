@@ -1,0 +1,163 @@
+//! The smallest error in a coefficient that a study still detects, by bisection.
+//!
+//! ```toml
+//! [sensitivity]
+//! studies = ["theorem-3.4-space.toml"]    # files beside this one
+//! elements = [64, 128, 256, 512]          # optional: levels in place of the studies' own
+//! range = [1e-9, 1e-2]                    # relative errors: not detected at the first, detected at the last
+//! at_most = 1e-4                          # what some study must detect of every coefficient
+//! ```
+
+use convergence_study::judge::verdict::Verdict;
+
+use super::{BROKEN, Fault, below_one, coefficients, named_studies, verdicts};
+use crate::error::design::Prepared;
+use crate::exact::norm::Norms;
+use crate::kinds::convergence::Convergence;
+use crate::kinds::prelude::*;
+
+/// Bisections of the logarithm: seven decades to within 4 percent.
+const BISECTIONS: usize = 9;
+
+/// A study of the smallest errors that are detected.
+pub struct Sensitivity {
+    header: Header,
+    studies: Vec<Convergence>,
+    range: [f64; 2],
+    at_most: f64,
+}
+
+/// A coefficient of a study.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficient {
+    /// The study, by its place in the list.
+    pub study: usize,
+    /// The coefficient.
+    pub key: &'static str,
+}
+
+impl FromFile for Sensitivity {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let section = root.require("sensitivity", "a table with studies, range and at_most")?.section()?;
+        section.allow(&["studies", "elements", "range", "at_most"])?;
+        let ascending = "a list of two ascending numbers between 0 and 1";
+        let range = section.list("range", ascending, below_one, |ends| ends.len() == 2 && increases(ends))?;
+        let studies = named_studies(&section, folder)?;
+        let at_most = below_one(&section.require("at_most", "a number between 0 and 1")?)?;
+        Ok(Self { header, studies, range: [range[0], range[1]], at_most })
+    }
+}
+
+impl Kind for Sensitivity {
+    /// Coefficients that a study lacks, or has zero, are left out.
+    type Data = Coefficient;
+    /// The smallest relative error detected; `None` where the range does not bracket it.
+    type Found = Option<f64>;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<Coefficient>> {
+        let cost = |spec: &Convergence| -> f64 {
+            let runs = BISECTIONS as f64 + 2.0;
+            spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
+        };
+        let of_study = |(study, spec): (usize, &Convergence)| {
+            let can_be_planted = |key: &&'static str| Fault::Coefficient(key).plant(spec, self.at_most).is_some();
+            let label = |key: &str| format!("{key} in {}", spec.header.id);
+            let case = |key| Case { label: label(key), cost: cost(spec), data: Coefficient { study, key } };
+            coefficients().filter(can_be_planted).map(case).collect::<Vec<_>>()
+        };
+        self.studies.iter().enumerate().flat_map(of_study).collect()
+    }
+
+    fn run(&self, coefficient: &Coefficient) -> Result<Option<f64>, CaseFailure> {
+        let mut detector = Detector::new(&self.studies[coefficient.study])?;
+        Ok(detector.smallest(coefficient.key, self.range))
+    }
+
+    fn judge(&self, ran: &[Ran<Coefficient, Option<f64>>]) -> Outcome {
+        let not_finite =
+            |smallest: &Option<f64>| readings::not_finite(&[Reading::new("the smallest error", *smallest)]);
+        let mut checks = vec![completion(ran, not_finite)];
+        let (mut rows, mut quantities) = (vec![], vec![]);
+        for key in coefficients() {
+            let cells: Vec<(f64, String)> = (0..self.studies.len()).map(|study| cell(study, key, ran)).collect();
+            let best = cells.iter().map(|(smallest, _)| *smallest).fold(f64::INFINITY, smaller_or_nan);
+            let claim = format!("{key} off by {:e} is detected", self.at_most);
+            checks.push(Check::that(best <= self.at_most, claim, format!("detected from {best:.1e} on")));
+            quantities.push(Quantity::new(format!("smallest {key} seen"), best, 0.2));
+            rows.push(std::iter::once(key.to_owned()).chain(cells.into_iter().map(|(_, text)| text)).collect());
+        }
+        let holds = checks.iter().all(|check| check.verdict == Verdict::Pass);
+        let summary = if holds {
+            format!("every coefficient off by {:e} is detected, most from far less", self.at_most)
+        } else {
+            format!("some coefficient off by {:e} is not detected", self.at_most)
+        };
+        let head = ["coefficient"].into_iter().chain(self.studies.iter().map(|spec| spec.header.id.as_str()));
+        let title = "Smallest relative error that makes the study fail; n/a: coefficient absent or zero";
+        let tables = vec![Table::new(title, head, rows)];
+        Outcome { headline: summary.clone(), tables, quantities, ..Outcome::new(summary, vec![], checks) }
+    }
+}
+
+/// The smallest error that a study detects, and its cell: NaN where the case failed, infinite where the study lacks the
+/// coefficient or the range does not bracket it.
+fn cell(study: usize, key: &str, ran: &[Ran<Coefficient, Option<f64>>]) -> (f64, String) {
+    let case = ran.iter().find(|ran| ran.case.data.study == study && ran.case.data.key == key);
+    match case.map(|case| &case.found) {
+        None => (f64::INFINITY, "n/a".to_owned()),
+        Some(Err(_)) => (f64::NAN, "failed".to_owned()),
+        Some(Ok(None)) => (f64::INFINITY, "not in the range".to_owned()),
+        Some(Ok(Some(smallest))) => (*smallest, format!("{smallest:.1e}")),
+    }
+}
+
+fn smaller_or_nan(a: f64, b: f64) -> f64 {
+    -max_or_nan(-a, -b)
+}
+
+/// The levels of one study, prepared once for all runs.
+pub(super) struct Detector<'a> {
+    spec: &'a Convergence,
+    prepared: Vec<(Prepared<'a>, usize, usize)>,
+}
+
+impl<'a> Detector<'a> {
+    pub(super) fn new(spec: &'a Convergence) -> Result<Self, CaseFailure> {
+        let prepare = |(n, steps)| Ok((Prepared::new(spec, n)?, n, steps));
+        Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
+    }
+
+    /// Whether the study fails when the solver's coefficient is off by that much.
+    pub(super) fn detects(&mut self, key: &'static str, relative: f64) -> bool {
+        let spec = self.spec;
+        let levels = self.levels(Fault::Coefficient(key), relative);
+        levels.is_some_and(|levels| verdicts(spec, &levels).any(|verdict| verdict == Verdict::Fail))
+    }
+
+    /// Elements, steps and errors of every level with a fault; `None` where it cannot be planted.
+    pub(super) fn levels(&mut self, fault: Fault, relative: f64) -> Option<Vec<((usize, usize), Norms)>> {
+        let disagreement = fault.plant(self.spec, relative)?;
+        // A fault that breaks a run down is detected.
+        let level = |(prepared, n, steps): &mut (Prepared<'_>, usize, usize)| {
+            ((*n, *steps), prepared.run(*steps, disagreement).unwrap_or(BROKEN))
+        };
+        Some(self.prepared.iter_mut().map(level).collect())
+    }
+
+    /// The smallest relative error detected, by bisection of its logarithm; `None` where the range does not bracket it.
+    fn smallest(&mut self, key: &'static str, range: [f64; 2]) -> Option<f64> {
+        if self.detects(key, range[0]) || !self.detects(key, range[1]) {
+            return None;
+        }
+        let [mut missed, mut detected] = range.map(f64::log10);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (missed + detected);
+            if self.detects(key, 10f64.powf(middle)) { detected = middle } else { missed = middle }
+        }
+        Some(10f64.powf(detected))
+    }
+}

@@ -1,0 +1,220 @@
+//! Convergence studies: a manufactured solution, levels of refinement, orders expected.
+//!
+//! Three shapes, by what `[refine]` says: one axis, a path on which both are refined together (h = dt), or the full grid
+//! of (h, dt) with `e² = A(h)² + B(dt)²`, of which each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
+//!
+//! ```toml
+//! [study]
+//! id = "theorem-3.4-space"
+//! claim = "Theorem 3.4: first order in h"
+//! tier = "quick"
+//!
+//! [exact]                     # sums of products, functions of x and of t; `[beam]`, `[obstacles]` as in a scene
+//! u     = [{ x = "0.3*sin(1.3*pi*x)", t = "cos(3*t) + 0.2*t" }]
+//! theta = [{ x = "(1+x)*sin(pi*x)", t = "exp(-t)" }]
+//!
+//! [refine]
+//! axis = "space"
+//! isolate = true
+//! elements = [8, 16, 32, 64]
+//! steps = 20
+//! t_end = 1.0
+//!
+//! [control]                   # optional: coefficients in which the solver differs from the sources
+//! zeta = 0.101
+//!
+//! [[expect]]
+//! norm = "theorem-3.4"
+//! order = 1.0
+//! tolerance = 0.05
+//! ```
+
+use convergence_study::study::Untested;
+use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
+use convergence_study::study::levels::summary;
+use thermobeam::parameters::{Beam, Obstacles};
+
+use super::controls::untested;
+use super::prelude::*;
+use super::tables::{
+    Control, Expectation, Manufactured, Norms, Refine, control, expectations, manufactured, norm_levels, not_finite,
+    refine,
+};
+use super::terms;
+use crate::error::design::{Disagreement, Prepared};
+use crate::scene::tables;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "convergence",
+    read: reader::<Convergence>,
+    why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
+          the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
+          it by c (h + dt).",
+    judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
+             which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
+             within the tolerance, whole. Above is as wrong as below. What cannot be told is inconclusive, which is not a pass.",
+    failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
+              wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
+};
+
+/// Steps that cost as much as the space vectors of a mesh.
+const PREPARATION: f64 = 50.0;
+
+/// A convergence study, validated.
+#[derive(Debug, Clone)]
+pub struct Convergence {
+    /// Id, claim and tier.
+    pub header: Header,
+    /// Coefficients from which the sources are derived.
+    pub beam: Beam,
+    /// Obstacles from which the boundary load is derived.
+    pub obstacles: Option<Obstacles>,
+    /// The exact solution; it meets the essential boundary conditions.
+    pub exact: Manufactured,
+    /// What is refined and how.
+    pub refine: Refine,
+    /// The solver's own coefficients, where they differ: then the study must fail.
+    pub control: Option<Control>,
+    /// The orders expected; at least one, each norm once.
+    pub expect: Vec<Expectation>,
+}
+
+impl FromFile for Convergence {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        // Studies of other kinds name files of this kind.
+        if header.kind != ROW.name {
+            let study = root.require("study", "a table")?.section()?;
+            let found = format!("\"{}\"", header.kind);
+            return Err(study.refuse("kind", found, format!("\"{}\" for this reader", ROW.name)));
+        }
+        root.allow(&["study", "beam", "obstacles", "exact", "refine", "control", "expect"])?;
+        let beam = tables::beam(root)?;
+        let obstacles = tables::obstacles(root)?;
+        let refine = refine(root)?;
+        let exact = manufactured(root, &beam, refine.t_end)?;
+        let control = control(root, beam, obstacles)?;
+        Ok(Self { header, beam, obstacles, exact, refine, control, expect: expectations(root)? })
+    }
+}
+
+impl Kind for Convergence {
+    /// Elements and steps.
+    type Data = (usize, usize);
+    /// The error in each norm, the maximum over the time levels.
+    type Found = Norms;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<(usize, usize)>> {
+        let cost = |(elements, steps): (usize, usize)| elements as f64 * (steps as f64 + PREPARATION);
+        let case = |data: (usize, usize)| Case { label: Refine::label(data.0, data.1), cost: cost(data), data };
+        self.refine.cases().into_iter().map(case).collect()
+    }
+
+    fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
+        let (beam, obstacles) = self.solver_coefficients();
+        Prepared::new(self, elements)?.run(steps, Disagreement { beam, obstacles, defect: None })
+    }
+
+    fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
+        // Errors of each level in each norm; NaN where the case failed, so that it cannot pass.
+        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
+        let levels = norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors);
+        let completion = completion(ran, not_finite);
+        if self.refine.grid {
+            return self.judge_grid(ran, &levels, completion);
+        }
+        let what = match self.refine.axis {
+            Axis::Space => "the mesh width 1/n",
+            Axis::Time => "the time step",
+            Axis::Both => "the mesh width 1/n, refined together with the time step",
+        };
+        let caption = format!("Errors over {what}, with the orders of theory (triangles).");
+        levels.outcome(&self.header.id, "rates", None, &caption, vec![completion])
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        let orders = self.expect.iter().map(|&Expectation { norm, order, tolerance }| {
+            (format!("{}, order {order} ± {tolerance}", norm.name()), format!("{}.", terms::text(norm)))
+        });
+        [("what is done".to_owned(), self.design())].into_iter().chain(orders).collect()
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        untested(self)
+    }
+}
+
+impl Convergence {
+    /// The coefficients that the solver works with: those of the control, or else those of the sources.
+    pub fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
+        self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
+    }
+
+    /// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.
+    pub(crate) fn step(&self, elements: usize, steps: usize) -> f64 {
+        match self.refine.axis {
+            Axis::Space | Axis::Both => 1.0 / elements as f64,
+            Axis::Time => self.refine.dt(steps),
+        }
+    }
+
+    /// The verdict over a grid of (h, dt): squares of space and time error add, and each order is judged by itself.
+    fn judge_grid(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels, completion: Check) -> Outcome {
+        // The same order is expected in h and in dt.
+        let column = |&Expectation { norm, order, tolerance }: &Expectation| GridColumn {
+            name: norm.name().to_owned(),
+            space: Claim { order, tolerance },
+            time: order,
+            errors: ran.iter().map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm])).collect(),
+        };
+        let grid = Grid {
+            points: ran.iter().map(|run| [1.0 / run.case.data.0 as f64, self.refine.dt(run.case.data.1)]).collect(),
+            times: self.refine.steps.len(),
+            columns: self.expect.iter().map(column).collect(),
+            model: Model::Squares,
+        };
+        let GridVerdict { rates, mut checks } = grid.judge();
+        checks.push(completion);
+        Outcome {
+            levels: levels.errors(),
+            figures: grid.figures(&self.header.id, "norm"),
+            quantities: levels.quantities(&rates),
+            ..Outcome::new(summary(&rates), rates, checks)
+        }
+    }
+
+    /// What is refined, and why the other error does not disturb.
+    fn design(&self) -> String {
+        let refine = &self.refine;
+        let what = match (refine.axis, refine.isolate) {
+            (Axis::Space, true) => {
+                "The mesh is refined. The exact solution is replaced by its own time sequence and the loads by the scheme's \
+                 time-discrete operator on it, so that the time error is exactly zero and few steps are enough."
+            }
+            (Axis::Space, false) => {
+                "The mesh is refined; the time step is fixed, and its error must be far below that of the mesh."
+            }
+            (Axis::Time, true) => {
+                "The time step is refined. The exact solution is replaced by its interpolant and the loads use the discrete \
+                 matrices, so that the space error is exactly zero and a coarse mesh is enough."
+            }
+            (Axis::Time, false) => {
+                "The time step is refined; the mesh is fixed, and its error must be far below that of the steps."
+            }
+            (Axis::Both, _) if refine.grid => {
+                "All combinations of meshes and time steps. With e^2 = A(h)^2 + B(dt)^2 the differences over h at the finest \
+                 time step hold nothing of B, and those over dt on the finest mesh nothing of A: each order by itself."
+            }
+            (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
+        };
+        let control = self.control.as_ref().map_or(String::new(), |control| {
+            let changed = control.changed.join(", ");
+            format!(" The solver differs from the sources in {changed}: a negative control, which must fail.")
+        });
+        format!("{what} {} levels; scheme {}.{control}", refine.cases().len(), refine.scheme.name)
+    }
+}

@@ -1,6 +1,6 @@
 //! Orders over a grid of h and dt: how often they are right, and what they make of errors that do not add.
 
-use convergence_study::judge::grid::{Adding, GridErrors, Refined};
+use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::random::SplitMix;
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::study::Claim;
@@ -239,6 +239,60 @@ fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     assert_ne!(changes.rates[0].1.verdict, Verdict::Pass, "{changes:?}");
 }
 
+/// Differences cancel a constant: none of these errors tends to zero.
+#[test]
+fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
+    let (h, dt) = (halved(0.25, 6), halved(0.1, 6));
+    for (claims, error, size) in [
+        ([2.0, 1.0], (|h, dt| 5.0 - h * h - dt) as fn(f64, f64) -> f64, "5.000e0"),
+        ([2.0, 1.0], |h, dt| 1.0 + h * h + dt, "1.000e0"),
+        ([2.0, 1.0], |h, dt| (h * h + dt - 0.5).abs(), "5.000e-1"),
+        ([2.0, 1.0], |h, dt| (1.0 + h.powi(4) + dt * dt).sqrt(), "1.000e0"),
+        ([1.0, 1.0], |h, dt| h + dt + 2e-3, "2.000e-3"),
+    ] {
+        let verdict = judged(&h, &dt, claims, 0.2, error);
+        for (name, rate) in &verdict.rates {
+            assert_eq!((rate.kind, rate.verdict), (Reason::WrongLimit, Verdict::Fail), "{name}: {rate:?}");
+            assert!(rate.because.contains(size) && rate.reason.contains(size), "{size}: {rate:?}");
+            assert!(rate.reason.contains("claimed"), "{rate:?}");
+        }
+    }
+    // Half a per cent of the finest error is nothing, 2 % may be something.
+    let finest = h[5] + dt[5];
+    for (share, kind) in
+        [(0.004, Reason::Agrees), (0.006, Reason::LeftOver), (0.09, Reason::LeftOver), (0.12, Reason::WrongLimit)]
+    {
+        let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, |h, dt| h + dt + share * finest / (1.0 - share));
+        assert!(verdict.rates.iter().all(|(_, rate)| rate.kind == kind), "{share}: {verdict:?}");
+    }
+}
+
+/// Constants of a tenth to three times the finest error, added to it or to its square, of either sign.
+#[test]
+fn grids_with_a_wrong_limit_do_not_pass_and_sound_ones_do() {
+    for levels in [5, 6, 8] {
+        let (mut random, mut sound, mut wrong, mut lost) = (SplitMix::new(23), 0, 0, 0);
+        for _ in 0..2 * TABLES {
+            let law = Law::draw(levels, false, &mut random);
+            let size = random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
+            let finest = law.error(law.h[levels - 1], law.dt[levels - 1]);
+            let passes = |error: &dyn Fn(f64, f64) -> f64| {
+                verdicts(&judged(&law.h, &law.dt, law.claims(), 0.2, error)) == [Verdict::Pass; 3]
+            };
+            let explained = |error: &dyn Fn(f64, f64) -> f64| {
+                let verdict = judged(&law.h, &law.dt, law.claims(), 0.2, error);
+                verdict.rates.iter().any(|(_, rate)| matches!(rate.kind, Reason::LeftOver | Reason::WrongLimit))
+            };
+            sound += usize::from(passes(&|h, dt| law.error(h, dt)));
+            lost += usize::from(explained(&|h, dt| law.error(h, dt)));
+            wrong += usize::from(passes(&|h, dt| (law.error(h, dt) + size * finest).abs()));
+            wrong += usize::from(passes(&|h, dt| law.error(h, dt).hypot(size * finest)));
+        }
+        assert!(wrong <= 2 && lost <= 1, "{levels}: {wrong} wrong, {lost} lost");
+        assert!(sound >= TABLES, "{levels}: {sound} sound");
+    }
+}
+
 /// What falls and grows in turns has a difference of the claimed order, and no limit that a rate could tell.
 #[test]
 fn differences_that_change_their_sign_do_not_pass() {
@@ -281,7 +335,7 @@ fn an_error_that_is_nan_fails_and_tolerances_that_tell_nothing_are_refused() {
     assert_eq!(verdicts(&broken)[..2], [Verdict::Fail, Verdict::Fail]);
     let errors: Vec<f64> = h.iter().flat_map(|h| dt.iter().map(move |dt| h + dt)).collect();
     let grid = GridErrors { h: &h, dt: &dt, errors: &errors };
-    assert!(grid.judge(Refined::Space, Adding::Plain, 1.0, 0.5).is_err());
+    assert!(grid.judge(Adding::Plain, [1.0, 1.0], 0.5).is_err());
     let refused = judged(&h, &dt, [1.0, 1.0], 0.7, |h, dt| h + dt);
     assert!(refused.rates.is_empty() && refused.checks[0].verdict == Verdict::Fail, "{refused:?}");
 }

@@ -39,7 +39,7 @@
 //! m n - 4 degrees of freedom; and residuals of smooth data bend, they do not scatter. Of 202 smooth grids of 3 × 3 to 5 × 5 errors with a, b in
 //! [-0.8, 2] such intervals of 95 % held p 59 times and q 32 times.
 //!
-//! # Two steps more than the rule
+//! # Three steps more than the rule
 //!
 //! *The line beside.* With (a) the differences at the next finest dt are the same. By as much as their rate is another one the interval is longer on either
 //! side: for terms that (a) does not have, and for scatter that a few differences do not show. (Where those differences are below their floor, as with a finest
@@ -49,6 +49,24 @@
 //! interval alone lets 7 of 100 such tables pass (4 × 4, tolerance 0.2). A term that fades moves the rates towards the order, one that takes over moves them
 //! away. So where there are two rates, the second may not be farther from the order than the first by more than [`DEPARTURE_OF_TWO_RATES`] of the tolerance:
 //! else not a pass, but inconclusive. Neither does a claim pass whose differences change their sign.
+//!
+//! # What is left over
+//!
+//! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2 and 1. So where both orders pass, what h and dt leave of the finest
+//! error is asked for. The differences beyond the finest levels continue the last one with rates that approach the order claimed as those seen do,
+//!
+//! ```text
+//!     A_M^s = D + D' + D'' + ...,   D = d ρ^(-s q_1),   D' = D ρ^(-s q_2), ...     q_j = p + (q_last - p) φ^j,    φ = (q_last - p) / (q_before - p)
+//! ```
+//!
+//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 where there is one rate), and B_N the same. What is left of `e^s - A_M^s - B_N^s` is told as a share λ of
+//! `s e^s`: of the error itself, where that is small. It is known up to what φ = 1/2 instead, or a tenth of the correction, would change, and [`MISFITS_OF_REST`] times the misfit.
+//!
+//! | λ | verdict |
+//! | --- | --- |
+//! | at most 0.05, and at most 0.005 or what it is known to | both orders pass |
+//! | more than 0.1 and twice what it is known to | *fail*: a limit that is not zero, `(s λ)^(1/s) e` |
+//! | otherwise | *inconclusive*, with the same number |
 //!
 //! # Measured
 //!
@@ -68,12 +86,22 @@
 use super::fit::Level;
 use super::richardson::{RATES, crossing};
 use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict};
+use crate::text::number::error_text;
 
 /// Share of the tolerance by which the second of two rates may be farther from the order than the first.
 pub const DEPARTURE_OF_TWO_RATES: f64 = 0.05;
 
 /// Differences are known where they are more than this times what the misfit leaves unknown: three standard deviations.
 pub const MISFITS: f64 = 3.0;
+
+/// Between what factors the distance of a rate from the order shrinks from one level to the next.
+pub const FADE: [f64; 2] = [0.25, 0.75];
+
+/// What is left over is known no better than this many misfits.
+pub const MISFITS_OF_REST: f64 = 4.0;
+
+/// Shares of the finest error: what is left over is none, is too much whatever is known of it, is a limit.
+const REST: [f64; 3] = [0.005, 0.05, 0.1];
 
 /// How the contributions of space and time make up the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,13 +162,57 @@ impl GridErrors<'_> {
         (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
     }
 
-    /// Judges one of the two orders. Level k of the verdict, from 0, is the difference of the levels k and k + 1 that were refined.
+    /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the levels k and k + 1 that were refined.
     ///
-    /// * `order`, `tolerance`: what is claimed.
+    /// * `orders`, `tolerance`: what is claimed.
     ///
     /// # Errors
     /// [`JudgeError`] for a tolerance that tells nothing.
-    pub fn judge(
+    pub fn judge(&self, adding: Adding, orders: [f64; 2], tolerance: f64) -> Result<[RateVerdict; 2], JudgeError> {
+        let [p, q] = orders;
+        let both = [
+            self.judge_one(Refined::Space, adding, p, tolerance)?,
+            self.judge_one(Refined::Time, adding, q, tolerance)?,
+        ];
+        if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
+            return Ok(both);
+        }
+        let ([rest, known], power) = (self.rest(adding, &both), adding.power());
+        let [none, most, limit] = REST;
+        let kind = match rest.abs() {
+            small if small <= most && small <= known.max(none) => return Ok(both),
+            large if large > limit.max(2.0 * known) => Reason::WrongLimit,
+            _ => Reason::LeftOver,
+        };
+        let finest = self.errors.last().copied().unwrap_or(f64::NAN);
+        let size = (power * rest.abs()).powf(1.0 / power) * finest;
+        let because = format!("{} ({} of {})", kind.text(), error_text(size), error_text(finest));
+        Ok(both.map(|rate| rate.with_reason(kind, &because)))
+    }
+
+    /// What h and dt leave of the finest error, and how well that is known: shares of it.
+    fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
+        let power = adding.power();
+        let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
+        for (refined, judged) in [Refined::Space, Refined::Time].into_iter().zip(judged) {
+            let [.., before, finest] = self.line(refined, 0)[..] else { return [f64::NAN; 2] };
+            let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
+            let off: Vec<f64> = judged.pairwise[..judged.used.end - 1].iter().map(|rate| rate - judged.order).collect();
+            let fade = match off[..] {
+                // Two rates of just that order: nothing to fade.
+                [.., before, last] if before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
+                _ => 0.5,
+            };
+            let last = off.last().copied().unwrap_or(0.0);
+            let beyond = |fade: f64| difference * tail(before.step / finest.step, power, judged.order, last, fade);
+            rest -= beyond(fade);
+            known += (beyond(fade) - beyond(0.5)).abs().max(0.1 * (beyond(fade) - beyond(0.0)).abs());
+        }
+        [rest, known]
+    }
+
+    /// Judges one of the two orders by itself.
+    fn judge_one(
         &self,
         refined: Refined,
         adding: Adding,
@@ -202,6 +274,20 @@ fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
         Level { step: pair[0].step, error: (difference / share).powf(1.0 / power) }
     };
     errors.windows(2).map(level).collect()
+}
+
+/// Sum of all differences beyond the finest level, in units of the last one.
+///
+/// * `off`: how far the last rate is from the order; `fade`: what is left of that from one level to the next.
+fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
+    let (mut next, mut sum) = (1.0, 0.0);
+    for _ in 0..40 {
+        off *= fade;
+        next *= ratio.powf(-power * (order + off));
+        sum += next;
+    }
+    // The rates are those of the order by now: what remains is a geometric series.
+    sum + next / (ratio.powf(power * order) - 1.0)
 }
 
 /// Whether the errors fall on one of the refinements that were used and grow on another.

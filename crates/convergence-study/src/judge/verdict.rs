@@ -12,11 +12,13 @@ pub use crate::judge::fit::Level;
 
 mod outcome;
 mod reading;
+mod reason;
 mod trend;
 
-pub use outcome::{Aside, RateVerdict, Reason, SetAside, Verdict};
+pub use outcome::{Aside, RateVerdict, SetAside, Verdict};
 pub(crate) use reading::Reading;
-pub use trend::{departs, falls_away, grows, moves_away, scatter};
+pub use reason::Reason;
+pub use trend::{departs, falls_away, grows, scatter};
 
 /// Two rates and one difference of them: with less, nothing tells a rate from chance.
 pub const FEWEST_LEVELS: usize = 3;

@@ -8,7 +8,7 @@ use super::markdown::{anchor, cell, text};
 use super::page::badge;
 use super::words::summary;
 use crate::input::visible;
-use crate::judge::verdict::Verdict;
+use crate::judge::verdict::{Reason, Verdict};
 use crate::run::Finished;
 use crate::study::case::by_reason;
 use crate::study::levels::COMPLETION;
@@ -55,7 +55,9 @@ fn names_another(Finished { header, outcome, .. }: &Finished, ids: &HashSet<&str
 
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
     let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
-    let rates = rates.map(|(name, rate)| format!("{name}: {}", rate.line()));
+    let advice = Reason::ALL.into_iter().filter(|&reason| rates.clone().any(|(_, rate)| rate.kind == reason));
+    let advice: Vec<String> = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice())).collect();
+    let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
     // That cases are missing is said with their reasons.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
     let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass && !is_said(check));
@@ -72,6 +74,7 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
         reasons.truncate(MOST_REASONS);
         reasons.push(format!("and {more} more"));
     }
+    reasons.extend(advice);
     NotPassed { id: header.id.clone(), verdict: outcome.verdict, reasons }
 }
 

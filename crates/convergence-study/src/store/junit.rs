@@ -42,7 +42,11 @@ fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite
     suite.add_property(("claim", header.claim.as_str()));
     for (norm, rate) in &outcome.rates {
         let name = format!("{norm}: order {}", rate.order);
-        suite.add_test_case(case(&header.id, &name, rate.verdict, &rate.reason));
+        let mut judged = case(&header.id, &name, rate.verdict, &rate.reason);
+        if let Some(advice) = rate.advice() {
+            judged.status.set_description(format!("{}: {advice}", rate.kind.code()));
+        }
+        suite.add_test_case(judged);
     }
     for check in &outcome.checks {
         suite.add_test_case(case(&header.id, &check.claim, check.verdict, &check.evidence));

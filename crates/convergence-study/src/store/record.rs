@@ -136,6 +136,12 @@ pub struct RateRecord {
     pub verdict: Verdict,
     /// Why, in words.
     pub reason: String,
+    /// The code of the reason; not there in records of versions before.
+    #[serde(default)]
+    pub code: String,
+    /// What it means, and what to do; only where it is not a pass.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub advice: String,
 }
 
 /// A number that JSON cannot hold.
@@ -274,6 +280,8 @@ impl Precision {
             extrapolated: rate.extrapolated.map(|rate| self.rate_number(rate)),
             verdict: rate.verdict,
             reason: rate.reason.clone(),
+            code: rate.kind.code().to_owned(),
+            advice: rate.advice().unwrap_or_default().to_owned(),
         }
     }
 

@@ -4,7 +4,7 @@ use super::levels::Claim;
 use super::outcome::Check;
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
-use crate::judge::grid::{Adding, GridErrors, Refined};
+use crate::judge::grid::{Adding, GridErrors};
 use crate::judge::verdict::{RateVerdict, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots;
@@ -76,13 +76,15 @@ impl Grid {
             let adding = if squares { Adding::Squares } else { Adding::Plain };
             let Claim { order, tolerance } = column.space;
             let missing = self.without_result(column);
-            for (step, refined, order) in [("h", Refined::Space, order), ("dt", Refined::Time, column.time)] {
-                let name = format!("{} in {step}", column.name);
-                match errors.judge(refined, adding, order, tolerance) {
-                    Ok(rate) if missing.is_empty() => verdict.rates.push((name, rate)),
-                    Ok(rate) => verdict.rates.push((name, rate.without_result(self.points.len(), &missing))),
-                    // Readers of study files refuse such a tolerance before.
-                    Err(error) => verdict.checks.push(Check::that(false, name, error.to_string())),
+            let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
+            match errors.judge(adding, [order, column.time], tolerance) {
+                Ok(rates) => verdict.rates.extend(names.into_iter().zip(rates).map(|(name, rate)| {
+                    let all = missing.is_empty();
+                    (name, if all { rate } else { rate.without_result(self.points.len(), &missing) })
+                })),
+                // Readers of study files refuse such a tolerance before.
+                Err(error) => {
+                    verdict.checks.extend(names.map(|name| Check::that(false, name, error.to_string())));
                 }
             }
             verdict.checks.push(self.judge_model(&column.name, misfits));

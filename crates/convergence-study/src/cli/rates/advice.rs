@@ -1,7 +1,6 @@
 //! What to do next about a column that does not pass, from its numbers where they show more than the reason.
 
 use super::Judged;
-use crate::explain::reason_text;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Reason, WILD};
 use crate::text::number::{error_text, plain_text};
@@ -19,7 +18,12 @@ const STOP: f64 = 0.5;
 pub(super) fn words(judged: &Judged<'_>, levels: &[Level], step: &str, all_reversed: bool) -> String {
     let rates = &judged.rate.pairwise;
     let shown = match judged.rate.kind {
-        Reason::ErrorGrows | Reason::WildRate | Reason::TooLow | Reason::NotAsymptotic | Reason::IntervalTooWide
+        Reason::ErrorGrows
+        | Reason::WildRate
+        | Reason::TooLow
+        | Reason::NotAsymptotic
+        | Reason::Departs
+        | Reason::IntervalTooWide
             if all_reversed && !is_of_count(step) =>
         {
             Some(format!(
@@ -31,6 +35,7 @@ pub(super) fn words(judged: &Judged<'_>, levels: &[Level], step: &str, all_rever
         | Reason::FallsAway
         | Reason::TooLow
         | Reason::NotAsymptotic
+        | Reason::Departs
         | Reason::IntervalTooWide => stop(rates).map(|level| {
             format!(
                 "{} falls with rate {:.2} down to {}, then stops. What stays there: the solver's tolerance, the reference solution, \
@@ -46,7 +51,7 @@ pub(super) fn words(judged: &Judged<'_>, levels: &[Level], step: &str, all_rever
         Reason::WildRate => wild(judged, levels, step),
         _ => None,
     };
-    shown.unwrap_or_else(|| reason_text(judged.rate.kind).1.to_owned())
+    shown.unwrap_or_else(|| judged.rate.kind.advice().to_owned())
 }
 
 /// Whether a step is computed from a count already.

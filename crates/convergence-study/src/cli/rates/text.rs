@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::advice::{is_reversed, words};
 use super::{Findings, Judged};
 use crate::cli::screen;
-use crate::explain::{reason_text, section};
+use crate::explain::section;
 use crate::judge::verdict::{Aside, Reason, Verdict};
 use crate::text::number::{decimals, interval_places};
 
@@ -109,7 +109,7 @@ fn advice(findings: &Findings<'_>) -> String {
     advice.dedup();
     let mut text = String::new();
     for (reason, means) in advice {
-        section(&mut text, reason_text(reason).0, &means);
+        section(&mut text, reason.code(), &means);
     }
     text
 }

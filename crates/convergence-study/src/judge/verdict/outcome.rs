@@ -3,6 +3,7 @@
 use std::{fmt, ops::Range};
 
 use super::reading::Reading;
+use super::reason::Reason;
 use crate::judge::power_law::PowerLaw;
 use crate::text::number::{RATE_PLACES, counted, decimals, interval_places, interval_text, order_text, plain_text};
 
@@ -42,105 +43,6 @@ impl Verdict {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-/// Why a verdict is what it is; each reason has one verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Reason {
-    /// The whole interval lies in the band about the order.
-    Agrees,
-    /// A level has no result: its case failed, or lacks this error.
-    NoResult,
-    /// An error is NaN or infinite.
-    NonFiniteError,
-    /// An error is negative, which no norm can be.
-    NegativeError,
-    /// The error does not fall on the finest refinement above the round-off floor.
-    ErrorGrows,
-    /// The rates fall away from the order on the finest refinements, and go on falling.
-    FallsAway,
-    /// The whole interval lies below the band.
-    TooLow,
-    /// The whole interval lies above the band: as suspicious as below.
-    TooHigh,
-    /// An error is exactly zero.
-    ZeroError,
-    /// The steps are not positive, finite and decreasing.
-    StepsNotDecreasing,
-    /// The order or the tolerance is not a positive number.
-    ClaimUnusable,
-    /// The tolerance accepts neighbouring orders.
-    ToleranceTooWide,
-    /// Fewer levels than a rate needs.
-    TooFewLevels,
-    /// The rates are still changing, or move away faster and faster.
-    NotAsymptotic,
-    /// Too few levels are left above the round-off floor.
-    RoundOffFloor,
-    /// A pairwise rate that belongs to no convergent family of this order.
-    WildRate,
-    /// A level between others on one line is far from it.
-    Outlier,
-    /// All steps are nearly the same.
-    LevelsTooClose,
-    /// The interval is wider than the band and overlaps it, or the rates scatter so much that an error that grows proves nothing.
-    IntervalTooWide,
-    /// The interval is narrow enough, but holds an end of the band.
-    AtTheEdge,
-}
-
-impl Reason {
-    /// The verdict that goes with this reason.
-    pub fn verdict(self) -> Verdict {
-        match self {
-            Self::Agrees => Verdict::Pass,
-            Self::NoResult
-            | Self::NonFiniteError
-            | Self::NegativeError
-            | Self::ErrorGrows
-            | Self::FallsAway
-            | Self::TooLow
-            | Self::TooHigh => Verdict::Fail,
-            _ => Verdict::Inconclusive,
-        }
-    }
-
-    /// The reason in words.
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::Agrees => "the rate agrees with the order",
-            Self::NoResult => "a level has no result",
-            Self::NonFiniteError => "an error is NaN or infinite",
-            Self::NegativeError => "an error is negative",
-            Self::ErrorGrows => "the error does not fall on the finest refinement",
-            Self::FallsAway => "the rates fall away from the order",
-            Self::TooLow => "the rate is too low",
-            Self::TooHigh => "the rate is too high",
-            Self::ZeroError => "an error of exactly zero carries no rate",
-            Self::StepsNotDecreasing => "the step sizes are not positive and decreasing",
-            Self::ClaimUnusable => "the order and the tolerance must be positive numbers",
-            Self::ToleranceTooWide => "the tolerance is too wide to tell anything",
-            Self::TooFewLevels => "too few levels",
-            Self::NotAsymptotic => "not yet asymptotic",
-            Self::RoundOffFloor => "at the round-off floor",
-            Self::WildRate => "a pairwise rate is wild",
-            Self::Outlier => "a level does not fit its neighbours",
-            Self::LevelsTooClose => "the levels are too close to each other",
-            Self::IntervalTooWide => "the interval is too wide for the tolerance",
-            Self::AtTheEdge => "the interval crosses the edge of the tolerance",
-        }
-    }
-}
-
-impl Reason {
-    /// The reason behind a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
-    pub fn brief(self) -> &'static str {
-        match self {
-            Self::TooLow => "too low",
-            Self::TooHigh => "too high",
-            other => other.text(),
-        }
     }
 }
 
@@ -241,6 +143,11 @@ impl RateVerdict {
         format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.because)
     }
 
+    /// What the reason means, and what to do; `None` for a pass.
+    pub fn advice(&self) -> Option<&'static str> {
+        (!self.verdict.is_pass()).then(|| self.kind.advice())
+    }
+
     /// The last rate between neighbouring levels that is a number.
     pub fn finest_rate(&self) -> Option<f64> {
         self.pairwise.iter().rev().copied().find(|rate| rate.is_finite())
@@ -288,6 +195,13 @@ impl RateVerdict {
         set_aside.sort_by_key(|aside| aside.level);
         let missing = names.iter().zip(has).filter(|(_, has)| !**has).map(|(name, _)| *name);
         Self { pairwise, used, set_aside, ..self }.without_result(has.len(), &missing.collect::<Vec<_>>())
+    }
+
+    /// The same rate, judged by another rule than that of its levels.
+    pub(crate) fn with_reason(self, kind: Reason, because: &str) -> Self {
+        let rest = self.reason.strip_prefix(self.kind.text()).unwrap_or_default();
+        let reason = format!("{because}{rest}");
+        Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, ..self }
     }
 
     /// The same rate with the verdict that a level has no result.

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::outcome::{Aside, Reason, SetAside};
+use super::outcome::{Aside, SetAside};
+use super::reason::Reason;
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
     AsymptoticRange, Level, Quantiles, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
@@ -109,16 +110,18 @@ impl<'a> Reading<'a> {
     /// Steps 8 and 9: where the rates are going, and the interval against the band.
     fn held_against(&self, order: f64, tolerance: f64) -> Reason {
         let Some(fit) = &self.fit else { return Reason::TooFewLevels };
-        let asymptotic = &self.pairwise[self.used.start..self.used.end - 1];
-        if trend::moves_away(asymptotic, tolerance) || trend::departs(self.rates(), tolerance) {
-            return Reason::NotAsymptotic;
+        let rates = self.rates();
+        if trend::departs(rates, tolerance) {
+            return Reason::Departs;
         }
+        let finest = rates.last().copied().unwrap_or(f64::NAN);
         match compare(fit.interval, order, tolerance) {
             Reason::TooLow => Reason::TooLow,
             Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
             Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
+            Reason::Agrees if (finest - order).abs() > tolerance => Reason::LastPair,
             // The finest error is not smaller, which scatter may explain: there is no order to agree with.
-            _ if self.rates().last().is_some_and(|finest| *finest <= 0.0) => Reason::IntervalTooWide,
+            _ if finest <= 0.0 => Reason::IntervalTooWide,
             reason => reason,
         }
     }

@@ -5,8 +5,17 @@ use crate::judge::fit::Level;
 /// A fall goes on while the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;
 
-/// A departure counts when the rate has moved by this share of the tolerance in three refinements.
-const DEPARTED: f64 = 0.2;
+/// Least growth of a change of the rate over the one before, of the same sign, with which a term of lower order shows.
+const GROWTH: f64 = 1.3;
+
+/// Least growth over a change of the other sign: noise makes changes to and fro of like size.
+const TURN: f64 = 3.0;
+
+/// The same where that change itself follows a larger one of its sign, as those of pollution do.
+const TURN_AFTER_POLLUTION: f64 = 2.0;
+
+/// Shares of the tolerance beyond which changes count: three in a row, two in a row, one against the one before, one against fading pollution.
+const DEPARTED: [f64; 4] = [0.1, 1.0 / 6.0, 0.5, 0.2];
 
 /// An error is off the line through its neighbours where it is this many times larger or smaller.
 const OFF_THE_LINE: f64 = 2.0;
@@ -89,35 +98,24 @@ pub(super) fn outlier(levels: &[Level], set_aside: usize) -> Option<usize> {
     found.map(|(coarse, _)| coarse + 1)
 }
 
-/// Whether the finest change of the rate is larger than every earlier one, than half the tolerance, and than scatter explains.
+/// Whether the last changes of the rate grow where those of fading pollution shrink: a plateau, a wrong limit or a lower order about to show.
 ///
-/// Changes shrink by ratio^-r where pollution fades. Where they grow, a term of lower order is emerging from below: the rates 2, 2, 1.98, 1.94
-/// are on their way to 1, however well 2 fits.
-pub fn moves_away(rates: &[f64], tolerance: f64) -> bool {
-    match changes(rates).split_last() {
-        Some((finest, earlier)) if !earlier.is_empty() => {
-            let finest = finest.abs();
-            let largest = earlier.iter().all(|change| change.abs() < finest);
-            largest && finest > 0.5 * tolerance && finest > 2.0 * scatter(rates)
-        }
-        _ => false,
-    }
-}
-
-/// Whether the last three changes of the rate have one sign and grow, and add up to more than a fifth of the tolerance: a plateau, a wrong limit or
-/// a lower order about to show.
-///
-/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. Three changes of noise are in such a row
-/// once in a hundred tables. Less than a fifth is what the error of a reference solution leaves on the finest levels of a sound study.
+/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. What coarse levels did before
+/// excuses nothing: only the last three changes are asked, and a level more at the coarse end can add to the reasons, never take one away.
 pub fn departs(rates: &[f64], tolerance: f64) -> bool {
-    match changes(rates)[..] {
-        [.., first, second, third] => {
-            let one_way = first * second > 0.0 && second * third > 0.0;
-            let growing = first.abs() < second.abs() && second.abs() < third.abs();
-            one_way && growing && (first + second + third).abs() > DEPARTED * tolerance
-        }
-        _ => false,
-    }
+    let [three, two, one, after_pollution] = DEPARTED.map(|share| share * tolerance);
+    let changes = changes(rates);
+    let [.., before, last] = changes[..] else { return false };
+    let grows = |from: f64, to: f64, factor: f64| from * to > 0.0 && to.abs() > factor * from.abs();
+    let turns = |factor: f64| before * last <= 0.0 && last.abs() > factor * before.abs();
+    let of_two = grows(before, last, GROWTH) && (before + last).abs() > two || turns(TURN) && last.abs() > one;
+    let of_three = |first: f64| {
+        let in_a_row = grows(first, before, 1.0) && grows(before, last, 1.0);
+        let fading = grows(before, first, 1.0);
+        in_a_row && (first + before + last).abs() > three
+            || fading && turns(TURN_AFTER_POLLUTION) && last.abs() > after_pollution
+    };
+    of_two || changes.len().checked_sub(3).is_some_and(|first| of_three(changes[first]))
 }
 
 #[cfg(test)]
@@ -165,21 +163,50 @@ mod tests {
         }
     }
 
+    /// Rates from 2 on with these changes.
+    fn departs_by(changes: &[f64], tolerance: f64) -> bool {
+        let mut rates = vec![2.0];
+        changes.iter().for_each(|change| rates.push(rates[rates.len() - 1] + change));
+        departs(&rates, tolerance)
+    }
+
     #[test]
-    fn a_departure_has_one_sign_and_a_growing_pace() {
-        for (rates, tolerance, expected) in [
-            (&[2.0, 1.9375, 1.8125, 1.5625][..], 0.25, true),
-            (&[2.0, 2.0625, 2.1875, 2.4375], 0.25, true),
-            (&[2.5, 2.0, 1.9375, 1.8125, 1.5625], 0.25, true),
-            // Not growing, not one way, too few.
-            (&[2.0, 1.9375, 1.875, 1.625], 0.25, false),
-            (&[2.0, 2.0625, 1.9375, 1.6875], 0.25, false),
-            (&[2.0, 1.9375, 1.8125], 0.25, false),
-            // 7/1024 in three refinements: more than a fifth of 1/32, less than one of 3/64.
-            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.03125, true),
-            (&[2.0, 2047.0 / 1024.0, 2045.0 / 1024.0, 2041.0 / 1024.0], 0.046875, false),
+    fn a_departure_is_a_change_that_grows() {
+        for (changes, tolerance, expected) in [
+            // Three in a row, each larger than the one before, over more than a tenth of the tolerance.
+            (&[-1.0, -1.25, -1.5][..], 32.0, true),
+            (&[1.0, 1.25, 1.5], 32.0, true),
+            (&[-1.0, -1.25, -1.5], 37.0, true),
+            (&[-1.0, -1.25, -1.5], 38.0, false),
+            (&[-1.5, -1.25, -1.5], 32.0, false),
+            (&[-1.0, -1.5, -1.5], 32.0, false),
+            (&[1.0, -1.25, -1.5], 32.0, false),
+            (&[-1.25, -1.5], 32.0, false),
+            // Two in a row, the second larger by more than 1.3, over more than a sixth.
+            (&[-1.0, -1.5], 14.5, true),
+            (&[1.0, 1.5], 14.5, true),
+            (&[-1.0, -1.5], 15.5, false),
+            (&[-1.0, -1.25], 8.0, false),
+            // One against the one before and three times as large, over more than half.
+            (&[1.0, -3.5], 6.5, true),
+            (&[-1.0, 3.5], 6.5, true),
+            (&[0.0, -3.5], 6.5, true),
+            (&[1.0, -3.5], 7.5, false),
+            (&[1.0, -2.5], 4.0, false),
+            (&[0.5, 1.0, -3.5], 8.0, false),
+            // After pollution that fades twice as large, over more than a fifth.
+            (&[1.5, 1.0, -2.5], 12.0, true),
+            (&[-1.5, -1.0, 2.5], 12.0, true),
+            (&[1.5, 1.0, -2.5], 13.0, false),
+            (&[1.5, 1.0, -1.75], 6.0, false),
+            (&[0.5, 1.0, -2.5], 12.0, false),
+            (&[1.5, -1.0, -1.25], 12.0, false),
+            (&[1.5], 0.1, false),
+            (&[], 0.1, false),
         ] {
-            assert_eq!(departs(rates, tolerance), expected, "{rates:?} {tolerance}");
+            assert_eq!(departs_by(changes, tolerance), expected, "{changes:?} {tolerance}");
+            let earlier: Vec<f64> = [-30.0, 40.0].into_iter().chain(changes.iter().copied()).collect();
+            assert!(!expected || departs_by(&earlier, tolerance), "disarmed: {changes:?} {tolerance}");
         }
     }
 

@@ -1,0 +1,319 @@
+//! Why a verdict is what it is: one list of reasons, with the words that every command, report and file uses.
+
+use super::Verdict;
+
+/// Why a verdict is what it is; each reason has one verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Reason {
+    /// The whole interval lies in the band about the order.
+    Agrees,
+    /// A level has no result: its case failed, or lacks this error.
+    NoResult,
+    /// An error is NaN or infinite.
+    NonFiniteError,
+    /// An error is negative, which no norm can be.
+    NegativeError,
+    /// The error does not fall on the finest refinement above the round-off floor.
+    ErrorGrows,
+    /// The rates fall away from the order on the finest refinements, and go on falling.
+    FallsAway,
+    /// What tends to zero with h and dt does not make up the errors of a grid.
+    WrongLimit,
+    /// The whole interval lies below the band.
+    TooLow,
+    /// The whole interval lies above the band: as suspicious as below.
+    TooHigh,
+    /// The order agrees, and the constant before it is not in its interval.
+    ConstantOff,
+    /// An error is exactly zero.
+    ZeroError,
+    /// The steps are not positive, finite and decreasing.
+    StepsNotDecreasing,
+    /// The order or the tolerance is not a positive number.
+    ClaimUnusable,
+    /// The tolerance accepts neighbouring orders.
+    ToleranceTooWide,
+    /// Fewer levels than a rate needs.
+    TooFewLevels,
+    /// The rates are still changing.
+    NotAsymptotic,
+    /// The rates move away, faster and faster.
+    Departs,
+    /// The interval lies in the band, and the rate between the two finest levels does not.
+    LastPair,
+    /// Too few levels are left above the round-off floor.
+    RoundOffFloor,
+    /// Too few digits of the errors are known.
+    Digits,
+    /// The numbers tend to a value that is not zero, by smaller and smaller differences.
+    Value,
+    /// Whether the errors of a grid tend to zero is not known well enough.
+    LeftOver,
+    /// A pairwise rate that belongs to no convergent family of this order.
+    WildRate,
+    /// A level between others on one line is far from it.
+    Outlier,
+    /// All steps are nearly the same.
+    LevelsTooClose,
+    /// The interval is wider than the band and overlaps it, or the rates scatter so much that an error that grows proves nothing.
+    IntervalTooWide,
+    /// The interval is narrow enough, but holds an end of the band.
+    AtTheEdge,
+}
+
+impl Reason {
+    /// Every reason, for listing.
+    pub const ALL: [Self; 27] = [
+        Self::Agrees,
+        Self::NoResult,
+        Self::NonFiniteError,
+        Self::NegativeError,
+        Self::ErrorGrows,
+        Self::FallsAway,
+        Self::WrongLimit,
+        Self::TooLow,
+        Self::TooHigh,
+        Self::ConstantOff,
+        Self::ZeroError,
+        Self::StepsNotDecreasing,
+        Self::ClaimUnusable,
+        Self::ToleranceTooWide,
+        Self::TooFewLevels,
+        Self::NotAsymptotic,
+        Self::Departs,
+        Self::LastPair,
+        Self::RoundOffFloor,
+        Self::Digits,
+        Self::Value,
+        Self::LeftOver,
+        Self::WildRate,
+        Self::Outlier,
+        Self::LevelsTooClose,
+        Self::IntervalTooWide,
+        Self::AtTheEdge,
+    ];
+
+    /// The verdict that goes with this reason.
+    pub fn verdict(self) -> Verdict {
+        match self {
+            Self::Agrees => Verdict::Pass,
+            Self::NoResult
+            | Self::NonFiniteError
+            | Self::NegativeError
+            | Self::ErrorGrows
+            | Self::FallsAway
+            | Self::WrongLimit
+            | Self::TooLow
+            | Self::TooHigh
+            | Self::ConstantOff => Verdict::Fail,
+            _ => Verdict::Inconclusive,
+        }
+    }
+
+    /// Whether a finer level is likely to decide.
+    pub fn wants_a_level(self) -> bool {
+        matches!(
+            self,
+            Self::TooFewLevels
+                | Self::NotAsymptotic
+                | Self::Departs
+                | Self::LastPair
+                | Self::LeftOver
+                | Self::LevelsTooClose
+                | Self::IntervalTooWide
+                | Self::AtTheEdge
+        )
+    }
+
+    /// The short code, by which the reason can be asked for: the same in every output.
+    pub fn code(self) -> &'static str {
+        self.words()[0]
+    }
+
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// What the reason means, with what to do next.
+    pub fn advice(self) -> &'static str {
+        self.words()[2]
+    }
+
+    /// The reason behind a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
+    pub fn brief(self) -> &'static str {
+        match self {
+            Self::TooLow => "too low",
+            Self::TooHigh => "too high",
+            other => other.text(),
+        }
+    }
+
+    /// Code, reason and advice.
+    fn words(self) -> [&'static str; 3] {
+        match self {
+            Self::Agrees => [
+                "agrees",
+                "the rate agrees with the order",
+                "The whole interval of the rate lies within the tolerance of the order.",
+            ],
+            Self::NoResult => [
+                "no-result",
+                "a level has no result",
+                "A case failed, or its answer lacks the error. The rate is that of the levels that have \
+                 one; it decides nothing. Mend that case.",
+            ],
+            Self::NonFiniteError => [
+                "non-finite",
+                "an error is NaN or infinite",
+                "An error is NaN or infinite: a case broke down, or did not come to its end. Mend that \
+                 case.",
+            ],
+            Self::NegativeError => [
+                "negative",
+                "an error is negative",
+                "An error is negative, which no norm can be: a sign was lost, or a difference was given.",
+            ],
+            Self::ErrorGrows => [
+                "grows",
+                "the error does not fall on the finest refinement",
+                "Refining does not make the error smaller, though it is above the round-off floor: no \
+                 convergence. Are the levels those of these errors, and is the exact solution that of the \
+                 problem?",
+            ],
+            Self::FallsAway => [
+                "falls-away",
+                "the rates fall away from the order",
+                "The finest rates fall, by more than half an order: the error tends to a limit that is \
+                 not zero, or to a lower order. Look for what does not change with the step: the \
+                 reference, the solver's tolerance, the error of the other axis.",
+            ],
+            Self::WrongLimit => [
+                "limit",
+                "the errors tend to a wrong limit",
+                "The errors fall with h and dt as claimed, towards a number that is not zero. Look for \
+                 what changes with neither: the reference, the solver's tolerance, a wrong coefficient, a \
+                 third step.",
+            ],
+            Self::TooLow => [
+                "too-low",
+                "the rate is too low",
+                "The whole interval lies below the band: an order is lost. Look for a term of lower \
+                 order: boundary or initial data, the quadrature, the first step, a coefficient at the \
+                 wrong time.",
+            ],
+            Self::TooHigh => [
+                "too-high",
+                "the rate is too high",
+                "The whole interval lies above the band: the exact solution may be too simple, or the \
+                 error not the one that was meant.",
+            ],
+            Self::ConstantOff => [
+                "constant",
+                "the constant is outside its interval",
+                "The order agrees, and the error is a multiple of the one claimed: a mistake of the \
+                 scheme's own order, such as a factor in a term or in the norm.",
+            ],
+            Self::ZeroError => [
+                "zero",
+                "an error of exactly zero carries no rate",
+                "An error of exactly zero has no logarithm: the solution lies in the discrete space. \
+                 Choose another one, or claim that it is exact.",
+            ],
+            Self::StepsNotDecreasing => [
+                "steps",
+                "the step sizes are not positive and decreasing",
+                "Levels must be given coarse to fine, each once.",
+            ],
+            Self::ClaimUnusable => [
+                "claim",
+                "the order and the tolerance must be positive numbers",
+                "The order and the tolerance must be positive numbers. Where no order is claimed, none is \
+                 confirmed.",
+            ],
+            Self::ToleranceTooWide => [
+                "tolerance",
+                "the tolerance is too wide to tell anything",
+                "Half an order or more on either side accepts two integer orders. Claim more narrowly.",
+            ],
+            Self::TooFewLevels => [
+                "levels",
+                "too few levels",
+                "A rate with an interval needs three levels above the round-off floor; four or more make \
+                 the interval narrow.",
+            ],
+            Self::NotAsymptotic => [
+                "asymptotic",
+                "not yet asymptotic",
+                "The rates are still changing. Add finer levels; where they scatter, take an error that \
+                 does not change its sign.",
+            ],
+            Self::Departs => [
+                "departs",
+                "the rates move away",
+                "The rates change more and more: a term of lower order, or a wrong limit, is about to \
+                 show. Add a finer level; look for what does not change with the step: the reference, the \
+                 solver's tolerance, the error of the other axis.",
+            ],
+            Self::LastPair => [
+                "last-pair",
+                "the finest pair of levels is outside the tolerance",
+                "The levels together agree with the order, and the two finest do not. Add a finer level.",
+            ],
+            Self::RoundOffFloor => [
+                "floor",
+                "at the round-off floor",
+                "Errors so small are taken for round-off. Add coarser levels, or set a lower floor where \
+                 they are known better.",
+            ],
+            Self::Digits => [
+                "digits",
+                "too few digits",
+                "The errors are given with too few digits for a rate that is known so well. Print more of \
+                 them.",
+            ],
+            Self::Value => [
+                "value",
+                "a value, not an error",
+                "The numbers tend to a value: they are no errors. Judge their differences, or subtract \
+                 the exact value.",
+            ],
+            Self::LeftOver => [
+                "left-over",
+                "h and dt may leave a part of the errors",
+                "Both orders agree, and do not explain the finest error. Add finer levels: either it is a \
+                 limit that is not zero, or the rates are not known well enough.",
+            ],
+            Self::WildRate => [
+                "wild",
+                "a pairwise rate is wild",
+                "A pairwise rate is more than five orders away from the claim: these levels are not one \
+                 family.",
+            ],
+            Self::Outlier => [
+                "outlier",
+                "a level does not fit its neighbours",
+                "The levels before and after it lie on one line of the finest rate, and it is off by a \
+                 factor of two or more. Look for what is different in that case, or leave it out.",
+            ],
+            Self::LevelsTooClose => [
+                "close",
+                "the levels are too close to each other",
+                "The coarsest step is less than 1.5 times the finest: a term of lower order would not \
+                 show. Refine further.",
+            ],
+            Self::IntervalTooWide => [
+                "wide",
+                "the interval is too wide for the tolerance",
+                "The data scatter too much for this tolerance. Add levels, take an error that does not \
+                 change its sign, or claim less narrowly.",
+            ],
+            Self::AtTheEdge => [
+                "edge",
+                "the interval crosses the edge of the tolerance",
+                "The interval is narrow, but holds an end of the band: the claim is neither confirmed nor \
+                 refuted.",
+            ],
+        }
+    }
+}

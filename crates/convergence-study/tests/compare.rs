@@ -37,6 +37,8 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
             extrapolated: judged.extrapolated,
             verdict: judged.verdict,
             reason: judged.reason,
+            code: String::new(),
+            advice: String::new(),
         }
     };
     let rates = vec![rate(0, 2.0), rate(1, 1.0)];

@@ -35,7 +35,7 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     let open: Vec<Reason> =
         rates.iter().map(|(_, rate)| rate.kind).filter(|kind| kind.verdict() == Verdict::Inconclusive).collect();
     let Some(&first) = open.first() else { return Next::Decided };
-    if !open.iter().any(|reason| mends(*reason)) {
+    if !open.iter().any(|reason| reason.wants_a_level()) {
         return Next::Beyond(first);
     }
     match levels {
@@ -44,11 +44,6 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
         _ if !(spent + cost <= budget) => Next::TooDear(cost),
         _ => Next::Another,
     }
-}
-
-/// Whether a finer level can decide what is inconclusive for this reason.
-fn mends(reason: Reason) -> bool {
-    matches!(reason, Reason::TooFewLevels | Reason::NotAsymptotic | Reason::IntervalTooWide | Reason::AtTheEdge)
 }
 
 /// How the study ended, in words: `decided after 5 levels; 4 were enough for L2`.

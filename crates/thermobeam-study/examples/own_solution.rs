@@ -33,6 +33,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         elements: vec![16, 32, 64, 128, 256],
         steps: vec![10],
         grid: false,
+        budget: None,
         t_end: 1.0,
         map: None,
         perturbation: None,

@@ -82,22 +82,18 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     figures.extend(values.figures);
     quantities.extend(values.quantities);
     rates.extend(values.rates);
-    let ended = next(study, ran).zip(study.refine.budget);
-    let ended =
-        ended.map(|(next, budget)| until_decided::in_words(next, levels, &rates, budget, "s")).unwrap_or_default();
-    let summary = [levels::summary(&rates), values.summary, ended].into_iter().filter(|text| !text.is_empty());
+    let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
     let summary = summary.collect::<Vec<_>>().join("; ");
-    if study.refine.budget.is_some() {
-        // Of levels that the clock may have kept from running, nothing is guarded.
-        let first = &ran[..until_decided::FIRST.len().min(ran.len())];
-        quantities.retain(|quantity| first.iter().any(|ran| quantity.name.ends_with(&format!(", {}", ran.case.label))));
-    }
-    Outcome {
+    let outcome = Outcome {
         levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
         tables: values.tables,
         figures,
         quantities,
         ..Outcome::new(summary, rates, vec![completion(ran)])
+    };
+    match next(study, ran).zip(study.refine.budget) {
+        Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),
+        None => outcome,
     }
 }
 

@@ -7,6 +7,7 @@
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
+use crate::study::outcome::Outcome;
 
 /// Levels at the first look, each twice as fine as the one before.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
@@ -46,10 +47,22 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     }
 }
 
+/// The outcome of a study that adds levels: it says how the study ended, and guards its first levels alone, for another machine may
+/// afford others.
+pub fn ended(mut outcome: Outcome, next: Next, levels: &Levels, budget: f64, unit: &str) -> Outcome {
+    let words = in_words(next, levels, &outcome.rates, budget, unit);
+    outcome.summary =
+        [outcome.summary, words].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
+    let first: Vec<String> =
+        levels.refinements.iter().take(FIRST.len()).map(|level| format!(", {}", level.label)).collect();
+    outcome.quantities.retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));
+    outcome
+}
+
 /// How the study ended, in words: `decided after 5 levels; 4 were enough for L2`.
 ///
 /// * `unit`: of costs and budget, such as `s`.
-pub fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str) -> String {
+fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str) -> String {
     let count = levels.refinements.len();
     let undecided = format!("undecided after {count} levels");
     match next {

@@ -16,7 +16,7 @@
 //! [refine]
 //! axis = "space"
 //! isolate = true
-//! elements = [8, 16, 32, 64]
+//! elements = [8, 16, 32, 64]  # or "auto": levels until it is decided, for at most `budget` node-steps (1e7)
 //! steps = 20
 //! t_end = 1.0
 //!
@@ -32,6 +32,7 @@
 use convergence_study::study::Untested;
 use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use convergence_study::study::levels::summary;
+use convergence_study::study::until_decided::{self, Next};
 use thermobeam::parameters::{Beam, Obstacles};
 
 use super::controls::untested;
@@ -109,9 +110,13 @@ impl Kind for Convergence {
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        let cost = |(elements, steps): (usize, usize)| elements as f64 * (steps as f64 + PREPARATION);
-        let case = |data: (usize, usize)| Case { label: Refine::label(data.0, data.1), cost: cost(data), data };
-        self.refine.cases().into_iter().map(case).collect()
+        self.refine.cases().into_iter().map(Self::case).collect()
+    }
+
+    fn more(&self, ran: &[Ran<(usize, usize), Norms>]) -> Option<Case<(usize, usize)>> {
+        let next = self.next(ran, &self.levels(ran))?;
+        let data = (next == Next::Another).then(|| self.refine.finer(ran[ran.len() - 1].case.data))?;
+        Some(Self::case(data))
     }
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
@@ -120,9 +125,7 @@ impl Kind for Convergence {
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
-        // Errors of each level in each norm; NaN where the case failed, so that it cannot pass.
-        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
-        let levels = norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors);
+        let levels = self.levels(ran);
         let completion = completion(ran, not_finite);
         if self.refine.grid {
             return self.judge_grid(ran, &levels, completion);
@@ -133,7 +136,11 @@ impl Kind for Convergence {
             Axis::Both => "the mesh width 1/n, refined together with the time step",
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
-        levels.outcome(&self.header.id, "rates", None, &caption, vec![completion])
+        let outcome = levels.outcome(&self.header.id, "rates", None, &caption, vec![completion]);
+        match self.next(ran, &levels).zip(self.refine.budget) {
+            Some((next, budget)) => until_decided::ended(outcome, next, &levels, budget, "node-steps"),
+            None => outcome,
+        }
     }
 
     fn details(&self) -> Vec<(String, String)> {
@@ -160,6 +167,26 @@ impl Convergence {
             Axis::Space | Axis::Both => 1.0 / elements as f64,
             Axis::Time => self.refine.dt(steps),
         }
+    }
+
+    fn case(data: (usize, usize)) -> Case<(usize, usize)> {
+        let (elements, steps) = data;
+        Case { label: Refine::label(elements, steps), cost: elements as f64 * (steps as f64 + PREPARATION), data }
+    }
+
+    /// Errors of each level in each norm; NaN where the case failed, so that it cannot pass.
+    fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
+        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
+        norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors)
+    }
+
+    /// What a study that adds levels does next; `None` where they are listed, or a case has failed.
+    fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
+        let budget = self.refine.budget.filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
+        let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
+        let finer = cost(self.refine.finer(ran.last()?.case.data));
+        let spent = ran.iter().map(|ran| cost(ran.case.data)).sum();
+        Some(until_decided::next(&levels.judge(), ran.len(), finer, spent, budget))
     }
 
     /// The verdict over a grid of (h, dt): squares of space and time error add, and each order is judged by itself.

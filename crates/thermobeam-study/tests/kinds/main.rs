@@ -6,6 +6,7 @@ mod any_order_cost;
 mod bifurcation;
 mod calibration;
 mod controls;
+mod convergence;
 mod energy;
 mod equilibrium;
 mod exact_experiments;

@@ -1,6 +1,7 @@
 //! The table `[refine]`: which meshes and time steps a study runs through.
 
 use convergence_study::judge::random::SplitMix;
+use convergence_study::study::until_decided;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::Settings;
@@ -57,6 +58,8 @@ pub struct Refine {
     pub scheme: Scheme,
     /// How each step is solved.
     pub settings: Settings,
+    /// Levels are added until it is decided, for as many node-steps, elements times time steps.
+    pub budget: Option<f64>,
 }
 
 impl Refine {
@@ -67,6 +70,12 @@ impl Refine {
         }
         // Where one axis is fixed, its list has one member.
         self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
+    }
+
+    /// The level after one, twice as fine in what is refined.
+    pub fn finer(&self, (elements, steps): (usize, usize)) -> (usize, usize) {
+        let [in_space, in_time] = [Axis::Time, Axis::Space].map(|other| 1 + usize::from(self.axis != other));
+        (in_space * elements, in_time * steps)
     }
 
     /// What identifies a run in words.
@@ -90,20 +99,26 @@ impl Refine {
     }
 }
 
+/// Node-steps that a study which adds levels may take where its file does not say: a quarter of a second.
+const BUDGET: f64 = 1e7;
+
 /// The table `[refine]`.
 pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let section = root.require("refine", "a table with axis, elements, steps and t_end")?.section()?;
-    let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed"];
+    let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed", "budget"];
     section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
     let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
     let perturbation = perturbation(&section)?;
+    let grid = flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?;
+    let node_steps = "a number of elements times time steps > 0";
     let refine = Refine {
         axis,
+        budget: until_decided::budget(&section, &["elements", "steps"], grid, BUDGET, node_steps)?,
         isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
         steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
-        grid: flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?,
+        grid,
         t_end: section.positive("t_end")?,
         perturbation,
         map: mesh_map(&section, &elements, perturbation)?,
@@ -136,9 +151,13 @@ fn levels(
     refined: bool,
     read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
 ) -> Result<Vec<usize>, InputError> {
-    let what = if refined { "a list of increasing whole numbers >= 1" } else { "a single whole number >= 1" };
+    let what =
+        if refined { "a list of increasing whole numbers >= 1, or \"auto\"" } else { "a single whole number >= 1" };
     let allowed = format!("{what}, because axis = \"{}\"", axis.name());
     let field = section.require(key, &allowed)?;
+    if refined && until_decided::is_auto(&field) {
+        return Ok(until_decided::FIRST.into());
+    }
     if !refined {
         let single = if field.is_list() { Err(field.refuse_as_written(allowed)) } else { read(&field) };
         return Ok(vec![single?]);

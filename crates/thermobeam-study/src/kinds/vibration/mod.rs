@@ -119,6 +119,10 @@ fn linear_beam(root: &Section<'_>) -> Result<Beam, InputError> {
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
     let (steps, elements) = (section.require("steps", "a number")?, section.require("elements", "a number")?);
+    if refine.budget.is_some() {
+        let auto = if refine.axis == Axis::Time { &steps } else { &elements };
+        return Err(auto.refuse_as_written("a list: a study of vibrations adds no levels"));
+    }
     for &level in &refine.steps {
         limits::steps_until(&steps, refine.t_end, refine.dt(level), limits::RECORDED_STEPS)?;
     }

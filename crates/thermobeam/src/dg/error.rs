@@ -121,4 +121,15 @@ pub enum StepFailure {
         /// Distance of the tip from the obstacle at the end of the last attempt.
         miss: f64,
     },
+    /// What the free end touches contradicts its motion: closed contact pulls, or the open free end penetrates.
+    #[error(
+        "contact contradicts the motion of the free end by a force of {force:.3e}: it pulls where it is closed, or penetrates \
+         where it is open (rounding errors of the position are a force of {noise:.3e}: take a larger epsilon)"
+    )]
+    WrongContact {
+        /// The force with the wrong sign.
+        force: f64,
+        /// Rounding errors of the position, divided by ε.
+        noise: f64,
+    },
 }

@@ -108,13 +108,16 @@ impl<const S: usize> Equations<'_, S> {
     /// ∫ [(w_t, ψ) + (φ_x + ζ w_x, ψ_x) - (u_x - φ + ζ(v_x - w), ψ) - a (θ~, ψ_x) - a θ_A (1, ψ) - F_φ] + (w(0+) - w_0, ψ(0))
     /// ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η) - F_θ] + (θ~(0+) - θ~_0, η(0))
     /// ```
+    ///
+    /// Returns the mean over the step of the contact force that the first equation needs at the free end. Unlike g(u(1)) it has no
+    /// rounding errors of u(1) divided by ε.
     pub(super) fn residual(
         &self,
         x: &[Block<S>],
         terms: &mut [Terms<S>],
         axial: &AxialForce<S>,
         residual: &mut [Block<S>],
-    ) {
+    ) -> f64 {
         for ((terms, x), start) in terms.iter_mut().zip(x).zip(&self.level.rates) {
             self.combine(x, start, axial, terms);
         }
@@ -138,10 +141,13 @@ impl<const S: usize> Equations<'_, S> {
                 }
             }
         }
-        self.add_forces(terms, residual);
         let tip = self.space.tip();
+        let load = self.forcing.map_or(0.0, |forcing| forcing.moments[0][tip][0]);
+        let force = (load - residual[tip][0][0]) / self.h;
+        self.add_forces(terms, residual);
         residual[0] = [[0.0; S]; 3];
         residual[tip][2] = [0.0; S];
+        force
     }
 
     /// Contact, the hot end, and the loads.

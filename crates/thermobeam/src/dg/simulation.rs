@@ -16,6 +16,9 @@ const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
 /// Rounding errors of the free end's position at a length of which no digit is left to improve, in units of its slack.
 const COLLAPSED: f64 = 64.0;
 
+/// Force of the wrong sign at which contact contradicts the motion, for an axial force of at most 1.
+const WRONG_FORCE: f64 = 1e-2;
+
 /// Attempts to end a step on an obstacle: safeguarded by bisection, they are never all needed.
 const ATTEMPTS: usize = 100;
 
@@ -212,6 +215,7 @@ impl Simulation {
 
     /// Takes the step just found: the new level is its end.
     fn finish(&mut self, h: f64, limit: f64, iterations: usize, next: Option<Phase>) -> Result<StepReport, StepError> {
+        self.check_contact(h).map_err(|failure| self.failed(h, failure))?;
         let start = self.level.t;
         let t = if h == limit - start { limit } else { start + h };
         let (phase, rung) = (self.phase, self.lengths.get());
@@ -235,6 +239,32 @@ impl Simulation {
         (self.last_dt, self.last_phase, self.smooth) = (h, phase, next.is_none());
         let event = next.and(self.events.last().copied());
         Ok(StepReport { dt: h, iterations, event })
+    }
+
+    /// Whether what the free end touches agrees with the step just found.
+    ///
+    /// An open free end must not penetrate, and closed contact must not pull. Where ε is so small that the position does not
+    /// tell the force, the balance of momentum does.
+    fn check_contact(&self, h: f64) -> Result<(), StepFailure> {
+        let Some(obstacles) = &self.obstacles else { return Ok(()) };
+        let tip = self.stages.tip(&self.space);
+        let slack = self.slack(&tip);
+        let noise = slack / obstacles.epsilon;
+        let [mean, n_value] = self.stages.forces();
+        let least = WRONG_FORCE * n_value.abs().max(1.0);
+        let force = match self.phase {
+            Phase::Free => {
+                let end = tip.at(1.0);
+                let depth = (end - obstacles.g2).max(obstacles.g1 - end);
+                if depth > slack { depth / obstacles.epsilon } else { 0.0 }
+            }
+            _ if noise <= least => 0.0,
+            Phase::Upper => -mean,
+            Phase::Lower => mean,
+        };
+        // Rounding errors of the velocity, as a force over the step.
+        let rounding = TIP_SLACK * self.level.rates[self.space.tip()][0].abs() / h;
+        if force > least + rounding { Err(StepFailure::WrongContact { force, noise }) } else { Ok(()) }
     }
 
     /// The length of the next step, cut or stretched by a rounding error to end at the limit.

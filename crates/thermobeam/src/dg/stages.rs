@@ -63,6 +63,8 @@ pub(super) trait Stages: Send {
     fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
+    /// The mean contact force over the step that the balance of momentum needs, and the axial force that goes with it.
+    fn forces(&self) -> [f64; 2];
     /// Keeps what was found as the last step.
     fn accept(&mut self);
     /// The level at s of the last step, 0 < s <= 1, from the level at its start.
@@ -100,6 +102,8 @@ pub(super) struct Stepper<const S: usize> {
     weights: Vec<[f64; 3]>,
     slots: Vec<Slot<S>>,
     forcing: Option<Forcing<S>>,
+    /// Contact force and axial force of the last iteration.
+    forces: [f64; 2],
     work: Work,
     clock: usize,
 }
@@ -120,6 +124,7 @@ impl<const S: usize> Stepper<S> {
             weights: space.diagonal_mass(),
             slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
             forcing: loaded.then(|| Forcing::new(blocks)),
+            forces: [0.0; 2],
             work: Work::default(),
             clock: 0,
         }
@@ -238,8 +243,9 @@ impl<const S: usize> Stages for Stepper<S> {
             let equations = task.equations(&self.forms, self.forcing.as_ref());
             equations.displace(&self.trial.x, &mut self.trial.terms);
             let axial = equations.axial_force(&self.trial.terms);
-            equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
+            let force = equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
             let n_value = axial.low[0][0];
+            self.forces = [force, n_value];
             if !n_value.is_finite() {
                 return Err(StepFailure::NonFinite { iterations: iteration });
             }
@@ -287,6 +293,10 @@ impl<const S: usize> Stages for Stepper<S> {
 
     fn tip(&self, space: &Space) -> Polynomial {
         polynomial(&self.trial.terms[space.tip()].places[0])
+    }
+
+    fn forces(&self) -> [f64; 2] {
+        self.forces
     }
 
     fn accept(&mut self) {

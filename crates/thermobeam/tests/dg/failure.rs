@@ -117,3 +117,21 @@ fn a_limit_in_the_past_or_no_number_is_no_step() {
     simulation.advance(0.1).unwrap();
     assert_eq!((simulation.t(), simulation.step(0.05)), (0.1, Ok(None)));
 }
+
+/// With ε below some 1e-15 rounding errors of u(1) are larger than any contact force: once such a run kept its free end on the
+/// obstacle for ever, and passed.
+#[test]
+fn contact_that_the_position_cannot_tell_is_an_error_where_it_pulls() {
+    for epsilon in [1e-16, 1e-17, 1e-18, 1e-20, 1e-100] {
+        let obstacles = Obstacles { epsilon, ..Obstacles::default() };
+        let problem = Problem { obstacles: Some(obstacles), ..experiment(0.0, 0.0, 16) };
+        let mut simulation = simulate(problem, Stepping { degree: 3, ..Stepping::default() });
+        let error = simulation.advance(1.0).unwrap_err();
+        match error.failure {
+            StepFailure::WrongContact { force, noise } => assert!(force > 1e-2 && noise > 1e-2, "{epsilon}: {error}"),
+            _ => panic!("{epsilon}: {error}"),
+        }
+        assert_eq!(simulation.t(), error.t);
+        assert!(error.t > 0.2 && error.t < 1.0, "{epsilon}: {error}");
+    }
+}

@@ -8,7 +8,7 @@ use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
 use thermobeam_study::run::any_order::{self, AnyOrderFailure};
 use thermobeam_study::run::driver::RunError;
-use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures};
+use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures, run_together};
 use thermobeam_study::scene::{Method, Scene};
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
@@ -183,4 +183,47 @@ fn a_run_of_any_order_stops_at_the_step_that_breaks_the_law_of_the_energy() {
         complaint.starts_with(&format!("step {step} (from t = {t}")) && complaint.contains("in a step"),
         "{complaint}"
     );
+}
+
+#[test]
+fn a_one_step_run_stops_at_the_step_that_raises_the_energy_alone_and_in_lanes() {
+    // Steps that are not solved.
+    let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
+                t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n";
+    let scene = Scene::parse(text, "loose.toml").unwrap();
+    let alone = run(&scene, Recording::Summary);
+    let Some(RunError::Unsound { step, t, dt, unsound }) = &alone.failure else { panic!("{:?}", alone.failure) };
+    assert!(alone.steps == *step && alone.steps < scene.steps() && (t + dt - alone.last.t).abs() < 1e-15, "{alone:?}");
+    assert!(alone.energy.complaint(alone.steps, alone.failure.as_ref()).unwrap().contains(&unsound.to_string()));
+    assert_eq!(serde_json::to_value(Object::new(&scene, &alone)).unwrap()["failure"]["kind"], "unsound");
+    let together = run_together(&[scene.clone(), scene]).unwrap();
+    for run in together {
+        assert_eq!((run.steps, &run.failure, run.last), (alone.steps, &alone.failure, alone.last));
+    }
+}
+
+/// The bound on a rise of the energy is a share of the energy: an infinite one let everything pass.
+#[test]
+fn a_run_whose_energy_is_infinite_fails() {
+    for scheme in ["dg", "euler-crank-nicolson", "midpoint"] {
+        for beta in ["1e155", "1e160", "1e300"] {
+            let text = format!(
+                "[beam]\nbeta = {beta}\n[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\n[time]\nscheme = \"{scheme}\"\nt_end = 1.0\n\
+                 dt = 0.01\n"
+            );
+            let scene = Scene::parse(&text, "s.toml").unwrap();
+            let complaint = match scene.method {
+                Method::OneStep(_) => {
+                    let run = run(&scene, Recording::Summary);
+                    run.energy.complaint(run.steps, run.failure.as_ref())
+                }
+                Method::Dg(_) => any_order::run(&scene, 0, &mut |_| ()).unwrap().complaint(),
+            };
+            let complaint = complaint.unwrap_or_else(|| panic!("{scheme} {beta}: pass"));
+            assert!(
+                complaint.contains("the energy is inf") || complaint.contains("finite"),
+                "{scheme} {beta}: {complaint}"
+            );
+        }
+    }
 }

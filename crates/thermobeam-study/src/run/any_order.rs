@@ -11,7 +11,7 @@ use thermobeam::dg::{Balance, ContactEvent, Field, Level, Phase, SetupError, Sim
 use thiserror::Error;
 
 use super::simulate::Counts;
-use super::tally::{EnergySummary, Extremes, Iterations, Sample, Tally, Unsound};
+use super::tally::{EnergyLaw, EnergySummary, Extremes, Iterations, Sample, Tally, Unsound};
 use crate::figures::SceneMotion;
 use crate::scene::Scene;
 
@@ -162,8 +162,7 @@ struct Observed<'s> {
     scene: &'s Scene,
     level: Level,
     first: Sample,
-    /// The energy now: that at the start and its changes.
-    energy: f64,
+    law: EnergyLaw,
     started_in: Phase,
     tally: Tally,
     times: usize,
@@ -181,7 +180,7 @@ impl<'s> Observed<'s> {
             scene,
             level,
             first,
-            energy: first.energy,
+            law: EnergyLaw::new(first.energy),
             started_in: simulation.phase(),
             tally: Tally::new(first.u_tip),
             times,
@@ -208,14 +207,7 @@ impl<'s> Observed<'s> {
             self.tally.include(u_tip);
         }
         self.sample(simulation, from, to);
-        self.energy += change;
-        let energy = EnergySummary {
-            initial: self.first.energy,
-            last: self.energy,
-            largest_increase: change,
-            largest_balance_residual: residual.abs(),
-        };
-        energy.sound(simulation.work().steps)
+        self.law.step(change, residual)
     }
 
     /// The states of the history that lie in the last step.

@@ -10,6 +10,8 @@ use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 use thiserror::Error;
 
+use super::tally::{EnergyLaw, Unsound};
+
 /// Why a problem was not stepped to its end.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
@@ -22,6 +24,18 @@ pub enum RunError {
     /// The time limit of the case was reached.
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
+    /// A step raised the energy far beyond what rounding and tolerance explain, or it is not finite.
+    #[error("step {step} (from t = {t}, length {dt:e}): {unsound}")]
+    Unsound {
+        /// Number of the step, counted from 1.
+        step: usize,
+        /// The time at which it started.
+        t: f64,
+        /// Its length.
+        dt: f64,
+        /// What it did.
+        unsound: Unsound,
+    },
 }
 
 impl From<MeshError> for RunError {
@@ -110,7 +124,8 @@ impl Driver {
         Ok(outcome?)
     }
 
-    /// Does up to `steps` steps without loads and shows each to `observe`, which may end the run.
+    /// Does up to `steps` steps without loads and shows each to `observe`, which may end the run. It also ends at the step that raises
+    /// the energy, or makes it infinite or NaN: no exactly solved step does.
     ///
     /// * Returns what `observe` broke off with; `None` after all steps.
     ///
@@ -121,12 +136,19 @@ impl Driver {
         steps: usize,
         mut observe: impl FnMut(Step<'_>) -> ControlFlow<B>,
     ) -> Result<Option<B>, RunError> {
+        let (simulation, level) = self.present();
+        let mut law = EnergyLaw::new(simulation.energy(level).total());
         for _ in 0..steps {
             let report = self.advance(|_, _| ())?;
             self.simulation.observe(&mut self.new);
+            let sound = law.step(self.simulation.energy_change(&self.old, &self.new), 0.0);
             let step = Step { report, old: &self.old, new: &self.new, simulation: &self.simulation };
             let flow = observe(step);
             std::mem::swap(&mut self.old, &mut self.new);
+            if let Err(unsound) = sound {
+                let (step, dt) = (self.simulation.step(), self.simulation.dt());
+                return Err(RunError::Unsound { step, t: self.simulation.t() - dt, dt, unsound });
+            }
             if let ControlFlow::Break(found) = flow {
                 return Ok(Some(found));
             }

@@ -68,6 +68,9 @@ const UNEXPLAINED: f64 = 1e-3;
 /// Why the numbers of a run mean nothing, although every step of it was done.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Unsound {
+    /// The energy is infinite or NaN.
+    #[error("the energy is {0}: {EXPECTED}")]
+    NotFinite(f64),
     /// The energy rose by this.
     #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
     Rise(f64),
@@ -82,15 +85,16 @@ const EXPECTED: &str =
     "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
 impl EnergySummary {
-    /// Whether the energy rose, or its balance is violated, far beyond what rounding and tolerance explain. A run without a step
-    /// is sound.
+    /// Whether the energy is finite, and has not risen or broken its balance far beyond what rounding and tolerance explain.
+    /// Without a step only the energy counts.
     ///
     /// # Errors
     /// [`Unsound`], with the number.
     pub fn sound(&self, steps: usize) -> Result<(), Unsound> {
-        let last = if self.last.is_finite() { self.last.abs() } else { 0.0 };
-        let most = UNEXPLAINED * self.initial.abs().max(last).max(1.0);
+        let most = UNEXPLAINED * self.initial.abs().max(self.last.abs()).max(1.0);
         match (self.largest_increase, self.largest_balance_residual) {
+            _ if !self.initial.is_finite() => Err(Unsound::NotFinite(self.initial)),
+            _ if !self.last.is_finite() => Err(Unsound::NotFinite(self.last)),
             _ if steps == 0 => Ok(()),
             (rise, _) if !(rise <= most) => Err(Unsound::Rise(rise)),
             (_, residual) if !(residual <= most) => Err(Unsound::Imbalance(residual)),
@@ -98,10 +102,34 @@ impl EnergySummary {
         }
     }
 
-    /// Why the numbers of a run cannot be used, in words: they mean nothing, or it failed.
+    /// Why the numbers of a run cannot be used, in words: it failed, or they mean nothing.
     pub fn complaint(&self, steps: usize, failure: Option<&impl Display>) -> Option<String> {
-        let unsound = self.sound(steps).err().map(|unsound| unsound.to_string());
-        unsound.or_else(|| failure.map(ToString::to_string))
+        let unsound = || self.sound(steps).err().map(|unsound| unsound.to_string());
+        failure.map(ToString::to_string).or_else(unsound)
+    }
+}
+
+/// The energy of a motion without loads, step by step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EnergyLaw {
+    initial: f64,
+    /// The energy now: that at the start and its changes.
+    last: f64,
+}
+
+impl EnergyLaw {
+    pub(crate) fn new(initial: f64) -> Self {
+        Self { initial, last: initial }
+    }
+
+    /// A step that changes the energy, and leaves a residual in its balance.
+    ///
+    /// # Errors
+    /// [`Unsound`] by the bound of [`EnergySummary::sound`].
+    pub(crate) fn step(&mut self, change: f64, residual: f64) -> Result<(), Unsound> {
+        self.last += change;
+        let Self { initial, last } = *self;
+        EnergySummary { initial, last, largest_increase: change, largest_balance_residual: residual.abs() }.sound(1)
     }
 }
 
@@ -170,9 +198,13 @@ mod tests {
         let ends_at = |last, residual| {
             EnergySummary { initial: 1.0, last, largest_increase: -1.0, largest_balance_residual: residual }.sound(1)
         };
-        assert_eq!([ends_at(-1e21, 1e6), ends_at(f64::NAN, 0.0)], [Ok(()), Ok(())]);
-        for last in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1.0] {
-            assert_eq!(ends_at(last, 1e6), Err(Unsound::Imbalance(1e6)), "{last}");
+        assert_eq!(ends_at(-1e21, 1e6), Ok(()));
+        assert_eq!(ends_at(1.0, 1e6), Err(Unsound::Imbalance(1e6)));
+        // An infinite energy would allow any rise.
+        for energy in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            assert!(matches!(ends_at(energy, 0.0), Err(Unsound::NotFinite(_))), "{energy}");
+            assert!(matches!(sound(energy, -1.0, 0.0, 1), Err(Unsound::NotFinite(_))), "{energy}");
+            assert!(matches!(sound(energy, f64::NAN, 0.0, 0), Err(Unsound::NotFinite(_))), "{energy}");
         }
     }
 }

@@ -109,6 +109,9 @@ fn failure(ended: &RunError) -> Failure {
             let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
             return Failure { kind: "time-limit", step: up.step, t: up.t, message: up.to_string(), numbers };
         }
+        &RunError::Unsound { step, t, .. } => {
+            return Failure { kind: "unsound", step, t, message: ended.to_string(), numbers: Numbers::None {} };
+        }
     };
     let (kind, numbers) = match error.failure {
         StepFailure::Diverged { iterations, increment, contraction } => {

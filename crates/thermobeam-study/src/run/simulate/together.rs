@@ -7,9 +7,10 @@ use thermobeam::scheme::Scheme;
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Level, Settings, Solver};
 
-use super::{Middle, Run, Sample, Sums, problem};
+use super::{Middle, Recording, Run, Sample, Simulator, Sums, problem};
 use crate::run::driver::RunError;
 use crate::run::ensemble::EnsembleDriver;
+use crate::run::tally::EnergyLaw;
 use crate::scene::Scene;
 
 /// What scenes must have in common to run side by side.
@@ -51,9 +52,12 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let start = |k: usize| sample(driver.ensemble(), &mut level, k, 0).at_the_start(scenes[k].obstacles);
     let firsts: Vec<Sample> = (0..scenes.len()).map(start).collect();
     let mut sums: Vec<Sums> = firsts.iter().map(|first| Sums::new(first.u_tip)).collect();
+    let mut laws: Vec<EnergyLaw> = firsts.iter().map(|first| EnergyLaw::new(first.energy)).collect();
+    let mut is_sound = vec![true; scenes.len()];
     driver.run(common.steps, |ensemble, balances| {
         for (k, (sums, balance)) in sums.iter_mut().zip(balances).enumerate() {
             if let Ok(report) = ensemble.report(k) {
+                is_sound[k] &= laws[k].step(balance.change, 0.0).is_ok();
                 sums.add(&report, balance, ensemble.tip(k), ensemble.contact_force(k));
             }
         }
@@ -61,11 +65,15 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     })?;
     let (ensemble, share) = (driver.ensemble(), driver.wall() / scenes.len() as u32);
     let end = |(k, sums): (usize, Sums)| {
+        if !is_sound[k] {
+            // By itself it ends at the step that breaks the law.
+            return Ok(Simulator::new(&scenes[k])?.run(Recording::Summary, &mut |_| ()));
+        }
         let failure = ensemble.report(k).err().filter(|_| common.steps > 0);
         let steps = failure.as_ref().map_or(common.steps, |error| error.step - 1);
         let last = if steps == 0 { firsts[k] } else { sample(ensemble, &mut level, k, steps) };
         let run = sums.run(steps, [firsts[k], last], share, ensemble.work_of(k), ensemble.is_heated(k));
-        Run { failure: failure.map(Into::into), ..run }
+        Ok(Run { failure: failure.map(Into::into), ..run })
     };
-    Ok(sums.into_iter().enumerate().map(end).collect())
+    sums.into_iter().enumerate().map(end).collect()
 }

@@ -26,6 +26,9 @@ pub const FEWEST_LEVELS: usize = 3;
 /// Tolerances must stay below: half the distance between two integer orders accepts either.
 pub const WIDEST_TOLERANCE: f64 = 0.5;
 
+/// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and from 2.5.
+pub const DEFAULT_TOLERANCE: f64 = 0.25;
+
 /// Distance from the order beyond which a pairwise rate is no pre-asymptotic effect: an error that falls 32 times faster or
 /// slower than theory when the step is halved is a different solution, not a worse one.
 pub const WILD: f64 = 5.0;
@@ -55,6 +58,13 @@ pub enum JudgeError {
 pub struct Judge {
     tolerance: f64,
     floor: f64,
+}
+
+impl Default for Judge {
+    /// The rule with [`DEFAULT_TOLERANCE`] and the floor [`ROUND_OFF_FLOOR`].
+    fn default() -> Self {
+        Self { tolerance: DEFAULT_TOLERANCE, floor: ROUND_OFF_FLOOR }
+    }
 }
 
 impl Judge {

@@ -1,6 +1,9 @@
 //! What a program answers: the last line of its standard output that is a JSON object.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
 
@@ -87,7 +90,8 @@ pub(super) struct NearMiss {
 pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, NearMiss>> {
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
-    let read = serde_json::from_str(line).or_else(|_| serde_json::from_str(&with_null_for_nan(line)));
+    let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
+    let read = parsed(line).or_else(|_| parsed(&with_null_for_nan(line))).and_then(serde_json::from_value);
     let near_miss = |error: serde_json::Error| {
         let is_dict = inside.starts_with('\'') && ["'errors'", "'values'"].iter().any(|key| inside.contains(key));
         let reason = if inside.starts_with('\'') {
@@ -100,6 +104,66 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, NearMiss>>
         NearMiss { reason, is_answer: inside.is_empty() || inside.starts_with('"') || is_dict }
     };
     Some(read.map_err(near_miss))
+}
+
+/// A value of JSON in which no object has a name twice: the last one would win in silence.
+struct Once(Value);
+
+impl<'de> Deserialize<'de> for Once {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Read;
+        impl<'de> Visitor<'de> for Read {
+            type Value = Once;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a value of JSON")
+            }
+
+            fn visit_bool<E>(self, value: bool) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_u64<E>(self, value: u64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_str<E>(self, value: &str) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_unit<E>(self) -> Result<Once, E> {
+                Ok(Once(Value::Null))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Once, A::Error> {
+                let mut list = vec![];
+                while let Some(Once(item)) = items.next_element()? {
+                    list.push(item);
+                }
+                Ok(Once(list.into()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Once, A::Error> {
+                let mut object = Map::new();
+                while let Some((name, Once(value))) = entries.next_entry::<String, Once>()? {
+                    if object.contains_key(&name) {
+                        return Err(A::Error::custom(format!("`{}` occurs twice", visible(&name))));
+                    }
+                    object.insert(name, value);
+                }
+                Ok(Once(object.into()))
+            }
+        }
+        deserializer.deserialize_any(Read)
+    }
 }
 
 /// The text with `null` for every NaN and infinity outside of strings.

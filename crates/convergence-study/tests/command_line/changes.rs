@@ -94,7 +94,8 @@ pub(crate) fn a_run_fails_where_a_study_does_and_nothing_differs() {
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2").output().unwrap());
     assert_eq!(status, Some(1), "{out}");
-    let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low\n";
+    let failed =
+        "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\n  too-low: The whole interval";
     assert!(out.starts_with(failed) && !out.contains("baseline: "), "{out}");
 }
 

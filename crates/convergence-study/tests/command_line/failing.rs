@@ -60,14 +60,18 @@ pub(crate) fn what_fails_is_printed_last_and_what_passes_is_counted() {
     assert_eq!(run(&root, &["verify", "one", "three", "--bless"]).0, Some(0));
     let (status, out, _) = run(&root, &["verify"]);
     let lines: Vec<&str> = out.lines().collect();
-    assert_eq!((status, lines.len()), (Some(1), 15), "{out}");
+    assert_eq!((status, lines.len()), (Some(1), 16), "{out}");
     assert!(lines[0].starts_with("study  verdict") && lines[1].starts_with("two    fail"), "{out}");
     assert_eq!(
         lines[2..5],
         ["2 studies pass (--verbose lists them)", "", "report: reports/index.html, reports/README.md"]
     );
-    assert_eq!(lines[11..14], ["two: fail", "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low", ""]);
-    assert!(lines[14].starts_with("fail: 1 of 3 fail (two); "), "{out}");
+    assert_eq!(lines[11..13], ["two: fail", "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low (too-low)"]);
+    assert!(
+        lines[13].starts_with("  too-low: The whole interval lies below the band") && lines[14].is_empty(),
+        "{out}"
+    );
+    assert!(lines[15].starts_with("fail: 1 of 3 fail (two); "), "{out}");
     let (_, out, _) = run(&root, &["verify", "--verbose"]);
     assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("studies pass ("), "{out}");
 }

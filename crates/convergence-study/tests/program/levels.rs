@@ -44,6 +44,22 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     );
 }
 
+pub(crate) fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
+    let place = Place::new("cells", "");
+    let (status, out, err) = place.study(&[]);
+    assert!(status == Some(0) && out.contains("2.0000 ± 0.00005"), "{out}{err}");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    place.write_text(&text.replace("order = 2.0", "order = 1.0"));
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("too high"), "the error is 1/n: over 1/n its order would be 1\n{out}");
+}
+
+pub(crate) fn a_name_that_an_answer_has_twice_is_refused() {
+    let place = Place::new("twice", "");
+    let (status, out, err) = place.study(&[]);
+    assert!(status == Some(1) && (out.clone() + &err).contains("`L2` occurs twice"), "{out}{err}");
+}
+
 pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
     let place = Place::new("half", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();

@@ -39,6 +39,15 @@ pub(crate) fn main(arguments: &[String]) -> ! {
         println!(r#"{{"errors": {{"L2": {:e}, "L1": {:e}}}}}"#, h * h * (1.0 + 4.0 * h), h * h);
         exit(0)
     }
+    if mode == "cells" {
+        // n is the number of cells of a square: the step is the edge of a cell, which is not 1/n.
+        println!(r#"{{"errors": {{"L2": {:e}}}, "h": {:e}}}"#, f64::from(n).recip(), f64::from(n).sqrt().recip());
+        exit(0)
+    }
+    if mode == "twice" {
+        println!(r#"{{"errors": {{"L2": {:e}, "L2": 1e-3}}}}"#, f64::from(n).powi(-2));
+        exit(0)
+    }
     println!("{}", answer(n));
     exit(0)
 }

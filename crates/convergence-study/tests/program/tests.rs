@@ -18,9 +18,10 @@ use crate::kept::{
     kept_results_are_used_until_something_changes, results_that_cannot_be_kept_are_judged,
 };
 use crate::levels::{
-    a_level_without_a_result_fails_and_the_others_have_a_rate, a_study_of_two_levels_has_the_rate_between_them,
-    levels_are_added_until_it_is_decided_within_the_budget, steps_that_only_some_levels_answer_are_refused,
-    the_seconds_of_a_study_are_those_that_passed, what_is_finite_beside_a_nan_is_kept,
+    a_level_without_a_result_fails_and_the_others_have_a_rate, a_name_that_an_answer_has_twice_is_refused,
+    a_study_of_two_levels_has_the_rate_between_them, levels_are_added_until_it_is_decided_within_the_budget,
+    steps_that_only_some_levels_answer_are_refused, the_seconds_of_a_study_are_those_that_passed,
+    the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over, what_is_finite_beside_a_nan_is_kept,
 };
 use crate::solver;
 
@@ -43,6 +44,8 @@ const TESTS: &[Test] = &tests![
     every_misbehaviour_is_one_line_and_leaves_nothing,
     a_level_without_a_result_fails_and_the_others_have_a_rate,
     what_is_finite_beside_a_nan_is_kept,
+    the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over,
+    a_name_that_an_answer_has_twice_is_refused,
     a_study_of_two_levels_has_the_rate_between_them,
     steps_that_only_some_levels_answer_are_refused,
     the_seconds_of_a_study_are_those_that_passed,

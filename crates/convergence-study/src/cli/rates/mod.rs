@@ -29,7 +29,7 @@ pub struct Arguments {
     #[arg(long, value_name = "[NAME=]P", value_parser = claim, allow_negative_numbers = true)]
     order: Vec<(Option<String>, f64)>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
-    #[arg(long, value_name = "T", default_value_t = 0.05, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
     /// Round-off, in the unit of the errors: the finest levels have no say as long as their errors are not above E; 0 drops none
     ///

@@ -57,7 +57,11 @@ pub(super) fn rate(judged: &Judged<'_>) -> String {
 pub(super) fn found(judged: &Judged<'_>) -> String {
     let claim = if judged.is_claimed() { format!(", claimed {}", judged.rate.claim()) } else { String::new() };
     let passes = judged.rate.verdict == Verdict::Pass;
-    let reason = if passes { String::new() } else { format!(": {}", judged.reason()) };
+    let reason = match passes {
+        true if judged.is_claimed() => format!(": {}", judged.rate.excludes()),
+        true => String::new(),
+        false => format!(": {}", judged.reason()),
+    };
     format!("{}{claim}{reason}", rate(judged))
 }
 

@@ -5,7 +5,9 @@ use std::{fmt, ops::Range};
 use super::reading::Reading;
 use super::reason::Reason;
 use crate::judge::power_law::PowerLaw;
-use crate::text::number::{RATE_PLACES, counted, decimals, interval_places, interval_text, order_text, plain_text};
+use crate::text::number::{
+    RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text, plain_text,
+};
 
 /// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -136,6 +138,14 @@ impl RateVerdict {
     /// What is claimed: `2 ± 0.05`.
     pub fn claim(&self) -> String {
         format!("{} ± {}", order_text(self.order), plain_text(self.tolerance))
+    }
+
+    /// What a pass confirms, and the nearest orders that it excludes: `2, not 1.5 or 2.5`.
+    pub fn excludes(&self) -> String {
+        let others =
+            [-2.0, 2.0].map(|sides| self.order + sides * self.tolerance).into_iter().filter(|other| *other > 0.0);
+        let others: Vec<String> = others.map(|other| order_text(committed_rate(other))).collect();
+        format!("{}, not {}", order_text(self.order), others.join(" or "))
     }
 
     /// Rate, claim and reason in a line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.

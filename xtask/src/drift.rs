@@ -88,11 +88,11 @@ impl Numbers {
     fn parse(json: &str, path: &Path) -> Result<Self, RecordError> {
         let mut numbers = Self::default();
         for study in Record::parse(json, path)?.studies {
-            if study.verdict != Verdict::Pass {
-                numbers.not_passing.push(study.id.clone());
+            if study.outcome.verdict != Verdict::Pass {
+                numbers.not_passing.push(study.header.id.clone());
             }
-            for Quantity { name, value, tolerance } in study.quantities {
-                numbers.values.insert(format!("{}: {name}", study.id), (value, tolerance));
+            for Quantity { name, value, tolerance } in study.outcome.quantities {
+                numbers.values.insert(format!("{}: {name}", study.header.id), (value, tolerance));
             }
         }
         Ok(numbers)

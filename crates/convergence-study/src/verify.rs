@@ -15,9 +15,9 @@ use crate::report::{Findings, SeeAlso};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
-use crate::store::file_set::{ReportFolder, ReportSet, lock};
+use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
-use crate::store::record::{self, Precision, Record};
+use crate::store::record::{self, Record};
 use crate::store::writing;
 use crate::study::{Header, Study, Tier};
 use crate::text::visible;
@@ -213,7 +213,13 @@ pub fn verify(
     let target = request.scope.report_folder(folder);
     let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
     // Everything is made before anything is written.
-    let (files, provenance) = report_files(project, &verification, request).map_err(fail)?;
+    let command = request.scope.command(project);
+    let provenance =
+        Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &verification.finished);
+    let record = verification.record(&request.scope, &command).committed();
+    let see_also = see_also(&record, folder);
+    let files = Findings { project, record: &record, see_also, provenance: Some(&provenance) }.files().map_err(fail)?;
+    let provenance = record::json(&provenance).map_err(|error| fail(error.into()))?;
     if let Some(Ok(())) = &verification.blessing {
         baseline.write(&baseline_file)?;
     }
@@ -267,18 +273,16 @@ pub fn run_and_report(
 ) -> Result<Verification, VerificationError> {
     let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let finished = run::run(studies, jobs, &|_| {})?;
-    let found = findings(project, &finished, project.command);
-    publish(&found, jobs.get(), folder)?;
-    let verdict = found.verdict;
+    let verdict = verdict(&finished, &[]);
+    publish(project, record(&finished, project.command), jobs.get(), folder)?;
     Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
 }
 
-/// What is reported on studies that have run without a baseline.
+/// The record of studies that have run without a baseline.
 ///
 /// * `command`: what ran them.
-pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f str) -> Findings<'f> {
-    let (scope, verdict) = (Scope::Selection(vec![]).name(), verdict(finished, &[]));
-    Findings { project, scope, command, finished, changes: None, verdict, see_also: None, provenance: None }
+pub fn record(finished: &[Finished], command: &str) -> Record {
+    Record::new("files", command, verdict(finished, &[]), None, finished.to_vec())
 }
 
 /// Writes the report on them into a folder of their own; missing folders are made.
@@ -287,15 +291,38 @@ pub fn findings<'f>(project: &'f Project, finished: &'f [Finished], command: &'f
 ///
 /// # Errors
 /// [`VerificationError::Reports`].
-pub fn publish(found: &Findings<'_>, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
-    let local = folder.join("local");
+pub fn publish(project: &Project, record: Record, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
+    let here = Provenance::collect(Path::new("."), record.command.clone(), jobs, &record.studies);
+    rebuild(project, record, Some(&here), folder)
+}
+
+/// Writes the report on a record, whose studies are not run. In a folder of reports it is the report of that record's scope.
+///
+/// * `provenance`: where the run comes from, if that is known.
+///
+/// # Errors
+/// [`VerificationError::Reports`].
+pub fn rebuild(
+    project: &Project,
+    record: Record,
+    provenance: Option<&Provenance>,
+    folder: &Path,
+) -> Result<(), VerificationError> {
+    let record = record.committed();
     let publish = || {
-        let _lock = lock(&lock_file(folder))?;
-        let target = ReportFolder { folder: folder.to_owned(), workshop: local.join("workshop") };
-        let here = Provenance::collect(Path::new("."), found.command.to_owned(), jobs, found.finished);
-        target.publish(&Findings { provenance: Some(&here), ..*found }.files()?)
+        let reports = reports_around(folder);
+        let _lock = lock(&lock_file(&reports))?;
+        let target = ReportFolder { folder: folder.to_owned(), workshop: reports.join("local/workshop/rebuilt") };
+        let see_also = see_also(&record, folder);
+        target.publish(&Findings { project, record: &record, see_also, provenance }.files()?)
     };
     publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
+}
+
+/// The folder of reports that a folder is in, which has the lock: `reports/` of `reports/full/`; else the folder itself.
+pub(crate) fn reports_around(folder: &Path) -> PathBuf {
+    let has_lock = |folder: &&Path| lock_file(folder).is_file();
+    folder.ancestors().take(3).find(has_lock).unwrap_or(folder).to_owned()
 }
 
 /// Completes or removes what killed runs have left, of any scope.
@@ -336,44 +363,22 @@ fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
 }
 
 impl Verification {
-    /// What is reported on.
-    pub fn findings<'f>(&'f self, project: &'f Project, scope: &Scope, command: &'f str) -> Findings<'f> {
-        let Self { finished, changes, verdict, .. } = self;
-        Findings {
-            project,
-            scope: scope.name(),
-            command,
-            finished,
-            changes: Some(changes),
-            verdict: *verdict,
-            see_also: None,
-            provenance: None,
-        }
+    /// All of it as data, with all digits.
+    ///
+    /// * `command`: what was run.
+    pub fn record(&self, scope: &Scope, command: &str) -> Record {
+        Record::new(scope.name(), command, self.verdict, Some(&self.changes), self.finished.clone())
     }
-
-    /// The same as data, with all digits.
-    pub fn record(&self, scope: &Scope) -> Record {
-        let changes = self.changes.iter().map(ToString::to_string).collect();
-        Record::new(scope.name(), self.verdict, changes, &self.finished, Precision::Full)
-    }
-}
-
-/// The files of a report, and where they come from as JSON.
-fn report_files(project: &Project, found: &Verification, request: &Request) -> io::Result<(ReportSet, String)> {
-    let Request { scope, reports: folder, .. } = request;
-    let command = scope.command(project);
-    let see_also = see_also(scope, folder);
-    let provenance = Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &found.finished);
-    let findings = found.findings(project, scope, &command);
-    let files = Findings { see_also, provenance: Some(&provenance), ..findings }.files()?;
-    Ok((files, record::json(&provenance)?))
 }
 
 /// The report on the full tier beside that on the quick one. Its page is not committed: a fresh checkout has its Markdown alone.
-fn see_also(scope: &Scope, folder: &Path) -> Option<SeeAlso<'static>> {
+fn see_also(record: &Record, folder: &Path) -> Option<SeeAlso<'static>> {
     let (readme, page) = ("full/README.md", "full/index.html");
     let has = |file: &str| folder.join(file).is_file();
     let page = if has(page) { page } else { readme };
-    let is_quick = matches!(scope, Scope::Tier(Tier::Quick, _));
-    (is_quick && has(readme)).then_some(SeeAlso { title: "the report on the full tier", readme, page })
+    (record.scope == Tier::Quick.name() && has(readme)).then_some(SeeAlso {
+        title: "the report on the full tier",
+        readme,
+        page,
+    })
 }

@@ -4,70 +4,43 @@ use std::path::Path;
 
 use convergence_study::compare::{Change, Comparison, Settings, WITHIN, compare};
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::store::record::{
-    Errors, LevelRecord, Parameters, RateRecord, Record, SCHEMA, StudyRecord, json,
-};
+use convergence_study::run::{Finished, Spent};
+use convergence_study::store::record::{Record, json};
+use convergence_study::study::{Header, LevelErrors, Outcome};
 
 const COUNTS: [u32; 5] = [8, 16, 32, 64, 128];
 
 /// A level with n cells: errors by name, and the work n².
-fn level(n: u32, errors: &[(&str, f64)]) -> LevelRecord {
-    LevelRecord {
-        parameters: Parameters(vec![("n".to_owned(), f64::from(n))]),
+fn level(n: u32, errors: &[(&str, f64)]) -> LevelErrors {
+    LevelErrors {
+        parameters: vec![("n".to_owned(), f64::from(n))],
         step: Some(1.0 / f64::from(n)),
         work: Some(f64::from(n).powi(2)),
-        errors: Errors(errors.iter().map(|(name, error)| ((*name).to_owned(), *error)).collect()),
+        errors: errors.iter().map(|(name, error)| ((*name).to_owned(), *error)).collect(),
+        without: vec![],
     }
 }
 
 /// A study of `L2`, claimed to be of order 2, and `H1`, of order 1.
-fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> StudyRecord {
+fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> Finished {
     let errors = |n: u32| [("L2", l2(1.0 / f64::from(n))), ("H1", h1(1.0 / f64::from(n)))];
     let rate = |norm: usize, order: f64| {
         let pairs = counts.iter().map(|&n| (1.0 / f64::from(n), errors(n)[norm].1));
-        let judged = judge_pairs(pairs, order, 0.1);
-        RateRecord {
-            norm: ["L2", "H1"][norm].to_owned(),
-            order,
-            tolerance: 0.1,
-            pairwise: judged.pairwise,
-            fitted: judged.fitted,
-            constant: judged.constant,
-            interval: judged.interval,
-            extrapolated: judged.extrapolated,
-            verdict: judged.verdict,
-            reason: judged.reason,
-            code: String::new(),
-            advice: String::new(),
-        }
+        (["L2", "H1"][norm].to_owned(), judge_pairs(pairs, order, 0.1))
     };
-    let rates = vec![rate(0, 2.0), rate(1, 1.0)];
-    StudyRecord {
-        id: id.to_owned(),
-        claim: "c".to_owned(),
-        tier: "quick".to_owned(),
-        kind: "k".to_owned(),
-        verdict: Verdict::worst(rates.iter().map(|rate| rate.verdict)),
-        summary: "s".to_owned(),
-        levels: counts.iter().map(|&n| level(n, &errors(n))).collect(),
-        rates,
-        checks: vec![],
-        quantities: vec![],
+    let levels = counts.iter().map(|&n| level(n, &errors(n))).collect();
+    Finished {
+        header: Header::new(id, "c"),
+        outcome: Outcome { levels, ..Outcome::new("s", vec![rate(0, 2.0), rate(1, 1.0)], vec![]) },
         failed_cases: vec![],
         not_finite: vec![],
         untested: vec![],
+        spent: Spent::default(),
     }
 }
 
-fn record(studies: Vec<StudyRecord>) -> Record {
-    Record {
-        schema: SCHEMA,
-        crate_version: "0".to_owned(),
-        scope: "files".to_owned(),
-        verdict: Verdict::Pass,
-        baseline_changes: vec![],
-        studies,
-    }
+fn record(studies: Vec<Finished>) -> Record {
+    Record::new("files", "test", Verdict::Pass, None, studies)
 }
 
 /// Smooth, with the next power.
@@ -75,18 +48,23 @@ fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
     move |h: f64| constant * h.powf(order) * (1.0 + 0.3 * h)
 }
 
-fn sound(id: &str) -> StudyRecord {
+fn sound(id: &str) -> Finished {
     study(id, &COUNTS, smooth(1.0, 2.0), smooth(3.0, 1.0))
 }
 
-fn compared(old: StudyRecord, new: StudyRecord) -> Comparison {
+fn compared(old: Finished, new: Finished) -> Comparison {
     compare(&record(vec![old]), &record(vec![new]), &Settings::new(None, WITHIN).unwrap())
 }
 
 /// The errors that differ, each with what became of it.
 fn found(comparison: &Comparison) -> Vec<(&str, Change)> {
-    let norms = comparison.studies.iter().flat_map(|study| &study.norms);
-    norms.filter(|norm| norm.change != Change::Same).map(|norm| (norm.norm.as_str(), norm.change)).collect()
+    let norms = comparison.findings.iter().filter_map(|finding| Some((finding.norm.as_deref()?, finding.change)));
+    norms.filter(|(_, change)| *change != Change::Same).collect()
+}
+
+/// Why the first error is what it is.
+fn reason(comparison: &Comparison) -> &str {
+    &comparison.findings[0].reason
 }
 
 #[test]
@@ -98,13 +76,12 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     let new = studies(&smooth(1.05, 2.0), &smooth(3.0, 0.5));
     let comparison = compare(&old, &new, &Settings::new(None, WITHIN).unwrap());
     assert_eq!(found(&comparison), [("L2", Change::Worse), ("H1", Change::Worse)]);
-    assert!(comparison.notes.is_empty() && comparison.studies.iter().all(|study| study.notes.is_empty()));
-    let [a, b, c] = [0, 1, 2].map(|k| &comparison.studies[k]);
-    assert_eq!((a.change, b.change, c.change), (Change::Same, Change::Worse, Change::Worse));
-    assert!(b.norms[0].reason.starts_with("errors larger at the same step: 1.0500 times"), "{}", b.norms[0].reason);
-    let ratio = b.norms[0].error.unwrap();
-    assert!(ratio.interval[0] > 1.0499 && ratio.interval[1] < 1.0501 && ratio.levels == 5, "{ratio:?}");
-    assert!(c.norms[1].reason.starts_with("order 1.0") && c.norms[1].reason.contains("→ 0.5"), "{}", c.norms[1].reason);
+    assert_eq!((comparison.studies, comparison.gained.len(), comparison.findings.len()), (3, 0, 6));
+    let [larger, lower] = [2, 5].map(|k| &comparison.findings[k]);
+    assert_eq!((larger.study.as_str(), lower.study.as_str()), ("b", "c"));
+    let words = "errors larger at 5 of 5 levels that both have: n = ";
+    assert!(larger.reason.starts_with(words) && larger.reason.ends_with(": 1.05 times"), "{}", larger.reason);
+    assert!(lower.reason.starts_with("order 1.0") && lower.reason.contains("→ 0.5"), "{}", lower.reason);
     // The other way round both are better.
     let comparison = compare(&new, &old, &Settings::new(None, WITHIN).unwrap());
     assert_eq!(found(&comparison), [("L2", Change::Better), ("H1", Change::Better)]);
@@ -120,61 +97,85 @@ fn a_difference_below_the_limit_is_none() {
 }
 
 #[test]
-fn unequal_levels_are_interpolated_and_named() {
+fn the_errors_of_other_levels_are_interpolated() {
     for (constant, change) in [(1.0, Change::Same), (1.05, Change::Worse), (0.95, Change::Better)] {
-        let new = study("a", &[12, 24, 48, 96, 192], smooth(constant, 2.0), smooth(3.0, 1.0));
-        let comparison = compared(sound("a"), new);
+        let new = || study("a", &[12, 24, 48, 96, 192], smooth(constant, 2.0), smooth(constant, 1.0));
+        let old = || study("a", &COUNTS, smooth(1.0, 2.0), smooth(1.0, 1.0));
+        let comparison = compared(old(), new());
         assert_eq!(comparison.change, change, "{comparison:?}");
-        let norm = &comparison.studies[0].norms[0];
-        assert!(norm.error.is_some_and(|error| error.levels == 4 && (error.ratio - constant).abs() < 2e-3), "{norm:?}");
-        assert!(comparison.studies[0].notes[0].contains("L2: in the old record only: n = 8; n = 16"), "{comparison:?}");
-        assert!((norm.work.unwrap().ratio - constant).abs() < 0.03, "{norm:?}");
+        assert!(
+            reason(&comparison).contains("4 of 4 levels") || reason(&comparison).ends_with("4 levels"),
+            "{comparison:?}"
+        );
     }
     // No step in common, and none between two of the other.
     let apart = compared(sound("a"), study("a", &[256, 512, 1024, 2048], smooth(2.0, 2.0), smooth(3.0, 1.0)));
-    assert_eq!((apart.change, apart.studies[0].norms[0].error), (Change::NotProven, None));
+    assert_eq!(apart.change, Change::NotProven);
 }
 
 #[test]
-fn a_norm_or_a_study_that_only_one_has_is_named_and_no_error() {
-    let mut old = sound("a");
-    old.levels.iter_mut().for_each(|level| level.errors.0.push(("max".to_owned(), 1.0)));
-    let mut new = sound("a");
-    new.levels.iter_mut().for_each(|level| level.errors.0.retain(|(name, _)| name != "H1"));
-    new.rates.pop();
+fn what_is_lost_is_lost_and_what_is_gained_is_named() {
+    let without = |norm: &str, rates: bool| {
+        let mut new = sound("a");
+        if !rates {
+            new.outcome.levels.iter_mut().for_each(|level| level.errors.retain(|(name, _)| name != norm));
+        }
+        new.outcome.rates.retain(|(name, _)| name != norm);
+        new
+    };
+    let coarser = || study("a", &COUNTS[..4], smooth(1.0, 2.0), smooth(3.0, 1.0));
+    for (new, lost, why) in [
+        (without("H1", false), vec!["H1"], "the new record does not have the error"),
+        (without("H1", true), vec!["H1"], "the new record does not judge its rate"),
+        (coarser(), vec!["L2", "H1"], "the new record does not have the finest level, n = 128"),
+    ] {
+        let comparison = compared(sound("a"), new.clone());
+        assert_eq!(found(&comparison), lost.iter().map(|norm| (*norm, Change::Lost)).collect::<Vec<_>>(), "{why}");
+        assert!(comparison.findings.iter().any(|finding| finding.reason == why), "{comparison:?}");
+        // The other way round something is gained.
+        let gained = compared(new, sound("a"));
+        assert_eq!(gained.change, Change::Same, "{gained:?}");
+        assert_eq!(gained.gained.iter().any(|name| name == "a: H1"), why.ends_with("the error"), "{gained:?}");
+    }
     let settings = Settings::new(None, WITHIN).unwrap();
-    let comparison = compare(&record(vec![old, sound("b")]), &record(vec![new, sound("c")]), &settings);
-    assert_eq!(comparison.change, Change::Same);
-    assert_eq!(comparison.studies[0].notes, ["H1: in the old record only", "max: in the old record only"]);
-    assert_eq!(comparison.notes, ["the study b is in the old record only", "the study c is in the new record only"]);
+    let [old, new] = [record(vec![sound("a"), sound("b")]), record(vec![sound("a"), sound("c")])];
+    let comparison = compare(&old, &new, &settings);
+    assert_eq!((comparison.change, comparison.gained), (Change::Lost, vec!["the study c".to_owned()]));
+    assert_eq!(comparison.findings.last().map(|finding| (&*finding.study, finding.change)), Some(("b", Change::Lost)));
 }
 
 #[test]
 fn the_same_error_for_more_work_is_worse() {
     let mut new = sound("a");
-    new.levels.iter_mut().for_each(|level| level.work = level.work.map(|work| 1.2 * work));
+    new.outcome.levels.iter_mut().for_each(|level| level.work = level.work.map(|work| 1.2 * work));
     let comparison = compared(sound("a"), new);
     assert_eq!(found(&comparison), [("L2", Change::Worse), ("H1", Change::Worse)]);
-    assert!(comparison.studies[0].norms[0].reason.contains("takes 1.200 times the work"), "{comparison:?}");
+    assert!(reason(&comparison).contains("takes 1.200 times the work"), "{comparison:?}");
 }
 
 #[test]
 fn an_error_that_is_a_number_no_more_is_worse() {
     let mut new = sound("a");
-    new.levels[1].errors.0[0].1 = f64::NAN;
+    new.outcome.levels[1].errors[0].1 = f64::NAN;
     let comparison = compared(sound("a"), new);
     assert_eq!(found(&comparison), [("L2", Change::Worse)]);
-    assert_eq!(comparison.studies[0].norms[0].reason, "no longer a finite number >= 0 at n = 16");
+    assert_eq!(reason(&comparison), "no longer a finite number >= 0 at n = 16");
 }
 
 #[test]
 fn an_error_that_becomes_negative_is_worse() {
     let mut new = sound("a");
-    new.levels[1].errors.0[0].1 *= -1.0;
+    new.outcome.levels[1].errors[0].1 *= -1.0;
     let comparison = compared(sound("a"), new.clone());
     assert_eq!(found(&comparison), [("L2", Change::Worse)]);
-    assert_eq!(comparison.studies[0].norms[0].reason, "no longer a finite number >= 0 at n = 16");
+    assert_eq!(reason(&comparison), "no longer a finite number >= 0 at n = 16");
     assert_eq!(found(&compared(new.clone(), new)), [], "it was no error before");
+}
+
+/// Errors of which no order is claimed.
+fn unjudged(levels: Vec<LevelErrors>) -> Finished {
+    let outcome = Outcome { levels, verdict: Verdict::Pass, ..Outcome::new("s", vec![], vec![]) };
+    Finished { outcome, ..sound("a") }
 }
 
 /// The levels scatter, so that the interval of their mean is wide.
@@ -183,7 +184,7 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
     let without_rates = |scales: [f64; 3]| {
         let levels = [8, 16, 32].into_iter().zip(scales);
         let levels = levels.map(|(n, scale)| level(n, &[("L2", scale / f64::from(n).powi(2))])).collect();
-        StudyRecord { levels, rates: vec![], verdict: Verdict::Pass, ..sound("a") }
+        unjudged(levels)
     };
     for (scales, change, reason) in [
         ([30.0, 2.0, 200.0], Change::Worse, "errors larger"),
@@ -193,9 +194,8 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
         ([1.001, 1.0, 0.999], Change::Same, "errors the same"),
     ] {
         let comparison = compared(without_rates([1.0; 3]), without_rates(scales));
-        let norm = &comparison.studies[0].norms[0];
-        assert_eq!(norm.change, change, "{norm:?}");
-        assert!(norm.reason.starts_with(reason), "{}", norm.reason);
+        assert_eq!(comparison.change, change, "{comparison:?}");
+        assert!(comparison.findings[0].reason.starts_with(reason), "{comparison:?}");
     }
 }
 
@@ -203,10 +203,7 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
 #[test]
 fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let noisy = |seed: f64| move |h: f64| h * h * (1.0 + 0.03 * (seed / h).sin());
-    let of = |seed: f64| {
-        let study = study("a", &COUNTS, noisy(seed), |h| 1e-13 * (seed * h).cos().abs());
-        StudyRecord { rates: vec![], verdict: Verdict::Pass, ..study }
-    };
+    let of = |seed: f64| unjudged(study("a", &COUNTS, noisy(seed), |h| 1e-13 * (seed * h).cos().abs()).outcome.levels);
     let compared =
         |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &Settings::new(None, within).unwrap());
     assert_eq!(compared(0.1).change, Change::Same, "{:?}", compared(0.1));
@@ -216,21 +213,21 @@ fn noise_and_errors_at_the_floor_differ_from_nothing() {
 
 #[test]
 fn a_study_without_errors_is_compared_by_its_verdict() {
-    let plain = |verdict: Verdict| StudyRecord { levels: vec![], rates: vec![], verdict, ..sound("a") };
+    let plain = |verdict: Verdict| {
+        let plain = unjudged(vec![]);
+        Finished { outcome: Outcome { verdict, ..plain.outcome }, ..plain }
+    };
     let worse = compared(plain(Verdict::Pass), plain(Verdict::Fail));
-    assert_eq!(worse.change, Change::Worse);
-    assert_eq!(worse.studies[0].reason.as_deref(), Some("the verdict was pass, is fail: s"));
+    assert_eq!((worse.change, reason(&worse)), (Change::Worse, "the verdict was pass, is fail: s"));
     assert_eq!(compared(plain(Verdict::Fail), plain(Verdict::Pass)).change, Change::Better);
     let unsure = compared(plain(Verdict::Pass), plain(Verdict::Inconclusive));
-    assert_eq!(unsure.change, Change::Worse);
-    assert_eq!(unsure.studies[0].reason.as_deref(), Some("the verdict was pass, is inconclusive: s"));
+    assert_eq!((unsure.change, reason(&unsure)), (Change::Worse, "the verdict was pass, is inconclusive: s"));
 }
 
 /// A record of six levels without claims, and the same with some errors larger.
-fn unclaimed(factors: [f64; 6]) -> StudyRecord {
+fn unclaimed(factors: [f64; 6]) -> Finished {
     let levels = [8, 16, 32, 64, 128, 256].into_iter().zip(factors);
-    let levels = levels.map(|(n, factor)| level(n, &[("L2", factor / f64::from(n).powi(2))])).collect();
-    StudyRecord { levels, rates: vec![], ..sound("a") }
+    unjudged(levels.map(|(n, factor)| level(n, &[("L2", factor / f64::from(n).powi(2))])).collect())
 }
 
 #[test]
@@ -243,8 +240,7 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
         ([1.0, 1.0, 1.0, 0.5, 0.25, 1.2], "errors larger at 1 of 6 levels that both have: n = 256: 1.2 times"),
     ] {
         let comparison = compared(unclaimed(before), unclaimed(factors));
-        let norm = &comparison.studies[0].norms[0];
-        assert_eq!((norm.change, norm.reason.as_str()), (Change::Worse, reason));
+        assert_eq!((comparison.change, &*comparison.findings[0].reason), (Change::Worse, reason));
     }
     assert_eq!(compared(unclaimed(before), unclaimed([1.009; 6])).change, Change::Same);
     // A claim whose interval has become too wide: two finest errors 1.5 times, or the finest 3 times larger.
@@ -263,20 +259,23 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
 fn grids_and_records_without_steps_are_compared_by_their_parameters() {
     let grid = |scale: f64| {
         let pairs = [8, 16, 32].into_iter().flat_map(|n| [10, 20, 40].map(|steps| (n, steps)));
-        let level = |(n, steps): (u32, u32)| LevelRecord {
-            parameters: Parameters(vec![("n".into(), f64::from(n)), ("steps".into(), f64::from(steps))]),
+        let at = |(n, steps): (u32, u32)| LevelErrors {
+            parameters: vec![("n".into(), f64::from(n)), ("steps".into(), f64::from(steps))],
             step: None,
             work: None,
-            errors: Errors(vec![("L2".to_owned(), scale * (1.0 / f64::from(n) + 1.0 / f64::from(steps)))]),
+            ..level(n, &[("L2", scale * (1.0 / f64::from(n) + 1.0 / f64::from(steps)))])
         };
-        StudyRecord { levels: pairs.map(level).collect(), rates: vec![], ..sound("a") }
+        unjudged(pairs.map(at).collect())
     };
     let comparison = compared(grid(1.0), grid(1.05));
     assert_eq!(found(&comparison), [("L2", Change::Worse)]);
-    assert_eq!(comparison.studies[0].norms[0].error.unwrap().levels, 9);
+    assert!(reason(&comparison).starts_with("errors larger at 9 of 9 levels"), "{comparison:?}");
+    let mut coarser = grid(1.0);
+    coarser.outcome.levels.pop();
+    assert_eq!(compared(grid(1.0), coarser).change, Change::Lost);
     assert_eq!(compared(grid(1.0), grid(1.0)).change, Change::Same);
     let mut old = sound("a");
-    old.levels.iter_mut().for_each(|level| level.step = None);
+    old.outcome.levels.iter_mut().for_each(|level| level.step = None);
     let new = study("a", &COUNTS, smooth(1.05, 2.0), smooth(3.0, 1.0));
     assert_eq!(found(&compared(old, new)), [("L2", Change::Worse)]);
 }
@@ -284,12 +283,12 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
 #[test]
 fn a_record_is_read_as_it_was_written() {
     let mut written = record(vec![sound("a")]);
-    written.studies[0].levels[0].errors.0[0].1 = f64::NAN;
-    written.studies[0].rates[0].interval = Some([f64::NAN, 1.0]);
+    written.studies[0].outcome.levels[0].errors[0].1 = f64::NAN;
+    written.studies[0].outcome.rates[0].1.interval = Some([f64::NAN, 1.0]);
     let text = json(&written).unwrap();
     let read = Record::parse(&text, Path::new("r.json")).unwrap();
     assert_eq!(json(&read).unwrap(), text);
-    assert!(read.studies[0].levels[0].errors.0[0].1.is_nan());
+    assert!(read.studies[0].outcome.levels[0].errors[0].1.is_nan());
     for (from, to, message) in [
         ("\"schema\": 1", "\"schema\": 7", "r.json: schema: found 7; expected 1"),
         ("\"pass\"", "\"good\"", "unknown variant `good`, expected one of `pass`, `inconclusive`, `fail`"),

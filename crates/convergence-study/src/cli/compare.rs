@@ -7,14 +7,14 @@ use serde::Serialize;
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::screen;
-use crate::compare::{Change, Comparison, Norm, Settings, Study, WITHIN, compare};
+use crate::compare::{Change, Comparison, Finding, Order, Settings, WITHIN, compare};
 use crate::judge::verdict::Verdict;
 use crate::store::record::Record;
-use crate::text::visible::visible;
+use crate::text::visible::{self, visible};
 
 /// Compare two versions by their records: order, errors at the same step, work for the same error
 ///
-/// Records are what `verify` writes to results.json and what `study --format json` prints. Exit status 1 where something is worse.
+/// Records are what `verify` writes to results.json and what `study --format json` prints. Exit status 1 where something is worse or lost.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The record of the old version
@@ -54,13 +54,12 @@ struct Object<'a> {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let Arguments { old, new, within, floor, all, flags } = arguments;
     let settings = Settings::new(*floor, *within)?;
-    let records = [Record::read(old)?, Record::read(new)?];
-    let comparison = compare(&records[0], &records[1], &settings);
-    if comparison.studies.is_empty() {
-        let [old, new] = [old, new].map(|path| visible(&path.display().to_string()));
+    let comparison = compare(&Record::read(old)?, &Record::read(new)?, &settings);
+    if comparison.studies == 0 {
+        let [old, new] = [old, new].map(|path| visible::path(path));
         return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));
     }
-    let is_worse = comparison.change == Change::Worse;
+    let is_worse = comparison.change >= Change::Worse;
     let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
     let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
     flags.show("compare", verdict, &Object { within: *within, comparison: &comparison }, &words)?;
@@ -69,74 +68,42 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 
 fn text(comparison: &Comparison, all: bool) -> String {
     let mut text = String::new();
-    for study in &comparison.studies {
-        let shown = |norm: &&Norm| all || norm.change != Change::Same;
-        for Norm { norm, change, reason, .. } in study.norms.iter().filter(shown) {
-            text += &format!("{}: {}: {}: {}\n", study.id, visible(norm), change.name(), visible(reason));
-        }
-        if let Some(reason) = &study.reason {
-            text += &format!("{}: {}: {}\n", study.id, study.change.name(), visible(reason));
+    for Finding { study, norm, change, reason, .. } in &comparison.findings {
+        if all || *change != Change::Same {
+            let norm = norm.as_ref().map_or(String::new(), |norm| format!("{}: ", visible(norm)));
+            text += &format!("{study}: {norm}{}: {}\n", change.name(), visible(reason));
         }
     }
     if all {
-        text += &table(comparison);
+        text += &orders(comparison);
     }
-    for note in notes(comparison) {
-        text += &format!("note: {}\n", visible(&note));
+    for gained in &comparison.gained {
+        text += &format!("note: only the new record has {}\n", visible(gained));
     }
     text + &sentence(comparison)
 }
 
-fn notes(comparison: &Comparison) -> Vec<String> {
-    let of_study =
-        |study: &'_ Study| study.notes.iter().map(|note| format!("{}: {note}", study.id)).collect::<Vec<_>>();
-    comparison.studies.iter().flat_map(of_study).chain(comparison.notes.iter().cloned()).collect()
-}
-
-/// Order, constant, error and work of every error.
-fn table(comparison: &Comparison) -> String {
-    let of_study = |study: &'_ Study| study.norms.iter().map(|norm| row(&study.id, norm)).collect::<Vec<_>>();
-    let rows: Vec<Vec<String>> = comparison.studies.iter().flat_map(of_study).collect();
-    let head = ["study", "error", "order, old", "order, new", "constant, old", "constant, new", "error", "work", "is"];
+/// The orders of every error in both records.
+fn orders(comparison: &Comparison) -> String {
+    let order = |order: &Option<Order>| {
+        let words = |Order { order, interval: [low, high] }: Order| format!("{order:.4} ({low:.4} to {high:.4})");
+        order.map_or_else(|| "-".to_owned(), words)
+    };
+    let row = |Finding { study, norm, change, orders, .. }: &Finding| {
+        let [old, new] = orders.each_ref().map(order);
+        Some(vec![study.clone(), visible(norm.as_ref()?), old, new, change.name().to_owned()])
+    };
+    let rows: Vec<Vec<String>> = comparison.findings.iter().filter_map(row).collect();
+    let head = ["study", "error", "order, old", "order, new", "is"];
     if rows.is_empty() { String::new() } else { format!("\n{}\n", screen::table(&head, &rows)) }
 }
 
-fn row(id: &str, Norm { norm, change, lines, error, work, .. }: &Norm) -> Vec<String> {
-    let none = || "-".to_owned();
-    let interval = |value: f64, [low, high]: [f64; 2]| format!("{value:.4} ({low:.4} to {high:.4})");
-    let order = |k: usize| lines[k].map_or_else(none, |line| interval(line.order, line.order_interval));
-    let constant = |k: usize| {
-        let finite = lines[k].filter(|line| line.constant.is_finite());
-        finite.map_or_else(none, |line| {
-            format!("{:.3e} ({:.2e} to {:.2e})", line.constant, line.constant_interval[0], line.constant_interval[1])
-        })
-    };
-    let error = error.map_or_else(none, |error| interval(error.ratio, error.interval));
-    let work = work.map_or_else(none, |work| interval(work.ratio, work.interval));
-    vec![
-        id.to_owned(),
-        visible(norm),
-        order(0),
-        order(1),
-        constant(0),
-        constant(1),
-        error,
-        work,
-        change.name().to_owned(),
-    ]
-}
-
 fn sentence(comparison: &Comparison) -> String {
-    let norms = || comparison.studies.iter().flat_map(|study| study.norms.iter().map(|norm| norm.change));
-    let of_studies = comparison.studies.iter().filter(|study| study.reason.is_some()).map(|study| study.change);
-    let found: Vec<Change> = norms().filter(|change| *change != Change::Same).chain(of_studies).collect();
-    let count = |change: Change| found.iter().filter(|known| **known == change).count();
-    let [worse, better, not_proven] = [Change::Worse, Change::Better, Change::NotProven].map(count);
-    let same = norms().filter(|change| *change == Change::Same).count();
-    let not_proven = if not_proven == 0 { String::new() } else { format!(", {not_proven} not proven") };
-    let studies = comparison.studies.len();
-    format!(
-        "{}: {worse} worse, {better} better, {same} the same{not_proven}, in {studies} studies\n",
-        comparison.change.name()
-    )
+    let count = |change: Change| comparison.findings.iter().filter(|finding| finding.change == change).count();
+    let [lost, worse, better, same, open] =
+        [Change::Lost, Change::Worse, Change::Better, Change::Same, Change::NotProven].map(count);
+    let some = |count: usize, what: &str| if count == 0 { String::new() } else { format!("{count} {what}") };
+    let (lost, open) = (some(lost, "lost, "), some(open, "not proven, "));
+    let (change, studies) = (comparison.change.name(), comparison.studies);
+    format!("{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies} studies\n")
 }

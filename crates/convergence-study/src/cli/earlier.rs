@@ -9,7 +9,6 @@ use super::exit::Unusable;
 use crate::judge::verdict::Verdict;
 use crate::store::provenance::Provenance;
 use crate::store::record::Record;
-use crate::store::regular;
 
 /// Where `verify` leaves its records, below the workspace; of two of the same age the later one counts.
 const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
@@ -38,8 +37,12 @@ impl Earlier {
         // Stable, so that the order of RECORDS decides between equals; a later one overwrites.
         records.sort_by_key(|(written, _)| *written);
         let studies = records.into_iter().flat_map(|(_, record)| record.studies);
-        let verdicts = studies.map(|study| (study.id, study.verdict)).collect();
-        let times = times(&root.join(TIMES))?.into_iter().flat_map(|provenance| provenance.studies);
+        let verdicts = studies.map(|study| (study.header.id, study.outcome.verdict)).collect();
+        let times = root.join(TIMES);
+        let times = Provenance::read(&times)
+            .map_err(|error| Unusable::file(&times, &error))?
+            .into_iter()
+            .flat_map(|provenance| provenance.studies);
         let seconds = times.map(|study| (study.id, study.busy_seconds)).collect();
         Ok(Self { verdicts, seconds })
     }
@@ -58,13 +61,4 @@ impl Earlier {
 /// Whether there is anything at that place, be it something that cannot be read.
 fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
-}
-
-/// The origin of the last run; `None` where there was none.
-fn times(path: &Path) -> Result<Option<Provenance>, Unusable> {
-    if !is_there(path) {
-        return Ok(None);
-    }
-    let text = regular::read_to_string(path).map_err(|error| Unusable::file(path, &error))?;
-    serde_json::from_str(&text).map(Some).map_err(|error| Unusable::file(path, &error))
 }

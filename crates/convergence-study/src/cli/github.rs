@@ -42,7 +42,7 @@ pub(super) fn summarise(markdown: &str) {
 }
 
 fn annotations(findings: &Findings<'_>) -> String {
-    let bad = findings.finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
+    let bad = findings.record.studies.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
     let studies = bad.map(|finished| {
         let outcome = &finished.outcome;
         annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &summary(outcome))

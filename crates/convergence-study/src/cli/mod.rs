@@ -1,4 +1,4 @@
-//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `explain`, `completions`, for any project.
+//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `report`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -21,6 +21,7 @@ mod new;
 pub mod output;
 pub mod progress;
 mod rates;
+mod report;
 pub mod running;
 pub mod screen;
 pub mod selection;
@@ -46,13 +47,15 @@ pub enum Command {
     Explain(explain::Arguments),
     Rates(rates::Arguments),
     Compare(compare::Arguments),
+    Report(report::Arguments),
     New(new::Arguments),
     Completions(completions::Arguments),
     Guard(guard::Arguments),
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 8] = ["new", "verify", "study", "list", "explain", "rates", "compare", "completions"];
+pub const COMMANDS: [&str; 9] =
+    ["new", "verify", "study", "list", "explain", "rates", "compare", "report", "completions"];
 
 impl Command {
     /// Runs the command for a project; `whole` is the whole command line, for completions.
@@ -68,6 +71,7 @@ impl Command {
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
+            Self::Report(arguments) => report::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
             Self::Guard(arguments) => guard::run(arguments),

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{summary, tables, text_of_failures};
+use crate::report::{Findings, summary, tables, text_of_failures};
 use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
-use crate::store::record::{self, Precision, Record};
+use crate::store::record::json;
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::visible::{self, visible};
-use crate::verify::{findings, publish, quoted};
+use crate::verify::{publish, quoted, record};
 
 use super::exit::Outcome;
 use super::flags::Flags;
@@ -45,34 +45,31 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let effort = flags.effort(arguments.limits.case_limit);
     let finished = run::run(&studies, effort, &|progress| watched.show(progress));
     watched.clear();
-    let finished = finished?;
+    let mut finished = finished?;
     let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
-    let findings = findings(project, &finished, &command);
-    let verdict = findings.verdict;
     // Looked for only where it is shown.
-    let untested = studies.iter().zip(&finished).map(|(study, finished)| -> Vec<Untested> {
-        if finished.outcome.verdict == Verdict::Pass { untested(study.as_ref(), effort) } else { vec![] }
-    });
-    let text = match flags.format {
-        Format::Json => {
-            let mut record = Record::new("files", verdict, vec![], &finished, Precision::Full);
-            record.studies.iter_mut().zip(untested).for_each(|(study, untested)| study.untested = untested);
-            record::json(&record)?
+    let is_shown = flags.format == Format::Json || !flags.quiet;
+    for (study, finished) in studies.iter().zip(&mut finished) {
+        if is_shown && finished.outcome.verdict == Verdict::Pass {
+            finished.untested = untested(study.as_ref(), effort);
         }
+    }
+    let record = record(&finished, &command);
+    let verdict = record.verdict;
+    let findings = Findings { project, record: &record, see_also: None, provenance: None };
+    let text = match flags.format {
+        Format::Json => json(&record)?,
         Format::Text if flags.quiet => {
             format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
         }
-        Format::Text => {
-            let texts = finished.iter().zip(untested);
-            texts.map(|(finished, untested)| text(finished) + &no_test_of(&untested)).collect::<Vec<_>>().join("\n")
-        }
+        Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
     };
     // What was found is shown first: no file that cannot be written takes it away.
     output::print(&text)?;
     github::announce(&findings, flags.format);
     if let Some(folder) = &flags.out {
-        publish(&findings, effort.jobs.get(), folder)?;
+        publish(project, record, effort.jobs.get(), folder)?;
         if flags.format == Format::Text && !flags.quiet {
             let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
             output::print(&format!("\nreport: {page}, {readme}\n"))?;
@@ -110,5 +107,5 @@ fn text(finished: &Finished) -> String {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         text += &format!("\n{}\n{}", visible(&table.title), screen::table(&head, &table.rows));
     }
-    text
+    text + &no_test_of(&finished.untested)
 }

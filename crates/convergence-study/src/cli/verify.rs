@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
+use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
 use crate::run::Finished;
 use crate::store::record;
 use crate::study::{Study, StudyFile, Tier};
@@ -74,12 +74,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
     watched.clear();
     let verification = verification?;
-    let command = request.scope.command(project);
+    let record = verification.record(&request.scope, &request.scope.command(project));
     output::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments),
-        Format::Json => record::json(&verification.record(&request.scope))?,
+        Format::Json => record::json(&record)?,
     })?;
-    github::announce(&verification.findings(project, &request.scope, &command), flags.format);
+    github::announce(&Findings { project, record: &record, see_also: None, provenance: None }, flags.format);
     Ok(verification.verdict.into())
 }
 

@@ -5,6 +5,7 @@ use super::markdown::{cell, table, text};
 use super::section::folded;
 use super::words::{blessing, can_be_blessed};
 use crate::store::baseline::{Change, Movement};
+use crate::store::record::Record;
 use crate::text::number::short_text;
 
 /// A study's id as it is written, a link where the text can have one.
@@ -66,11 +67,11 @@ fn times(movement: &Movement) -> String {
 
 /// How they are accepted, or why they cannot be.
 fn acceptance(findings: &Findings<'_>) -> String {
-    let Findings { project, command, finished, .. } = findings;
+    let Findings { project, record: Record { command, studies, .. }, .. } = findings;
     match findings.moves() {
         [] => String::new(),
-        moves if can_be_blessed(finished) => {
-            format!("If it is meant: `{}`.\n\n", blessing(project, command, finished, moves))
+        moves if can_be_blessed(studies) => {
+            format!("If it is meant: `{}`.\n\n", blessing(project, command, studies, moves))
         }
         _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
     }

@@ -23,7 +23,7 @@ use crate::store::baseline::Change;
 use crate::store::file_set::ReportSet;
 use crate::store::junit::junit;
 use crate::store::provenance::Provenance;
-use crate::store::record::{self, Precision, Record};
+use crate::store::record::{self, FIGURES, Record};
 use crate::study::outcome::Figure;
 use crate::text::number::committed;
 use markdown::{cell, text};
@@ -38,16 +38,8 @@ pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};
 pub struct Findings<'f> {
     /// Whose studies they are.
     pub project: &'f Project,
-    /// What was run, such as `quick`.
-    pub scope: &'f str,
-    /// The command that runs it again.
-    pub command: &'f str,
-    /// The studies.
-    pub finished: &'f [Finished],
-    /// What moved away from the baseline; `None` where the run was compared with none, as by `study`.
-    pub changes: Option<&'f [Change]>,
-    /// The verdict on all.
-    pub verdict: Verdict,
+    /// What was found.
+    pub record: &'f Record,
     /// Another report to point to.
     pub see_also: Option<SeeAlso<'f>>,
     /// Where the run comes from: for the page alone.
@@ -74,15 +66,14 @@ impl Findings<'_> {
     /// # Errors
     /// Two figures of one name, and what the writers of JSON and XML refuse.
     pub fn files(&self) -> io::Result<ReportSet> {
-        let changes = self.moves().iter().map(Change::to_string).collect();
-        let record = Record::new(self.scope, self.verdict, changes, self.finished, Precision::Committed);
+        let Self { project, record, .. } = self;
         let mut set = ReportSet::default();
-        let rates = forest::figure(self.project, self.finished);
+        let rates = forest::figure(project, &record.studies);
         set.add("README.md", self.readme_with(rates.as_ref()))?;
         set.add("index.html", page::page(self, rates.as_ref()))?;
         set.add("summary.md", self.digest())?;
-        set.add("results.json", record::json(&record)?)?;
-        set.add("junit.xml", junit(self.project.name, self.finished, self.changes).map_err(io::Error::other)?)?;
+        set.add("results.json", record::json(record)?)?;
+        set.add("junit.xml", junit(project.name, record).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
         for (file, name) in self.project.front_pictures {
             if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
@@ -90,63 +81,68 @@ impl Findings<'_> {
             }
         }
         if let Some(figure) = &rates {
-            set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
+            set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
         }
         for figure in self.figures() {
-            set.add(format!("figures/{}", figure.file), figure.svg.as_str())?;
+            set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
         }
         Ok(set)
     }
 
     /// What moved away from the baseline, if there is one.
     pub fn moves(&self) -> &[Change] {
-        self.changes.unwrap_or_default()
+        self.record.changes.as_deref().unwrap_or_default()
     }
 
     fn figures(&self) -> impl Iterator<Item = &Figure> {
-        self.finished.iter().flat_map(|finished| &finished.outcome.figures)
+        self.record.studies.iter().flat_map(|finished| &finished.outcome.figures)
     }
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
     pub fn readme(&self) -> String {
-        self.readme_with(forest::figure(self.project, self.finished).as_ref())
+        self.readme_with(forest::figure(self.project, &self.record.studies).as_ref())
     }
 
     /// * `rates`: the picture of all rates.
     fn readme_with(&self, rates: Option<&Figure>) -> String {
         let link = |id: &str| self.linked(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
-        page += &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.command);
+        page +=
+            &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.record.command);
         if let Some(SeeAlso { title, readme, .. }) = self.see_also {
             page += &format!(" See also [{}]({readme}).", text(title));
         }
-        page += &format!("\n\n{}{}", failures::markdown(self.finished, true), changes::parts(self, &link).concat());
+        page +=
+            &format!("\n\n{}{}", failures::markdown(&self.record.studies, true), changes::parts(self, &link).concat());
         page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.finished.iter().map(|finished| section::section(finished, &self.again(finished))));
+        page.extend(self.record.studies.iter().map(|finished| section::section(finished, &self.again(finished))));
         page
     }
 
     /// A study's id in Markdown; a link to its section where it has one.
     fn linked(&self, id: &str, anchor: &str) -> String {
-        let has_a_section = self.finished.iter().any(|finished| finished.header.id == id);
+        let has_a_section = self.record.studies.iter().any(|finished| finished.header.id == id);
         if has_a_section { format!("[{}](#{anchor})", cell(id)) } else { cell(id) }
     }
 
     /// The same as one page that needs nothing else.
     pub fn page(&self) -> String {
-        page::page(self, forest::figure(self.project, self.finished).as_ref())
+        page::page(self, forest::figure(self.project, &self.record.studies).as_ref())
     }
 
     /// What of the report fits on one page of a continuous integration and in a comment: no links, no sections.
     ///
     /// What does not pass comes first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
     pub fn digest(&self) -> String {
-        let mut digest = format!("## Verification, {}\n\n{}", self.scope, self.verdict_line());
-        let passes = self.finished.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
-        let folded =
-            section::folded(&format!("{passes} of {} studies pass", self.finished.len()), &self.overview(cell), false);
-        let failures = failures::markdown(self.finished, false);
+        let mut digest = format!("## Verification, {}\n\n{}", self.record.scope, self.verdict_line());
+        let passes = self.record.studies.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
+        let folded = section::folded(
+            &format!("{passes} of {} studies pass", self.record.studies.len()),
+            &self.overview(cell),
+            false,
+        );
+        let failures = failures::markdown(&self.record.studies, false);
         let parts = [vec![failures], changes::parts(self, &cell), vec![folded]].concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {
@@ -161,20 +157,20 @@ impl Findings<'_> {
     /// The command that runs a study again.
     pub(super) fn again(&self, finished: &Finished) -> String {
         // What is compared with the baseline is what `verify` runs, which knows each study by its id.
-        if self.changes.is_some() {
+        if self.record.changes.is_some() {
             format!("{} verify {}", self.project.command, finished.header.id)
         } else {
-            self.command.to_owned()
+            self.record.command.clone()
         }
     }
 
     /// The verdict in one line, without the verdict itself.
     pub fn sentence(&self) -> String {
-        sentence(self.finished, self.changes)
+        sentence(&self.record.studies, self.record.changes.as_deref())
     }
 
     fn verdict_line(&self) -> String {
-        format!("**{}**: {}\n\n", self.verdict, text(&self.sentence()))
+        format!("**{}**: {}\n\n", self.record.verdict, text(&self.sentence()))
     }
 
     /// A table for each group of studies.
@@ -188,12 +184,12 @@ impl Findings<'_> {
             let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
             format!("\n**{}**\n\n{table}", text(group))
         };
-        forest::grouped(self.project, self.finished).into_iter().map(table).collect()
+        forest::grouped(self.project, &self.record.studies).into_iter().map(table).collect()
     }
 
     /// Errors in long form, one a line.
     pub fn errors_csv(&self) -> String {
-        let levels = || self.finished.iter().flat_map(|finished| &finished.outcome.levels);
+        let levels = || self.record.studies.iter().flat_map(|finished| &finished.outcome.levels);
         let parameters = distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
         let mut csv: String = ["study"]
             .into_iter()
@@ -201,7 +197,7 @@ impl Findings<'_> {
             .map(|name| field(name) + ",")
             .collect();
         csv += "norm,error\n";
-        for Finished { header, outcome, .. } in self.finished {
+        for Finished { header, outcome, .. } in &self.record.studies {
             for level in &outcome.levels {
                 let value =
                     |name: &&String| level.parameter(name).map(|value| value.to_string()).unwrap_or_default() + ",";

@@ -31,7 +31,7 @@ pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
          <title>{}: verification report</title>\n<link rel=\"icon\" href=\"data:,\"/>\n<style>\n{STYLE}</style>\n\
          </head>\n<body>\n{}<main>\n{}{}{studies}</main>\n{scripts}</body>\n</html>\n",
-        findings.verdict,
+        findings.record.verdict,
         head(findings),
         front(findings, rates),
         overview(&groups),
@@ -41,7 +41,7 @@ pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
 fn head(findings: &Findings<'_>) -> String {
     format!(
         "<header>\n<h1>Verification report</h1>\n<p class=\"verdict\">{} {}</p>\n</header>\n",
-        badge(findings.verdict),
+        badge(findings.record.verdict),
         phrase(&findings.sentence()),
     )
 }
@@ -50,14 +50,14 @@ fn head(findings: &Findings<'_>) -> String {
 fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
     let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
-    failures::html(findings.finished) + &html(&changes, &[]) + &origin(findings) + &picture.unwrap_or_default()
+    failures::html(&findings.record.studies) + &html(&changes, &[]) + &origin(findings) + &picture.unwrap_or_default()
 }
 
 /// What wrote the report, which other one there is, and which commit, day and machine it comes from.
 fn origin(findings: &Findings<'_>) -> String {
     let mut origin = format!(
         "<p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
-        escape(findings.command)
+        escape(&findings.record.command)
     );
     if let Some(SeeAlso { title, page, .. }) = findings.see_also {
         origin += &format!(" See also <a href=\"{}\">{}</a>.", escape(page), phrase(title));
@@ -75,8 +75,8 @@ type Groups<'f> = Vec<(&'f str, Vec<&'f Finished>)>;
 
 /// Those that did not pass, then the others by what they claim.
 fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
-    let mut groups = vec![("did not pass", failures::in_order(findings.finished))];
-    for (label, mut studies) in forest::grouped(findings.project, findings.finished) {
+    let mut groups = vec![("did not pass", failures::in_order(&findings.record.studies))];
+    for (label, mut studies) in forest::grouped(findings.project, &findings.record.studies) {
         studies.retain(|study| study.outcome.verdict == Verdict::Pass);
         groups.push((label, studies));
     }

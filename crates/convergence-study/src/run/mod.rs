@@ -15,23 +15,32 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
+use crate::study::outcome::NotFinite;
 use crate::study::soundness;
-use crate::study::{Case, CaseFailure, Check, Header, Outcome, Plan, Study};
+use crate::study::{Case, CaseFailure, Check, Header, Outcome, Plan, Study, Untested};
 use caught::caught;
 use queue::{Counter, Done, Job};
 
 pub use queue::Progress;
 
-/// A study that has been run.
-#[derive(Debug, Clone)]
+/// A study that has been run: one object of a record.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Finished {
     /// Its id, claim, tier and kind.
+    #[serde(flatten)]
     pub header: Header,
     /// What it found.
+    #[serde(flatten)]
     pub outcome: Outcome,
     /// Cases without a result, in the order of the cases.
     pub failed_cases: Vec<FailedCase>,
+    /// The meaning of every `null` that stands for a number.
+    pub not_finite: Vec<NotFinite>,
+    /// What the study is no test of although it passes; only `study` looks for it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub untested: Vec<Untested>,
     /// The time that it took, which differs from run to run.
+    #[serde(skip)]
     pub spent: Spent,
 }
 
@@ -208,7 +217,9 @@ fn conclude(Planned { header, plan, .. }: Planned<'_>, done: &[Done]) -> Finishe
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
         outcome.checks.push(Check::that(false, "every case has a result", format!("{} have none", failed_cases.len())));
     }
-    Finished { outcome: soundness::settle(&header.id, outcome), failed_cases, header: header.clone(), spent }
+    let outcome = soundness::settle(&header.id, outcome);
+    let not_finite = outcome.not_finite();
+    Finished { header: header.clone(), outcome, failed_cases, not_finite, untested: vec![], spent }
 }
 
 fn broken(what: &str, reason: &str) -> Outcome {

@@ -32,10 +32,9 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::record::form::null_is_nan;
 use crate::store::{atomic, regular};
 use crate::study::Header;
-use crate::text::visible;
+use crate::text::{json, visible};
 
 pub use change::{Change, Movement};
 pub use claims::Claim;
@@ -60,10 +59,10 @@ pub struct Baseline {
 #[serde(deny_unknown_fields)]
 pub struct Guarded {
     /// Its value; `null`, which meets nothing, is read as NaN.
-    #[serde(deserialize_with = "null_is_nan")]
+    #[serde(deserialize_with = "json::nan")]
     pub value: f64,
     /// The relative change that is tolerated.
-    #[serde(deserialize_with = "null_is_nan")]
+    #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
     /// Why it was changed; nothing where nobody said so.
     #[serde(default, skip_serializing_if = "Option::is_none")]

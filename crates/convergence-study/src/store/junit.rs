@@ -8,17 +8,18 @@ use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStat
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::baseline::Change;
+use crate::store::record::Record;
 
 /// The document, for a project of that name.
 ///
-/// * `changes`: what moved away from the baseline, a suite of its own; `None` where there was none to compare with.
+/// What moved away from the baseline is a suite of its own, where there was one to compare with.
 ///
 /// # Errors
 /// What `quick-junit` cannot write.
-pub fn junit(name: &str, finished: &[Finished], changes: Option<&[Change]>) -> Result<String, SerializeError> {
+pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
-    report.add_test_suites(finished.iter().map(suite));
-    report.add_test_suites(changes.map(baseline));
+    report.add_test_suites(record.studies.iter().map(suite));
+    report.add_test_suites(record.changes.as_deref().map(baseline));
     report.to_string()
 }
 

@@ -1,6 +1,7 @@
 //! Where a record comes from: machine, tools, revision and times. All that varies between two runs is here.
 
 use std::fs;
+use std::io;
 use std::path::Path;
 use std::process::Command;
 use std::thread;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::record::SCHEMA;
+use crate::store::regular;
 
 /// Origin of a run. What cannot be found out is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,6 +87,19 @@ impl Provenance {
             peak_memory_bytes: peak_memory(),
             studies: finished.iter().map(time).collect(),
         }
+    }
+}
+
+impl Provenance {
+    /// Reads the origin of a run; `None` where there is no file.
+    ///
+    /// # Errors
+    /// That of the operating system, and a file of another form; neither names the file.
+    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+        if path.symlink_metadata().is_err() {
+            return Ok(None);
+        }
+        Ok(Some(serde_json::from_str(&regular::read_to_string(path)?)?))
     }
 }
 

@@ -11,7 +11,8 @@ const DEFAULT_KIND: &str = "convergence";
 const LONGEST_NAME: usize = 100;
 
 /// When a study is run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Tier {
     /// Always.
     Quick,
@@ -33,7 +34,7 @@ impl Tier {
 }
 
 /// What a study file says about itself, whatever its kind.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Header {
     /// The study's name: small letters, digits, `.` and `-`.
     pub id: String,
@@ -44,9 +45,11 @@ pub struct Header {
     /// Which reader the rest of the file is for.
     pub kind: String,
     /// What sort of thing is claimed, under which reports list the study; the kind where the file does not say.
+    #[serde(default)]
     pub group: String,
     /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of [`Section::settings`]: the
     /// baseline keeps them, so that no claim changes unseen. Empty for a study that no file describes.
+    #[serde(skip)]
     pub settings: Vec<(String, String)>,
 }
 

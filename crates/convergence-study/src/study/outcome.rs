@@ -1,42 +1,52 @@
 //! What a study has found: the one form in which studies of every kind reach record, baseline and report.
 
 use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::text::json;
 
-/// The result of a study.
-#[derive(Debug, Clone, PartialEq)]
+/// The result of a study, which is also its record.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
     /// The worst verdict of checks and rates; inconclusive where there is nothing that was judged.
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
     /// The numbers to read first, in a few words; empty where the rates are what was claimed.
+    #[serde(default)]
     pub headline: String,
     /// Errors of each level of a convergence study.
     pub levels: Vec<LevelErrors>,
     /// Rates judged, each with its norm.
+    #[serde(with = "rates")]
     pub rates: Vec<(String, RateVerdict)>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
     /// Tables of the report.
+    #[serde(default)]
     pub tables: Vec<Table>,
     /// Figures of the report.
+    #[serde(default)]
     pub figures: Vec<Figure>,
     /// Numbers that the baseline guards.
     pub quantities: Vec<Quantity>,
 }
 
 /// The errors at one level of refinement, one for each norm.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LevelErrors {
-    /// Its parameters by name, such as elements and steps.
+    /// Its parameters by name, such as elements and steps: keys of their own.
+    #[serde(flatten, with = "json::counted")]
     pub parameters: Vec<(String, f64)>,
     /// The step that the errors are judged over; nothing where they are not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
     /// What the level cost, in a unit of the study's choice, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<f64>,
     /// Errors by name; NaN where there is no result.
+    #[serde(with = "json::named")]
     pub errors: Vec<(String, f64)>,
     /// The names of those errors for which the level has no result.
+    #[serde(rename = "without_result", default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
 }
 
@@ -72,7 +82,7 @@ impl Check {
 }
 
 /// A table, printed with its columns lined up.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Table {
     /// What it shows.
     pub title: String,
@@ -95,13 +105,14 @@ impl Table {
 }
 
 /// A picture.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Figure {
     /// File name without folder, `<id>-<what>.svg`.
     pub file: String,
     /// What is to be seen, in a sentence: caption and alternative text.
     pub caption: String,
-    /// The picture.
+    /// The picture; in a record it is a file of its own.
+    #[serde(skip)]
     pub svg: String,
 }
 
@@ -118,10 +129,10 @@ pub struct Quantity {
     /// Name, unique within the study.
     pub name: String,
     /// Value.
-    #[serde(deserialize_with = "null_is_nan")]
+    #[serde(deserialize_with = "json::nan")]
     pub value: f64,
     /// Relative change that is tolerated.
-    #[serde(deserialize_with = "null_is_nan")]
+    #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
 }
 
@@ -132,9 +143,48 @@ impl Quantity {
     }
 }
 
-/// A number of a record; `null` is NaN.
-pub(crate) fn null_is_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    serde::Deserialize::deserialize(deserializer).map(|number: Option<f64>| number.unwrap_or(f64::NAN))
+/// A number that JSON cannot hold.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct NotFinite {
+    /// Where in the study, such as `levels[2].errors.velocity`.
+    pub at: String,
+    /// `NaN`, `inf` or `-inf`.
+    pub value: String,
+}
+
+/// Rates as objects: the norm, what was judged, and advice where it is not a pass.
+mod rates {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use crate::judge::verdict::RateVerdict;
+
+    #[derive(Serialize)]
+    struct Written<'r> {
+        norm: &'r str,
+        #[serde(flatten)]
+        rate: &'r RateVerdict,
+        /// What the reason means, and what to do; only where it is not a pass.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        advice: Option<&'static str>,
+    }
+
+    #[derive(Deserialize)]
+    struct Read {
+        norm: String,
+        #[serde(flatten)]
+        rate: RateVerdict,
+    }
+
+    pub(super) fn serialize<S: Serializer>(rates: &[(String, RateVerdict)], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(rates.iter().map(|(norm, rate)| Written { norm, rate, advice: rate.advice() }))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<(String, RateVerdict)>, D::Error> {
+        let rates: Vec<Read> = Vec::deserialize(deserializer)?;
+        Ok(rates.into_iter().map(|Read { norm, rate }| (norm, rate)).collect())
+    }
 }
 
 impl Outcome {
@@ -152,5 +202,29 @@ impl Outcome {
             figures: vec![],
             quantities: vec![],
         }
+    }
+
+    /// Every number that JSON cannot hold.
+    pub fn not_finite(&self) -> Vec<NotFinite> {
+        let mut found = Vec::new();
+        let mut look = |at: String, value: f64| {
+            if !value.is_finite() {
+                found.push(NotFinite { at, value: value.to_string() });
+            }
+        };
+        for (i, level) in self.levels.iter().enumerate() {
+            level.errors.iter().for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
+        }
+        for (i, (_, rate)) in self.rates.iter().enumerate() {
+            rate.pairwise.iter().enumerate().for_each(|(j, rate)| look(format!("rates[{i}].pairwise[{j}]"), *rate));
+            let interval = rate.interval.into_iter().flatten();
+            interval.enumerate().for_each(|(j, end)| look(format!("rates[{i}].interval[{j}]"), end));
+            rate.fitted.into_iter().for_each(|fitted| look(format!("rates[{i}].fitted"), fitted));
+            rate.extrapolated.into_iter().for_each(|rate| look(format!("rates[{i}].extrapolated"), rate));
+        }
+        for (i, quantity) in self.quantities.iter().enumerate() {
+            look(format!("quantities[{i}].value"), quantity.value);
+        }
+        found
     }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "reports")]
 pub(crate) mod columns;
+pub(crate) mod json;
 pub mod names;
 pub mod number;
 pub mod visible;

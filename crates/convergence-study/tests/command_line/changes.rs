@@ -23,14 +23,17 @@ pub(crate) fn records_are_compared_with_0_1_or_2() {
     let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
     assert!(status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"), "{out}");
     let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
-    let named = "note: the study one is in the old record only\nsame: 0 worse, 0 better, 1 the same, in 1 studies\n";
-    assert_eq!((status, out.as_str()), (Some(0), named));
+    let named = "one: lost: the new record does not have the study\n";
+    let all = "lost: 1 lost, 0 worse, 0 better, 1 the same, in 1 studies\n";
+    assert_eq!((status, out.as_str()), (Some(1), &*format!("{named}{all}")));
+    let (status, out, _) = run(&root, &["compare", "part.json", "old.json"]);
+    assert!(status == Some(0) && out.starts_with("note: only the new record has the study one\nsame: "), "{out}");
     let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["change"], &object["studies"][0]["norms"][0]["change"]), (&"worse".into(), &"worse".into()));
-    assert!(object["studies"][0]["norms"][0]["lines"][1]["order_interval"].is_array(), "{out}");
+    assert_eq!((&object["change"], &object["findings"][0]["change"]), (&"worse".into(), &"worse".into()));
+    assert!(object["findings"][0]["orders"][1]["interval"].is_array(), "{out}");
     let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
-    assert!(out.contains("two: error: same: errors the same at the same step: 1.0000 times"), "{out}");
+    assert!(out.contains("two: error: same: errors the same at 5 levels"), "{out}");
     fs::write(root.path().join("bad.json"), "{\n}").unwrap();
     write("other.json", &["studies/one.toml"]);
     for (arguments, message) in [
@@ -46,6 +49,40 @@ pub(crate) fn records_are_compared_with_0_1_or_2() {
         let (status, out, err) = run(&root, arguments);
         assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
     }
+}
+
+/// The pages of a record are those of the run, and come from the record and its pictures alone.
+pub(crate) fn a_report_is_made_anew_from_its_record() {
+    let root = workspace(true);
+    let files = |folder: &str| {
+        let names =
+            ["README.md", "index.html", "summary.md", "junit.xml", "errors.csv", "results.json", "manifest.txt"];
+        let figures = ["figures/one-errors.svg", "figures/rates.svg"];
+        let read = |name: &&str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
+        names.iter().chain(&figures).map(read).collect::<Vec<_>>()
+    };
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    let written = files("reports");
+    let remove = |path: &str| fs::remove_file(root.path().join(path)).unwrap();
+    ["studies/one.toml", "studies/two.toml", "reports/README.md", "reports/index.html"]
+        .iter()
+        .for_each(|path| remove(path));
+    let (status, out, err) = run(&root, &["report", "reports/results.json"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    assert!(out.starts_with("fail: 1 of 2 fail (two)") && out.ends_with("reports/README.md\n"), "{out}");
+    assert_eq!(files("reports"), written);
+    // Elsewhere a report needs a place, and does without the pictures that are not there.
+    fs::copy(root.path().join("reports/results.json"), root.path().join("r.json")).unwrap();
+    let (status, _, err) = run(&root, &["report", "r.json"]);
+    assert!(
+        status == Some(2) && err.contains("r.json: found outside of a report's folder; expected --out DIR"),
+        "{err}"
+    );
+    let (status, _, err) = run(&root, &["report", "r.json", "--out", "new"]);
+    assert_eq!(status, Some(1));
+    assert!(err.contains("note: no picture figures/one-errors.svg"), "{err}");
+    let (status, _, err) = run(&root, &["report", "studies/baseline.json", "--out", "new"]);
+    assert!(status == Some(2) && err.contains("studies/baseline.json: No such file"), "{err}");
 }
 
 pub(crate) fn one_some_or_all_changes_are_blessed_with_a_reason() {

@@ -16,9 +16,9 @@ use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refineme
 use tempfile::TempDir;
 
 use changes::{
-    a_run_fails_where_a_study_does_and_nothing_differs, a_study_with_a_near_extension_is_named,
-    blessings_at_once_are_all_kept, one_some_or_all_changes_are_blessed_with_a_reason,
-    records_are_compared_with_0_1_or_2,
+    a_report_is_made_anew_from_its_record, a_run_fails_where_a_study_does_and_nothing_differs,
+    a_study_with_a_near_extension_is_named, blessings_at_once_are_all_kept,
+    one_some_or_all_changes_are_blessed_with_a_reason, records_are_compared_with_0_1_or_2,
 };
 use failing::{
     a_changed_claim_fails_until_it_is_blessed_with_a_reason, a_deleted_study_is_one_change_and_is_named,
@@ -49,7 +49,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 28] = [
+const TESTS: [Test; 29] = [
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
@@ -77,6 +77,7 @@ const TESTS: [Test; 28] = [
         a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result,
     ),
     ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
+    ("a_report_is_made_anew_from_its_record", a_report_is_made_anew_from_its_record),
     ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
     ("one_some_or_all_changes_are_blessed_with_a_reason", one_some_or_all_changes_are_blessed_with_a_reason),
     ("a_run_fails_where_a_study_does_and_nothing_differs", a_run_fails_where_a_study_does_and_nothing_differs),

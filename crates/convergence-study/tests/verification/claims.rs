@@ -192,7 +192,7 @@ fn a_changed_claim_fails_the_run_and_is_in_every_report() {
     for bless in [false, true] {
         let found = run(root.path(), &loose, bless, None);
         assert_eq!((found.finished[0].outcome.verdict, found.verdict), (Verdict::Pass, Verdict::Fail));
-        assert!(found.blessing.is_none_or(|blessing| blessing.is_err()));
+        assert!(found.blessing.as_ref().is_none_or(Result::is_err));
         assert_eq!(fs::read(&baseline).unwrap(), before);
         let report = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
         assert!(
@@ -205,7 +205,7 @@ fn a_changed_claim_fails_the_run_and_is_in_every_report() {
             report("index.html")
         );
         assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
-        let xml = junit(PROJECT.name, &found.finished, Some(&found.changes)).unwrap();
+        let xml = junit(PROJECT.name, &found.record(&Scope::Selection(vec![]), "verify")).unwrap();
         assert_eq!(report("junit.xml"), xml);
         assert!(xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"), "{xml}");
     }

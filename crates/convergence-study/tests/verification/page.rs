@@ -4,6 +4,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::{Convergence, ErrorSeries, convergence};
 use convergence_study::report::{Findings, SeeAlso};
 use convergence_study::run::Finished;
+use convergence_study::store::record::Record;
 use convergence_study::study::outcome::Figure;
 use roxmltree::{Document, Node};
 
@@ -12,18 +13,8 @@ use crate::fake::{Does, PROJECT, finished, study};
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let title = "the report on the full tier";
     let see_also = Some(SeeAlso { title, readme: "full/README.md", page: "full/index.html" });
-    let command = "cargo xtask verify";
-    Findings {
-        project: &PROJECT,
-        scope: "quick",
-        command,
-        finished,
-        changes: Some(&[]),
-        verdict: Verdict::Fail,
-        see_also,
-        provenance: None,
-    }
-    .page()
+    let record = Record::new("quick", "cargo xtask verify", Verdict::Fail, Some(&[]), finished.to_vec());
+    Findings { project: &PROJECT, record: &record, see_also, provenance: None }.page()
 }
 
 /// One study that passes and one that fails, with a picture of two curves each.

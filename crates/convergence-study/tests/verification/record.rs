@@ -1,20 +1,25 @@
+use std::path::Path;
+
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::store::record::{Precision, Record, json};
+use convergence_study::report::Findings;
+use convergence_study::store::baseline::Baseline;
+use convergence_study::store::record::{Record, json};
 use convergence_study::study::erased;
 use serde_json::Value;
 
-use crate::fake::{Does, Fake, fake, finished, study};
+use crate::fake::{Does, Fake, PROJECT, fake, finished, study};
 
-fn record(does: Does, precision: Precision) -> Value {
+fn record(does: Does, is_committed: bool) -> Value {
     let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };
     let finished = finished(vec![erased(exact)]);
-    let record = Record::new("quick", Verdict::Pass, vec![], &finished, precision);
+    let record = Record::new("quick", "verify", Verdict::Pass, Some(&[]), finished);
+    let record = if is_committed { record.committed() } else { record };
     serde_json::from_str(&json(&record).unwrap()).unwrap()
 }
 
 #[test]
 fn a_record_has_the_documented_fields() {
-    let record = record(Does::Converge, Precision::Full);
+    let record = record(Does::Converge, false);
     assert_eq!(record["schema"], 1);
     let study = &record["studies"][0];
     assert_eq!((&study["id"], &study["verdict"]), (&"a".into(), &"pass".into()));
@@ -31,11 +36,12 @@ fn a_record_has_the_documented_fields() {
     assert!(rate["fitted"].is_f64() && rate["extrapolated"].is_f64());
     assert_eq!(rate["verdict"], "pass");
     assert!(rate["reason"].as_str().unwrap().contains("agrees"));
+    assert_eq!((&rate["code"], &rate["used"]["end"]), (&"agrees".into(), &5.into()));
 }
 
 #[test]
 fn a_committed_record_keeps_six_digits() {
-    let record = record(Does::Converge, Precision::Committed);
+    let record = record(Does::Converge, true);
     assert_eq!(record["studies"][0]["levels"][4]["errors"]["velocity"], 0.00736311);
     assert_eq!(record["studies"][0]["quantities"][0]["value"], 0.00736311);
     assert_eq!(record["studies"][0]["rates"][0]["fitted"], 1.0);
@@ -44,7 +50,7 @@ fn a_committed_record_keeps_six_digits() {
 #[test]
 fn numbers_that_are_not_finite_are_null_and_named() {
     for does in [Does::NotANumber, Does::Fail, Does::Panic] {
-        let record = record(does, Precision::Full);
+        let record = record(does, false);
         let study = &record["studies"][0];
         assert_eq!(study["verdict"], "fail");
         assert!(study["levels"][1]["errors"]["velocity"].is_null());
@@ -60,7 +66,34 @@ fn numbers_that_are_not_finite_are_null_and_named() {
 fn norms_keep_their_order() {
     let mut finished = finished(vec![study("a", Does::Converge)]);
     finished[0].outcome.levels[0].errors = ["z", "a", "m"].map(|norm| (norm.to_owned(), 1.0)).to_vec();
-    let text = json(&Record::new("quick", Verdict::Pass, vec![], &finished, Precision::Full)).unwrap();
+    let text = json(&Record::new("quick", "verify", Verdict::Pass, None, finished)).unwrap();
     let at = |norm: &str| text.find(&format!("\"{norm}\": 1.0")).unwrap();
     assert!(at("z") < at("a") && at("a") < at("m"));
+}
+
+/// A record is all that a report needs beside the pictures: what is made of the one that was written is the same in every byte.
+#[test]
+fn a_record_that_is_read_makes_the_same_report() {
+    for does in [Does::Converge, Does::NotANumber, Does::Fail, Does::Panic, Does::TooShort, Does::Nothing] {
+        let finished = finished(vec![study("a", does), study("b", Does::Converge)]);
+        let changes = Baseline::default().compare(&finished, None);
+        let record = Record::new("quick", "verify", Verdict::Fail, Some(&changes), finished).committed();
+        let text = json(&record).unwrap();
+        let read = Record::parse(&text, Path::new("r.json")).unwrap();
+        // Pictures are files of their own.
+        let mut read = read.committed();
+        let pictured = read.studies.iter_mut().zip(&record.studies);
+        pictured.for_each(|(read, written)| read.outcome.figures.clone_from(&written.outcome.figures));
+        let files = |record: &Record| {
+            let findings = Findings { project: &PROJECT, record, see_also: None, provenance: None };
+            findings.files().unwrap()
+        };
+        let [anew, written] = [files(&read), files(&record)];
+        assert!(written.files().count() >= 8);
+        for (file, written) in anew.files().zip(written.files()) {
+            assert_eq!(file.0, written.0);
+            assert!(file.1 == written.1, "{does:?}: {}", file.0);
+        }
+        assert_eq!(anew.files().count(), written.files().count());
+    }
 }

@@ -3,6 +3,7 @@ use convergence_study::report::{Findings, LONGEST, not_passed, sentence, tables}
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::{Baseline, Change, Movement};
 use convergence_study::store::junit::junit;
+use convergence_study::store::record::Record;
 use convergence_study::study::levels;
 use convergence_study::study::outcome::{LevelErrors, Table};
 use roxmltree::Document;
@@ -15,18 +16,12 @@ fn several() -> Vec<Finished> {
 }
 
 fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
-    let changes = Baseline::default().compare(finished, None);
-    let command = "cargo xtask verify";
-    read(&Findings {
-        project: &PROJECT,
-        scope: "quick",
-        command,
-        finished,
-        changes: Some(&changes),
-        verdict: Verdict::Fail,
-        see_also: None,
-        provenance: None,
-    })
+    compared(finished, Some(&Baseline::default().compare(finished, None)), read)
+}
+
+fn compared<T>(finished: &[Finished], changes: Option<&[Change]>, read: impl FnOnce(&Findings<'_>) -> T) -> T {
+    let record = Record::new("quick", "cargo xtask verify", Verdict::Fail, changes, finished.to_vec());
+    read(&Findings { project: &PROJECT, record: &record, see_also: None, provenance: None })
 }
 
 /// Columns of a line of a table: pipes that are not escaped.
@@ -82,7 +77,7 @@ fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
         movement: Movement::Vanished { value: 1.0 },
     };
     let many: Vec<Change> = (0..5000).map(change).collect();
-    let long = with(&studies, |findings| Findings { changes: Some(&many), ..*findings }.digest());
+    let long = compared(&studies, Some(&many), |findings| findings.digest());
     assert!(long.len() <= LONGEST && long.ends_with("A comment holds no more: see the report.\n"), "{}", long.len());
     assert!(long.contains("study-1.0") && !long.contains("error 4999"));
 }
@@ -103,7 +98,7 @@ fn csv_has_one_error_a_line() {
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = junit(PROJECT.name, &studies, Some(&Baseline::default().compare(&studies, None))).unwrap();
+    let text = with(&studies, |findings| junit(PROJECT.name, findings.record).unwrap());
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
     let failures: Vec<&str> = suites.iter().map(|suite| suite.attribute("failures").unwrap()).collect();
@@ -125,7 +120,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
-    let text = junit(PROJECT.name, &studies, None).unwrap();
+    let text = compared(&studies, None, |findings| junit(PROJECT.name, findings.record).unwrap());
     let document = Document::parse(&text).unwrap();
     let message =
         document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
@@ -174,8 +169,7 @@ fn moved(study: &str, name: &str, to: f64) -> Change {
 fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
     let studies = finished(vec![study("a", Does::Converge), study("b-1.0", Does::Converge)]);
     let changes = [moved("a", "q0", 1.002), moved("a", "q1", 1.5), moved("a", "q2", 1.1), moved("b-1.0", "q", 4.0)];
-    let page =
-        |changes: &[Change]| with(&studies, |findings| Findings { changes: Some(changes), ..*findings }.readme());
+    let page = |changes: &[Change]| compared(&studies, Some(changes), |findings| findings.readme());
     let readme = page(&changes);
     let section = readme.split("## Moved from the baseline\n\n").nth(1).unwrap();
     let lines: Vec<&str> = section.lines().collect();
@@ -192,7 +186,7 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
     let short = page(&changes[2..]);
     assert!(!short.contains("<details>") && short.contains("`.\n\n![All 2 judged rates"), "{short}");
     // A comment has no sections to link to.
-    let digest = with(&studies, |findings| Findings { changes: Some(&changes), ..*findings }.digest());
+    let digest = compared(&studies, Some(&changes), |findings| findings.digest());
     assert!(digest.contains("| b-1.0 |") && !digest.contains("]("), "{digest}");
 }
 
@@ -320,9 +314,9 @@ fn errors_on_other_levels_are_a_table_without_gaps() {
 #[test]
 fn without_a_baseline_nothing_is_said_of_it() {
     let studies = finished(vec![study("a", Does::Converge)]);
-    let compared = |changes| {
-        let text = junit(PROJECT.name, &studies, changes).unwrap();
+    let speaks = |changes| {
+        let text = compared(&studies, changes, |findings| junit(PROJECT.name, findings.record).unwrap());
         (text.contains("baseline"), sentence(&studies, changes).contains("baseline"))
     };
-    assert_eq!((compared(Some(&[])), compared(None)), ((true, true), (false, false)));
+    assert_eq!((speaks(Some(&[])), speaks(None)), ((true, true), (false, false)));
 }

@@ -12,7 +12,7 @@ use crate::workspace::{quick, workspace};
 use crate::{Ended, Folder, ended, thermobeam, thrown};
 
 /// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` gets.
-const COMMANDS: [(&[&str], i32, &str); 11] = [
+const COMMANDS: [(&[&str], i32, &str); 12] = [
     // Every number is new.
     (&["verify"], 1, "results.json"),
     (&["study", "studies/short.toml"], 0, "results.json"),
@@ -20,6 +20,7 @@ const COMMANDS: [(&[&str], i32, &str); 11] = [
     (&["explain", "too-low"], 0, "explain.json"),
     (&["rates", "rates.csv", "--order", "2"], 0, "rates.json"),
     (&["compare", "record.json", "record.json"], 0, "compare.json"),
+    (&["report", "record.json"], 0, "results.json"),
     (&["run", "scene.toml"], 0, "run.json"),
     (&["equilibria", "scene.toml"], 0, "equilibria.json"),
     (&["sweep", "sweep.toml"], 0, "results.jsonl"),

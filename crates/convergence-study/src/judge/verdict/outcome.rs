@@ -5,6 +5,7 @@ use std::{fmt, ops::Range};
 use super::reading::Reading;
 use super::reason::Reason;
 use crate::judge::power_law::PowerLaw;
+use crate::text::json::{nan, nan_pair, nans};
 use crate::text::number::{
     RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text, plain_text,
 };
@@ -49,7 +50,7 @@ impl fmt::Display for Verdict {
 }
 
 /// A level without a say in the rate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct SetAside {
     /// Index of the level, 0 the coarsest.
     pub level: usize,
@@ -58,7 +59,8 @@ pub struct SetAside {
 }
 
 /// Why a level was set aside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Aside {
     /// Coarse: the rates there are still too far from the finest one.
     PreAsymptotic,
@@ -83,13 +85,16 @@ impl Aside {
 }
 
 /// The judgement of one sequence of errors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RateVerdict {
     /// What theory claims.
+    #[serde(deserialize_with = "nan")]
     pub order: f64,
     /// Half-width of the band about the order.
+    #[serde(deserialize_with = "nan")]
     pub tolerance: f64,
     /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept. NaN beside a level without a result.
+    #[serde(deserialize_with = "nans")]
     pub pairwise: Vec<f64>,
     /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
     /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
@@ -97,18 +102,23 @@ pub struct RateVerdict {
     /// The constant C of error = C step^rate for that rate: the curve passes through the error of the finest level `used`.
     pub constant: Option<f64>,
     /// The interval of `fitted`, which is its middle. It is what was judged, unless the reason is another one.
+    #[serde(deserialize_with = "nan_pair")]
     pub interval: Option<[f64; 2]>,
     /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
     pub extrapolated: Option<f64>,
     /// Indices of the levels that the fit used; empty when there was none. A level without a result among them was not.
+    #[serde(default)]
     pub used: Range<usize>,
     /// Levels that the fit did not use, coarsest first, each with the reason: what a table of errors should mark.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// The outcome.
     pub verdict: Verdict,
     /// The reason by name.
+    #[serde(rename = "code", default)]
     pub kind: Reason,
     /// The reason in a few words, which name the level where it is one.
+    #[serde(default)]
     pub because: String,
     /// The reason in words, with its numbers.
     pub reason: String,

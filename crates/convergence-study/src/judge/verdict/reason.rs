@@ -3,9 +3,11 @@
 use super::Verdict;
 
 /// Why a verdict is what it is; each reason has one verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
+#[serde(into = "&'static str", try_from = "String")]
 pub enum Reason {
     /// The whole interval lies in the band about the order.
+    #[default]
     Agrees,
     /// A level has no result: its case failed, or lacks this error.
     NoResult,
@@ -59,6 +61,20 @@ pub enum Reason {
     IntervalTooWide,
     /// The interval is narrow enough, but holds an end of the band.
     AtTheEdge,
+}
+
+impl From<Reason> for &'static str {
+    fn from(reason: Reason) -> Self {
+        reason.code()
+    }
+}
+
+impl TryFrom<String> for Reason {
+    type Error = String;
+
+    fn try_from(code: String) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|reason| reason.code() == code).ok_or_else(|| format!("unknown reason `{code}`"))
+    }
 }
 
 impl Reason {

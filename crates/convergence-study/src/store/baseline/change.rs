@@ -3,12 +3,15 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use super::Guarded;
 use crate::study::outcome::Quantity;
+use crate::text::json;
 use crate::text::number::{pair_text, plain_text};
 
 /// A guarded number or a claim that changed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
     /// The study.
     pub study: String,
@@ -54,32 +57,40 @@ impl Change {
 }
 
 /// What happened to a guarded number or to a claim.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Movement {
     /// It changed by more than is tolerated.
     Moved {
         /// The baseline's value.
+        #[serde(deserialize_with = "json::nan")]
         from: f64,
         /// The new value.
+        #[serde(deserialize_with = "json::nan")]
         to: f64,
         /// The relative change tolerated.
+        #[serde(deserialize_with = "json::nan")]
         tolerance: f64,
     },
     /// Its tolerance is another one: a guard is not loosened in passing.
     Tolerance {
         /// The baseline's tolerance.
+        #[serde(deserialize_with = "json::nan")]
         from: f64,
         /// The new tolerance.
+        #[serde(deserialize_with = "json::nan")]
         to: f64,
     },
     /// The baseline does not have it.
     New {
         /// Its value.
+        #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
     /// The run does not have it.
     Vanished {
         /// The baseline's value.
+        #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
     /// A value of the study's file is another one, is new or has vanished.

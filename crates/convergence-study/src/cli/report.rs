@@ -1,0 +1,89 @@
+//! `report`: the pages of a record, made anew; nothing is run.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::exit::{Outcome, Unusable};
+use super::flags::Flags;
+use super::output;
+use crate::project::Project;
+use crate::report::sentence;
+use crate::store::file_set::MANIFEST;
+use crate::store::provenance::Provenance;
+use crate::store::record::{FIGURES, Record};
+use crate::text::visible;
+use crate::verify::{rebuild, reports_around};
+
+/// Write the report on a record anew, without running anything
+///
+/// The record is results.json of a report, with its pictures in figures/ beside it, or what `study --format json` printed, without pictures.
+/// The exit status is that of the run.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The record
+    record: PathBuf,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// What `--format json` prints.
+#[derive(Serialize)]
+struct Object<'a> {
+    report: &'a Path,
+    /// Figures whose pictures are not beside the record.
+    missing: &'a [String],
+}
+
+/// Writes the report to `--out`, else to the folder of the record where that is a report's.
+///
+/// # Errors
+/// A record that cannot be used, and a report that cannot be written.
+pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Arguments) -> Outcome {
+    let mut record = Record::read(path)?;
+    let beside = path.parent().unwrap_or(Path::new(""));
+    let is_report = beside.join(MANIFEST).is_file();
+    let own = is_report.then(|| beside.to_owned());
+    let folder = flags.out.clone().or(own).ok_or_else(|| {
+        let path = visible::path(path);
+        Unusable::because(&format!("{path}: found outside of a report's folder; expected --out DIR for the new report"))
+    })?;
+    let missing = add_pictures(&mut record, beside)?;
+    let times = reports_around(beside).join("local/provenance.json");
+    let provenance = Provenance::read(&times).map_err(|error| Unusable::file(&times, &error))?;
+    let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
+    let verdict = record.verdict;
+    let sentence = sentence(&record.studies, record.changes.as_deref());
+    rebuild(project, record, provenance.as_ref(), &folder)?;
+    missing
+        .iter()
+        .for_each(|file| output::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
+    let whole = || {
+        let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
+        format!("{verdict}: {sentence}\nreport: {page}, {readme}\n")
+    };
+    flags.print(verdict, &Object { report: &folder, missing: &missing }, &flags.words(verdict, &sentence, whole))?;
+    Ok(verdict.into())
+}
+
+/// Reads the pictures of all figures; a figure without one is left out, and named.
+fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusable> {
+    let mut missing = vec![];
+    for study in &mut record.studies {
+        for mut figure in std::mem::take(&mut study.outcome.figures) {
+            let is_name = Path::new(&figure.file).file_name().is_some_and(|name| *name == *figure.file);
+            let path = beside.join(FIGURES).join(&figure.file);
+            match fs::read_to_string(&path) {
+                Ok(svg) if is_name => {
+                    figure.svg = svg;
+                    study.outcome.figures.push(figure);
+                }
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(Unusable::file(&path, &error)),
+                _ => missing.push(visible::visible(&figure.file)),
+            }
+        }
+    }
+    Ok(missing)
+}

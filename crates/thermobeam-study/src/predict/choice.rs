@@ -12,7 +12,7 @@
 //!
 //! let scene = Scene::parse("[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0", "swing.toml")?;
 //! let choice = choose(&scene, Quantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
-//! assert!(choice.error() <= 1e-7 && choice.scene.method.name() == "dg");
+//! assert!(choice.error <= 1e-7 && choice.scene.method.name() == "dg");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -64,6 +64,14 @@ impl Quantity {
         }
     }
 
+    /// What it is, in words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Tip => "maximum over [0, T] of the error of u(1, t), inside steps included",
+            Self::Norm => "maximum over [0, T] of the error in the norm of Theorem 3.4",
+        }
+    }
+
     fn rows(self, mesh: &Mesh) -> Rows {
         match self {
             Self::Tip => Rows::Tip,
@@ -107,14 +115,10 @@ pub struct Choice {
     pub run: Cost,
     /// What the scene's own scheme would need; `None` where it is what was chosen, or where its coarse runs fail.
     pub needed: Option<Needed>,
-    error: f64,
-}
-
-impl Choice {
     /// The error that the run makes.
-    pub fn error(&self) -> f64 {
-        self.error
-    }
+    pub error: f64,
+    /// Whether the scheme is the scene's own, as [`keep_scheme`] chooses it.
+    pub is_kept: bool,
 }
 
 /// The cheapest run with an error no larger than `target`.
@@ -135,6 +139,7 @@ pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_
         parts: [space[0], time[0]],
         parts_by: format!("differences to {finer_space}, and to half the steps"),
         error: space[0] + time[0],
+        is_kept: false,
         run,
         needed: law.map(|law| law.needed(target)),
     })
@@ -151,8 +156,12 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
     let reference = reference(&scene, None, &quantity.wanted(TENTH * target)?, work)?;
     let mut best = (f64::INFINITY, [f64::NAN; 2]);
     let mut law = None;
-    let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| {
-        Unreachable::NotReached { target, reached, space, time, reason }
+    let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
+        target,
+        reached,
+        space,
+        time,
+        reason,
     };
     for _ in 0..ROUNDS {
         let outcome = work.leaves(node_steps(&scene)).and_then(|()| Own::run(&scene, quantity, work)).and_then(|own| {
@@ -167,7 +176,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
             (Ok((own, error)), Some(law)) if error <= target => {
                 let parts = law.parts(size(&scene));
                 let parts_by = "by runs with twice the elements and with half of dt".to_owned();
-                return Ok(Choice { scene, parts, parts_by, error, run: own.curves.cost, needed: None });
+                return Ok(Choice { scene, parts, parts_by, error, is_kept: true, run: own.curves.cost, needed: None });
             }
             (Ok((_, error)), Some(law)) => {
                 if error < best.0 {

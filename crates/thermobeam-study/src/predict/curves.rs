@@ -187,21 +187,30 @@ pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut W
             }
             continue;
         }
-        long += usize::from(to - from >= stepping.dt && to < scene.t_end);
-        if to - from >= stepping.dt && to < scene.t_end && !long.is_multiple_of(stride) {
+        let is_long = to - from >= stepping.dt && to < scene.t_end;
+        long += usize::from(is_long);
+        if is_long && !long.is_multiple_of(stride) {
             continue;
         }
-        let event = simulation.events().iter().rev().map(|event| event.t).find(|t| *t <= from).unwrap_or(0.0);
-        for point in 1..=POINTS {
-            let s = 0.5 * (1.0 - (PI * point as f64 / POINTS as f64).cos());
-            let t = if point == POINTS { to } else { from + s * (to - from) };
-            curves.times.push(Instance { t, since: t - event, early: from - event < early });
-            rows.of_dg(&simulation, t, &mut level, &mut curves.values);
+        for instance in instances(&simulation, early) {
+            rows.of_dg(&simulation, instance.t, &mut level, &mut curves.values);
+            curves.times.push(instance);
         }
     }
     curves.cost = Cost { work: (unknowns * solves) as f64, seconds: wall.as_secs_f64(), runs: 1 };
     work.ran(&curves.cost);
     Ok(curves)
+}
+
+/// Times in the last step; steps closer than `early` to the start or an event are early.
+fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
+    let (from, to) = (simulation.old_level().t, simulation.t());
+    let event = simulation.events().iter().rev().map(|event| event.t).find(|t| *t <= from).unwrap_or(0.0);
+    std::array::from_fn(|point| {
+        let s = 0.5 * (1.0 - (PI * (point + 1) as f64 / POINTS as f64).cos());
+        let t = if point + 1 == POINTS { to } else { from + s * (to - from) };
+        Instance { t, since: t - event, early: from - event < early }
+    })
 }
 
 /// Runs a scene by its one-step scheme, read at its last level and each of number `every`, `2 every`, ...

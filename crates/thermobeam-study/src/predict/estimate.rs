@@ -209,7 +209,8 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
 /// What lowers the errors more if refined alone, all numbers counting alike.
 fn dominant(quantities: &[Estimate], own: &Curves, finer: &[Result<Curves, Reason>; 2]) -> Option<Source> {
     let total = quantities[3].total;
-    let moved = |run: &Result<Curves, Reason>| run.as_ref().map_or(f64::NAN, |run| distance(&own.column(0), &run.column(0)));
+    let moved =
+        |run: &Result<Curves, Reason>| run.as_ref().map_or(f64::NAN, |run| distance(&own.column(0), &run.column(0)));
     if finer.iter().all(|run| moved(run) <= GAIN * total) {
         return Some(Source::Iteration);
     }
@@ -226,14 +227,18 @@ fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
     match (dominant, scene.method) {
         (Some(Source::Space), Method::OneStep(_)) => "Space first: take twice the elements.",
         (Some(Source::Space), Method::Dg(_)) => "Space first: raise mesh.degree by 2, or add elements near x = 1.",
-        (Some(Source::Time), Method::OneStep(stepping)) if stepping.scheme.order > 1.0 => "Time first: take half of dt.",
+        (Some(Source::Time), Method::OneStep(stepping)) if stepping.scheme.order > 1.0 => {
+            "Time first: take half of dt."
+        }
         (Some(Source::Time), Method::OneStep(_)) => {
             "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less."
         }
         (Some(Source::Time), Method::Dg(_)) => {
             "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
         }
-        (Some(Source::Iteration), _) => "Neither space nor time: take a smaller tolerance; where it is small, these are rounding errors.",
+        (Some(Source::Iteration), _) => {
+            "Neither space nor time: take a smaller tolerance; where it is small, these are rounding errors."
+        }
         (None, _) => "Neither alone lowers the errors: refine space and time together.",
     }
 }
@@ -242,13 +247,20 @@ impl fmt::Display for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cell = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"));
         writeln!(f, "Errors, by a run of any order")?;
-        writeln!(f, "{:<18}{:>20}{:>10}{:>12}{:>14}{:>14}", "", "value", "error", "of the run", "finer space", "finer steps")?;
+        writeln!(
+            f,
+            "{:<18}{:>20}{:>10}{:>12}{:>14}{:>14}",
+            "", "value", "error", "of the run", "finer space", "finer steps"
+        )?;
         for of in &self.quantities {
             let cells = [Some(of.total), Some(of.reference), of.finer_space, of.finer_steps].map(cell);
             let [total, reference, space, steps] = cells;
             writeln!(f, "{:<18}{:>20.12}{total:>10}{reference:>12}{space:>14}{steps:>14}", of.name, of.value)?;
         }
-        writeln!(f, "The last two columns: the errors with a finer space alone (twice the elements, or p + 4), and with half the steps alone.")?;
+        writeln!(
+            f,
+            "The last two columns: the errors with a finer space alone (twice the elements, or p + 4), and with half the steps alone."
+        )?;
         write!(f, "{}", self.advice)
     }
 }

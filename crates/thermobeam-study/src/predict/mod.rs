@@ -20,6 +20,9 @@ use thiserror::Error;
 /// Work after which a search ends: about half a minute.
 pub const MOST_WORK: f64 = 1.5e9;
 
+/// The same where the scene's own scheme is kept: some seven minutes.
+pub const MOST_WORK_KEPT: f64 = 2e10;
+
 /// What runs have cost.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cost {

@@ -39,8 +39,11 @@ const SHORTENED: [f64; 2] = [2.0, 32.0];
 /// A layer at x = 1 is resolved if its width is so many times that of the finest detail an element shows there, its length / p².
 const RESOLVED: f64 = 12.0;
 
-/// Halvings of all steps in one go: a difference that is too large tells no more.
-const MOST_HALVINGS: i32 = 2;
+/// What all steps are multiplied by in one go, at least and at most: a difference that is too large tells no more.
+const SHORTER: [f64; 2] = [0.25, 0.8];
+
+/// A difference that has to fall by more than this takes a higher degree in time as well.
+const MUCH: f64 = 4.0;
 
 /// Degrees that the finer space has more: with two, the difference is half of the error where a layer is not resolved.
 const FINER_DEGREES: usize = 4;
@@ -345,15 +348,16 @@ fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
     halved(scene)
 }
 
-fn half_steps(stepping: Stepping) -> Stepping {
+/// All steps multiplied by `part`.
+fn shorter(stepping: Stepping, part: f64) -> Stepping {
     let Stepping { dt, restart_dt, growth, .. } = stepping;
-    let growth = (1.0 + 0.5 * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
-    Stepping { dt: 0.5 * dt, restart_dt: 0.5 * restart_dt, growth, ..stepping }
+    let growth = (1.0 + part * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
+    Stepping { dt: part * dt, restart_dt: part * restart_dt, growth, ..stepping }
 }
 
 /// Half the steps; the first ones are shorter still, since the error there falls more slowly.
 pub(super) fn finer_steps(scene: &Scene) -> Scene {
-    let half = half_steps(scene.dg_stepping());
+    let half = shorter(scene.dg_stepping(), 0.5);
     let stepping = Stepping { restart_dt: 0.5 * half.restart_dt, ..half };
     Scene { method: Method::Dg(stepping), ..scene.clone() }
 }
@@ -364,12 +368,12 @@ fn shortening(factor: f64) -> f64 {
     if wanted.is_finite() { wanted.clamp(SHORTENED[0], SHORTENED[1]) } else { SHORTENED[1] }
 }
 
-/// Steps refined for an error smaller by `factor`; the degree grows with them while it can.
+/// Steps refined for an error smaller by `factor`.
 fn more_time(stepping: Stepping, factor: f64) -> Stepping {
-    let wanted = (factor.log2() / EVENT_RATE).ceil();
-    let halvings = if wanted.is_finite() { (wanted as i32).clamp(1, MOST_HALVINGS) } else { MOST_HALVINGS };
-    let degree = (stepping.degree + 1).min(MAX_TIME_DEGREE);
-    (0..halvings).fold(Stepping { degree, ..stepping }, |stepping, _| half_steps(stepping))
+    let part = (1.5 * factor).powf(-1.0 / EVENT_RATE);
+    let part = if part.is_finite() { part.clamp(SHORTER[0], SHORTER[1]) } else { SHORTER[0] };
+    let degree = (stepping.degree + usize::from(!(factor <= MUCH))).min(MAX_TIME_DEGREE);
+    shorter(Stepping { degree, ..stepping }, part)
 }
 
 fn words(scene: &Scene) -> String {

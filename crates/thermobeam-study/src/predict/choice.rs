@@ -43,6 +43,9 @@ const MOST_GROWTH: f64 = 8.0;
 /// Rounds of refinement.
 const ROUNDS: usize = 16;
 
+/// Runs that may fail.
+const FAILURES: usize = 4;
+
 /// Numbers that a run in the norm keeps, at most.
 const MOST_KEPT: usize = 4_000_000;
 
@@ -155,7 +158,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
     };
     let reference = reference(&scene, None, &quantity.wanted(TENTH * target)?, work)?;
     let mut best = (f64::INFINITY, [f64::NAN; 2]);
-    let mut law = None;
+    let (mut law, mut failures) = (None, 0);
     let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
         target,
         reached,
@@ -182,11 +185,18 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
                 if error < best.0 {
                     best = (error, law.parts(size(&scene)));
                 }
+                // What is clearly too much is not begun.
+                let [elements, steps] = law.cheapest(AIM * target);
+                work.leaves(0.25 * elements * steps).map_err(|reason| not_reached(best, reason))?;
                 law.next(size(&scene), target)
             }
-            (Err(reason @ Reason::Work { .. }), _) => return Err(not_reached(best, reason)),
             // Coarse steps may fail where finer ones do not.
-            _ => size(&scene).map(|count| 2.0 * count),
+            (Err(Reason::Run(_)), _) if failures < FAILURES => {
+                failures += 1;
+                size(&scene).map(|count| 2.0 * count)
+            }
+            (Err(reason), _) => return Err(not_reached(best, reason)),
+            (Ok(_), None) => return Err(not_reached(best, Reason::NotFinite)),
         };
         scene = resized(&scene, finer).ok_or_else(|| not_reached(best, Reason::Finest))?;
     }

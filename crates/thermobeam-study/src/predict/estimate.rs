@@ -41,8 +41,6 @@ pub enum Source {
     Space,
     /// Steps and their degree.
     Time,
-    /// The tolerance of the iteration.
-    Iteration,
 }
 
 /// What an error is of.
@@ -128,7 +126,7 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
             Estimate { name, kind, value, total: difference + error, reference: error, finer_space, finer_steps }
         })
         .collect();
-    let dominant = dominant(&quantities, &own, &finer);
+    let dominant = dominant(&quantities);
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
 }
 
@@ -206,17 +204,12 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
     (value, (value - truth).abs())
 }
 
-/// What lowers the errors more if refined alone, all numbers counting alike.
-fn dominant(quantities: &[Estimate], own: &Curves, finer: &[Result<Curves, Reason>; 2]) -> Option<Source> {
-    let total = quantities[3].total;
-    let moved =
-        |run: &Result<Curves, Reason>| run.as_ref().map_or(f64::NAN, |run| distance(&own.column(0), &run.column(0)));
-    if finer.iter().all(|run| moved(run) <= GAIN * total) {
-        return Some(Source::Iteration);
-    }
+/// What lowers the errors of the curves more if refined alone; those of single numbers may be small by chance.
+fn dominant(quantities: &[Estimate]) -> Option<Source> {
     let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
-        let gains = quantities.iter().map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total);
-        gains.sum::<f64>() / quantities.len() as f64
+        let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);
+        let gains: Vec<f64> = curves.map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total).collect();
+        gains.iter().sum::<f64>() / gains.len() as f64
     };
     let (space, time) = (gain(|of| of.finer_space), gain(|of| of.finer_steps));
     let (source, gain) = if space > time { (Source::Space, space) } else { (Source::Time, time) };
@@ -236,10 +229,9 @@ fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
         (Some(Source::Time), Method::Dg(_)) => {
             "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
         }
-        (Some(Source::Iteration), _) => {
-            "Neither space nor time: take a smaller tolerance; where it is small, these are rounding errors."
+        (None, _) => {
+            "Neither alone lowers the errors: refine space and time together; if that does not help, take a smaller tolerance."
         }
-        (None, _) => "Neither alone lowers the errors: refine space and time together.",
     }
 }
 

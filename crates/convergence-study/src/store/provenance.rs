@@ -39,7 +39,7 @@ pub struct Provenance {
     pub jobs: usize,
     /// End of the run, in seconds since 1970.
     pub finished_at: Option<u64>,
-    /// The most memory that the process has used, in bytes: see [`peak_memory`].
+    /// The most memory that the process has used, in bytes; known on Linux only.
     pub peak_memory_bytes: Option<u64>,
     /// Time of each study.
     pub studies: Vec<StudyTime>,
@@ -135,18 +135,13 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
     }
 }
 
-/// The most memory that this process has used so far, in bytes, since its start or since [`forget_peak_memory`].
+/// The most memory that this process has used so far, in bytes.
 ///
 /// Known on Linux only.
-pub fn peak_memory() -> Option<u64> {
+fn peak_memory() -> Option<u64> {
     let text = fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
-}
-
-/// Counts the peak of [`peak_memory`] from now on; whether the operating system can do that.
-pub fn forget_peak_memory() -> bool {
-    fs::write("/proc/self/clear_refs", "5").is_ok()
 }
 
 /// Standard output of a command that succeeds, without blanks around it.
@@ -167,16 +162,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_peak_of_memory_grows_with_what_is_used_and_is_forgotten() {
+    fn the_peak_of_memory_grows_with_what_is_used() {
         const SIZE: usize = 64 << 20;
         let before = peak_memory().expect("a number");
         let used = vec![1_u8; SIZE];
         let during = peak_memory().expect("a number");
         assert!(during >= before + (SIZE as u64) / 2, "{before} {during}");
         assert_eq!(used.iter().map(|byte| usize::from(*byte)).sum::<usize>(), SIZE);
-        drop(used);
-        if forget_peak_memory() {
-            assert!(peak_memory().expect("a number") < during);
-        }
     }
 }

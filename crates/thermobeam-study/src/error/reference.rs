@@ -7,7 +7,7 @@
 
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
-use thermobeam::dg::{Field, Simulation};
+use thermobeam::dg::{self, Field, Simulation, Space};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
@@ -20,7 +20,7 @@ use crate::scene::Scene;
 
 /// Elements on which polynomials are kept as linear functions, for one of the finest mesh compared. What they leave out is
 /// orthogonal to that mesh's error in slopes, and of its square a 16th squared: a 512th of the error.
-const FINER: usize = 16;
+pub(crate) const FINER: usize = 16;
 
 /// The mesh on which the polynomials of a scene are kept for comparison with runs on `finest` elements and fewer.
 ///
@@ -66,7 +66,7 @@ impl Reference {
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
         let mut observe = |simulation: &Simulation, state: Sample| {
-            levels.push(nodal(simulation, &mesh));
+            levels.push(nodal(simulation.space(), simulation.level(), mesh.nodes()));
             energies.push(state.energy);
         };
         let run = any_order::run_at(&how.of(scene, t_end)?, &times, &mut observe, curve, &mut |_| ())?;
@@ -88,10 +88,9 @@ impl Reference {
     }
 }
 
-/// The present level by its values at the nodes.
-fn nodal(simulation: &Simulation, mesh: &Mesh) -> Level {
-    let (space, level) = (simulation.space(), simulation.level());
-    let at = |field| mesh.nodes().iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
+/// A level of any order by its values at the nodes; without contact force.
+pub(crate) fn nodal(space: &Space, level: &dg::Level, nodes: &[f64]) -> Level {
+    let at = |field| nodes.iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
     Level {
         u: at(Field::U),
         v: at(Field::V),

@@ -4,7 +4,6 @@
 //! turns their results into an outcome: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
 
 pub mod any_order;
-pub mod any_order_cost;
 pub mod bifurcation;
 pub mod calibration;
 pub mod controls;

@@ -4,15 +4,14 @@ use convergence_study::program;
 use convergence_study::study::KindRow;
 
 use super::{
-    any_order, any_order_cost, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments,
-    experiment, frequencies, rigid, scenes, self_convergence, solvers, vibration, work_precision,
+    any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment,
+    frequencies, rigid, scenes, self_convergence, solvers, vibration, work_precision,
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 19] = [
+pub const KINDS: [KindRow; 18] = [
     convergence::ROW,
     any_order::ROW,
-    any_order_cost::ROW,
     controls::ROW,
     energy::ROW,
     scenes::ROW,

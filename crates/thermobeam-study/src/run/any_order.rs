@@ -292,11 +292,6 @@ impl AnyOrderRun {
         csv
     }
 
-    /// u(1) at the times of the history.
-    pub(crate) fn tip(&self) -> Vec<f64> {
-        self.history.iter().map(|state| state.u_tip).collect()
-    }
-
     /// Names of files and their SVG documents; none where no history was asked for.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         if self.frames.times.is_empty() {

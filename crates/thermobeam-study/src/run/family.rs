@@ -6,6 +6,7 @@
 //! as it goes: [`Spent`].
 
 use crate::error::design;
+use crate::exact::any_order::{self, ManufacturedLoad};
 use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::tables::Manufactured;
@@ -14,6 +15,7 @@ use crate::run::rerun::resampled;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::study::CaseFailure;
+use thermobeam::dg;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
@@ -105,6 +107,29 @@ impl Family {
             None => Mesh::uniform(elements),
             Some(grading) => resampled(grading, elements),
         }
+    }
+
+    /// The problem on elements of any degree, by dG, at t = 0.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the solver refuses the numbers.
+    pub fn dg(&self, mesh: Mesh, degree: usize, stepping: dg::Stepping) -> Result<dg::Simulation, CaseFailure> {
+        let Self { beam, obstacles, .. } = *self;
+        let exact = match &self.start {
+            Start::Scene(scene) => {
+                let problem = Scene { mesh, degree, ..Scene::clone(scene) }.dg_problem();
+                return Ok(dg::Simulation::new(problem, stepping)?);
+            }
+            Start::Exact(exact) => exact,
+        };
+        let problem = dg::Problem { beam, obstacles, mesh, degree, initial: any_order::initial(exact) };
+        let load = |space: &dg::Space| -> Box<dyn dg::Load> {
+            Box::new(ManufacturedLoad::new(exact, &beam, obstacles, space))
+        };
+        Ok(match self.loaded {
+            true => dg::Simulation::with_load(problem, stepping, load)?,
+            false => dg::Simulation::new(problem, stepping)?,
+        })
     }
 
     /// The problem on a mesh.

@@ -1,7 +1,6 @@
 //! Scenes and problems, stepped: one driver, and what is recorded, repeated or run side by side with it.
 
 pub mod any_order;
-pub mod any_order_time;
 pub mod driver;
 pub(crate) mod ensemble;
 pub mod family;

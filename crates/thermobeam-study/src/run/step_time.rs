@@ -13,7 +13,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Start, Work};
 
-use crate::run::driver::{Driver, Step};
+use crate::run::driver::Driver;
 use crate::run::ensemble::EnsembleDriver;
 use crate::run::simulate;
 use crate::scene::Scene;
@@ -22,217 +22,164 @@ use crate::scene::Scene;
 const RUN: usize = 500_000;
 /// Runs of which the best counts.
 const REPEATS: usize = 9;
-
-/// A time with the work behind it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepTime {
-    /// Nanoseconds per element, step and case.
-    pub nanoseconds: f64,
-    /// Passes per step.
-    pub passes: f64,
-    /// Factorisations in all.
-    pub factorizations: usize,
-}
+/// Cases in lanes.
+const LANES: usize = 4;
 
 /// What is timed.
-struct Setting<'a> {
+#[derive(Clone)]
+struct Setting {
     problem: Problem,
-    scene: &'a Scene,
-    settings: Settings,
-    observed: Observed,
+    stepping: Stepping,
+    /// Whether four equal cases run in lanes.
+    in_lanes: bool,
+    /// Whether the balance of each step is computed.
+    balanced: bool,
 }
 
-/// What is computed after each step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Observed {
-    Nothing,
-    Energy,
-    Balance,
+/// A time with the work behind it.
+struct StepTime {
+    /// Nanoseconds per element, step and case.
+    nanoseconds: f64,
+    /// Passes per step.
+    passes: f64,
+    /// Factorisations in all.
+    factorizations: usize,
 }
 
-impl Setting<'_> {
-    fn steps(&self) -> usize {
-        (RUN / self.problem.mesh.elements()).max(20)
+impl Setting {
+    fn new(scene: &Scene, mesh: Mesh) -> Result<Self, SetupError> {
+        let problem = simulate::problem(&Scene { mesh, ..scene.clone() });
+        Ok(Self { problem, stepping: scene.one_step()?, in_lanes: false, balanced: false })
     }
 
-    /// The best of several runs of one case.
-    fn alone(&self) -> Result<StepTime, SetupError> {
-        let (scene, settings) = (self.scene, self.settings);
-        let stepping = Stepping { settings, ..scene.one_step()? };
-        best_of_several(|| {
-            let mut driver = Driver::new(self.problem.clone(), stepping)?;
-            let start = Instant::now();
-            self.step(&mut driver);
-            let seconds = start.elapsed().as_secs_f64();
-            Ok(self.step_time(seconds, driver.simulation().step().max(1), 1, driver.simulation().work()))
-        })
-    }
-
-    /// Steps to the end, or to the step that fails; none of the paper's scenes fails.
-    fn step(&self, driver: &mut Driver) {
-        let steps = self.steps();
-        let observe = |step: Step<'_>| {
-            match self.observed {
-                Observed::Energy => drop(black_box(step.simulation.energy(step.new))),
-                _ => drop(black_box(step.simulation.balance(step.old, step.new))),
-            }
-            ControlFlow::<()>::Continue(())
-        };
-        let _ = match self.observed {
-            Observed::Nothing => (0..steps).try_for_each(|_| driver.advance(|_, _| ()).map(drop)),
-            _ => driver.run(steps, observe).map(drop),
-        };
-    }
-
-    /// The same for four equal cases in lanes.
-    fn in_lanes(&self) -> Result<StepTime, SetupError> {
-        let (steps, cases) = (self.steps(), 4);
-        best_of_several(|| {
-            let (problems, dt) = (vec![self.problem.clone(); cases], vec![self.scene.dt(); cases]);
-            let mut driver = EnsembleDriver::new(problems, &dt, self.scene.one_step()?.scheme, self.settings)?;
-            let start = Instant::now();
-            let _ = match self.observed {
-                Observed::Nothing => (0..steps).try_for_each(|_| driver.advance()),
-                _ => driver.run(steps, |_, balances| {
-                    black_box(balances);
-                    ControlFlow::Continue(())
-                }),
-            };
-            let seconds = start.elapsed().as_secs_f64();
-            Ok(self.step_time(seconds, driver.ensemble().step().max(1), cases, driver.ensemble().work()))
-        })
-    }
-
-    fn step_time(&self, seconds: f64, steps: usize, cases: usize, work: Work) -> StepTime {
-        StepTime {
-            nanoseconds: seconds * 1e9 / (self.problem.mesh.elements() * steps * cases) as f64,
-            passes: work.passes as f64 / steps as f64,
+    /// The best of several runs.
+    fn time(&self) -> Result<StepTime, SetupError> {
+        let elements = self.problem.mesh.elements();
+        let (mut best, mut done, mut work) = (f64::INFINITY, 1, Work::default());
+        for _ in 0..REPEATS {
+            let seconds;
+            (seconds, done, work) = self.run((RUN / elements).max(20))?;
+            best = best.min(seconds);
+        }
+        let cases = if self.in_lanes { LANES } else { 1 };
+        Ok(StepTime {
+            nanoseconds: best * 1e9 / (elements * done * cases) as f64,
+            passes: work.passes as f64 / done as f64,
             factorizations: work.factorizations,
+        })
+    }
+
+    /// Seconds, steps and work, to the end or to the step that fails; none of the paper's scenes fails.
+    fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
+        if self.in_lanes {
+            let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
+            let mut driver = EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
+            let start = Instant::now();
+            let observe = |_: &_, balances: &_| {
+                black_box(balances);
+                ControlFlow::Continue(())
+            };
+            let _ =
+                if self.balanced { driver.run(steps, observe) } else { (0..steps).try_for_each(|_| driver.advance()) };
+            let seconds = start.elapsed().as_secs_f64();
+            return Ok((seconds, driver.ensemble().step().max(1), driver.ensemble().work()));
         }
+        let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
+        let start = Instant::now();
+        let _ = if self.balanced {
+            let observed = driver.run(steps, |step| {
+                black_box(step.simulation.balance(step.old, step.new));
+                ControlFlow::<()>::Continue(())
+            });
+            observed.map(drop)
+        } else {
+            (0..steps).try_for_each(|_| driver.advance(|_, _| ()).map(drop))
+        };
+        Ok((start.elapsed().as_secs_f64(), driver.simulation().step().max(1), driver.simulation().work()))
     }
 }
 
-fn best_of_several(run: impl Fn() -> Result<StepTime, SetupError>) -> Result<StepTime, SetupError> {
-    let mut best = run()?;
-    for _ in 1..REPEATS {
-        let time = run()?;
-        if time.nanoseconds < best.nanoseconds {
-            best = time;
-        }
-    }
-    Ok(best)
+/// What changes a setting.
+type Change = fn(&mut Setting);
+
+/// The ways to solve a step, and what a scene saves by what it does not have.
+const WAYS: [(&str, Change); 10] = [
+    ("Newton, extrapolated start", |_| ()),
+    ("Newton from the level before", |s| {
+        s.stepping.settings = Settings { start: Start::Previous, ..s.stepping.settings }
+    }),
+    ("the paper's fixed point", |s| {
+        s.stepping.settings = Settings { solver: Solver::FixedPoint, ..s.stepping.settings }
+    }),
+    ("four cases in lanes, per case", |s| s.in_lanes = true),
+    ("Newton, and the balance of each step", |s| s.balanced = true),
+    ("four cases in lanes with it, per case", |s| (s.in_lanes, s.balanced) = (true, true)),
+    ("no obstacles: no contact", |s| s.problem.obstacles = None),
+    ("rho = 0: no iteration", |s| s.problem.beam.rho = 0.0),
+    ("a = 0 and no heat: no temperature", cold),
+    ("none of the three", |s| {
+        cold(s);
+        (s.problem.obstacles, s.problem.beam.rho) = (None, 0.0);
+    }),
+];
+
+fn cold(setting: &mut Setting) {
+    setting.problem.beam.a = 0.0;
+    setting.problem.initial.theta.fill(0.0);
 }
 
-fn setting(scene: &Scene, mesh: Mesh) -> Result<Setting<'_>, SetupError> {
-    let scene_on_mesh = Scene { mesh, ..scene.clone() };
-    let settings = scene.one_step()?.settings;
-    Ok(Setting { problem: simulate::problem(&scene_on_mesh), scene, settings, observed: Observed::Nothing })
-}
-
-fn row(name: &str, time: &StepTime, against: f64) -> Vec<String> {
-    vec![
-        name.to_owned(),
-        format!("{:.1}", time.nanoseconds),
-        format!("{:.2}", time.nanoseconds / against),
-        format!("{:.3}", time.passes),
-        time.factorizations.to_string(),
-    ]
-}
-
-fn table(title: &str, first: &str, rows: Vec<Vec<String>>) -> Table {
-    let head =
-        [first, "ns per element and step", "ratio", "passes a step", "factorizations"].map(str::to_owned).to_vec();
-    Table { title: title.to_owned(), head, rows }
-}
-
-/// The ways to solve a step, on the scene with so many elements.
+/// The ways to solve a step, and what a scene pays for, with so many elements.
 ///
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up on that mesh.
 pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
-    let base = || -> Result<Setting<'_>, SetupError> { setting(scene, Mesh::uniform(elements)?) };
-    let with = |settings: Settings| -> Result<StepTime, SetupError> { Setting { settings, ..base()? }.alone() };
-    let settings = scene.one_step()?.settings;
-    let newton = with(settings)?;
-    let graded = setting(scene, Mesh::mapped(elements, |s| s + 0.1 * (std::f64::consts::TAU * s).sin())?)?.alone()?;
-    let balanced = || -> Result<Setting<'_>, SetupError> { Ok(Setting { observed: Observed::Balance, ..base()? }) };
-    let rows = [
-        ("the paper's fixed point", with(Settings { solver: Solver::FixedPoint, ..settings })?),
-        ("Newton from the level before", with(Settings { start: Start::Previous, ..settings })?),
-        ("Newton, extrapolated start", newton),
-        ("the same on a graded mesh", graded),
-        ("four cases in lanes, per case", base()?.in_lanes()?),
-        ("Newton, and the balance of each step", balanced()?.alone()?),
-        ("four cases in lanes with it, per case", balanced()?.in_lanes()?),
-    ];
-    let rows = rows.iter().map(|(name, time)| row(name, time, newton.nanoseconds)).collect();
-    Ok(table(&format!("Ways to solve a step, {elements} elements"), "way", rows))
-}
-
-/// What a scene pays for, against the full one.
-///
-/// # Errors
-/// [`SetupError`] where the scene cannot be set up.
-pub fn scenes(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
-    let full = setting(scene, Mesh::uniform(elements)?)?;
-    let change = |apply: &dyn Fn(&mut Problem)| -> Result<StepTime, SetupError> {
-        let mut changed = setting(scene, Mesh::uniform(elements)?)?;
-        apply(&mut changed.problem);
-        changed.alone()
+    let whole = Setting::new(scene, Mesh::uniform(elements)?)?;
+    let mut against = f64::NAN;
+    let mut line = |(name, change): (&str, Change)| {
+        let mut setting = whole.clone();
+        change(&mut setting);
+        let time = setting.time()?;
+        if against.is_nan() {
+            against = time.nanoseconds;
+        }
+        let StepTime { nanoseconds, passes, factorizations } = time;
+        let ratio = format!("{:.2}", nanoseconds / against);
+        Ok(vec![
+            name.to_owned(),
+            format!("{nanoseconds:.1}"),
+            ratio,
+            format!("{passes:.3}"),
+            factorizations.to_string(),
+        ])
     };
-    let cold = |problem: &mut Problem| {
-        problem.beam.a = 0.0;
-        problem.initial.theta.fill(0.0);
-    };
-    let whole = full.alone()?;
-    let rows = [
-        ("everything", whole),
-        (
-            "everything, observed with its energy at each step",
-            Setting { observed: Observed::Energy, ..setting(scene, Mesh::uniform(elements)?)? }.alone()?,
-        ),
-        ("no obstacles: no contact", change(&|problem| problem.obstacles = None)?),
-        ("rho = 0: no iteration", change(&|problem| problem.beam.rho = 0.0)?),
-        ("a = 0 and no heat: no temperature", change(&cold)?),
-        (
-            "none of the three",
-            change(&|problem| {
-                cold(problem);
-                problem.obstacles = None;
-                problem.beam.rho = 0.0;
-            })?,
-        ),
-    ];
-    let rows = rows.iter().map(|(name, time)| row(name, time, whole.nanoseconds)).collect();
-    Ok(table(&format!("What a scene pays for, {elements} elements"), "scene", rows))
+    let rows = WAYS.into_iter().map(&mut line).collect::<Result<_, SetupError>>()?;
+    let head = ["way", "ns per element and step", "ratio", "passes a step", "factorizations"];
+    let title = format!("Ways to solve a step, and what a scene saves by what it does not have, {elements} elements");
+    Ok(Table { title, head: head.map(str::to_owned).to_vec(), rows })
 }
-
-/// What [`scaling`] has to say beside its table.
-pub const SCALING: &str = "The ratio is to the first mesh of 1000 elements or more. Past the caches a step takes as long as its \
-                           numbers take to come from memory and go back.";
 
 /// Cost and memory over the number of elements, of one case and of each of four in lanes.
 ///
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up.
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
-    let times = |&n: &usize| {
-        let setting = setting(scene, Mesh::uniform(n)?)?;
-        Ok((n, setting.alone()?, setting.in_lanes()?))
-    };
-    let times = elements.iter().map(times).collect::<Result<Vec<_>, SetupError>>()?;
-    let against = times.iter().find(|(n, ..)| *n >= 1000).map_or(f64::NAN, |(_, time, _)| time.nanoseconds);
-    let row = |(n, alone, lanes): &(usize, StepTime, StepTime)| {
-        vec![
+    let line = |&n: &usize| {
+        let alone = Setting::new(scene, Mesh::uniform(n)?)?;
+        let lanes = Setting { in_lanes: true, ..alone.clone() }.time()?;
+        let time = alone.time()?;
+        Ok(vec![
             n.to_string(),
-            format!("{:.1}", alone.nanoseconds),
-            format!("{:.2}", alone.nanoseconds / against),
+            format!("{:.1}", time.nanoseconds),
             format!("{:.1}", lanes.nanoseconds),
-            format!("{:.3}", alone.passes),
+            format!("{:.3}", time.passes),
             format!("{:.2}", (n * BYTES_PER_ELEMENT) as f64 / f64::from(1 << 20)),
-        ]
+        ])
     };
-    let head = ["elements", "ns per element and step", "ratio", "in lanes, per case", "passes a step", "MiB a case"];
-    let title = "Time over the number of elements";
-    Ok(Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows: times.iter().map(row).collect() })
+    let head = ["elements", "ns per element and step", "in lanes, per case", "passes a step", "MiB a case"];
+    Ok(Table {
+        title: "Time over the number of elements: past the caches a step takes as long as its numbers take from memory and back"
+            .to_owned(),
+        head: head.map(str::to_owned).to_vec(),
+        rows: elements.iter().map(line).collect::<Result<_, SetupError>>()?,
+    })
 }

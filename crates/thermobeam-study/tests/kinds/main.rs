@@ -2,7 +2,6 @@
 
 mod any_order;
 mod any_order_controls;
-mod any_order_cost;
 mod bifurcation;
 mod calibration;
 mod controls;

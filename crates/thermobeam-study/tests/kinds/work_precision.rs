@@ -4,9 +4,9 @@ use crate::file;
 use crate::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::outcome::Outcome;
-use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here, run_here};
-use thermobeam_study::kinds::work_precision::WorkPrecision;
+use convergence_study::study::{CaseFailure, FromFile, Kind, Ran, run_cases_here, run_here};
 use thermobeam_study::kinds::work_precision::method::Measurement;
+use thermobeam_study::kinds::work_precision::{Runs, WorkPrecision};
 
 /// Steps of the study's runs.
 const STEPS: [usize; 4] = [16, 64, 256, 1024];
@@ -14,6 +14,8 @@ const STEPS: [usize; 4] = [16, 64, 256, 1024];
 fn read(text: &str) -> Result<WorkPrecision, String> {
     WorkPrecision::parse(text, &file("study.toml")).map_err(|error| error.to_string())
 }
+
+type Results = Vec<Ran<Runs, Vec<Measurement>>>;
 
 fn quick() -> WorkPrecision {
     WorkPrecision::read(file("work-precision-manufactured.toml")).unwrap()
@@ -74,6 +76,64 @@ fn planted_defects_fail() {
     assert!(outcome.checks[0].evidence.contains("planted"), "{}", outcome.checks[0].evidence);
 }
 
+/// dG beside midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
+fn along_a_diagonal() -> (WorkPrecision, Results) {
+    let text = crate::text("any-order-cost.toml").replace(", 500, 1000]", "]").replace(", 4000, 8000]", "]");
+    let study = read(&text).unwrap();
+    let honest = passes_but_not_without_each_case(&study);
+    (study, honest)
+}
+
+#[test]
+fn a_thousandth_of_the_cost_by_dg_and_planted_defects_fail() {
+    let (study, honest) = along_a_diagonal();
+    let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
+        let mut planted = honest.clone();
+        for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with(only)) {
+            ran.found.as_mut().unwrap().iter_mut().for_each(defect);
+        }
+        failed(&study.judge(&planted)).len()
+    };
+    let tip = 2;
+    assert_eq!(plant("dg", &|_| ()), 0);
+    assert_eq!(plant("dg", &|run| run.errors[tip] *= 100.0), 1, "inaccurate");
+    assert_eq!(plant("dg", &|run| run.spent.node_solves *= 10.0), 1, "dear");
+    assert!(plant("dg", &|run| run.errors[tip] = f64::NAN) > 0, "not finite");
+    // Twice the error in the coarser run is a fall of eight, in the finer one a fall of two.
+    for worse in ["midpoint, n = 125", "midpoint, n = 250"] {
+        assert_eq!(plant(worse, &|run| run.errors[tip] *= 2.0), 1, "no second order");
+    }
+    // Other quantities are not measured.
+    let outcome = study.judge(&honest);
+    assert_eq!(outcome.figures.len(), 1);
+    assert_eq!(outcome.quantities.len(), 1, "{:?}", outcome.quantities);
+}
+
+#[test]
+fn dg_is_measured_as_the_others_are() {
+    let study = quick();
+    let honest = run_cases_here(&study);
+    let fronts = |ran: &Results| {
+        let outcome = study.judge(ran);
+        let svg = &outcome.figures[1].svg;
+        let line = svg.lines().find(|line| line.contains("data-series=\"dg\"")).expect("a line");
+        (outcome.verdict, line.split("data-points=").nth(1).expect("points").split_whitespace().count())
+    };
+    let (verdict, points) = fronts(&honest);
+    assert_eq!(verdict, Verdict::Pass);
+    // A run as dear as all others together is in no figure, and costs dG its advantage.
+    let mut planted = honest.clone();
+    for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with("dg, p = 10")) {
+        ran.found.as_mut().unwrap()[0].spent.node_solves *= 1e3;
+    }
+    let (verdict, fewer) = fronts(&planted);
+    assert_eq!((verdict, fewer), (Verdict::Pass, points - 1), "the next run reaches the error, too");
+    for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with("dg")) {
+        ran.found.as_mut().unwrap()[0].errors[1] += 1e-5;
+    }
+    assert_eq!(fronts(&planted).0, Verdict::Fail, "an error that all runs share");
+}
+
 #[test]
 fn a_claim_that_is_too_bold_fails() {
     let text = crate::text("work-precision-manufactured.toml");
@@ -95,7 +155,7 @@ fn references_that_do_not_agree_fail() {
     assert_eq!(reasons(&text), Vec::<String>::new());
     // Two elements of degree 3 are no reference.
     let coarse = reasons(&text.replace("degree = 26", "degree = 3"));
-    assert_eq!(coarse.len(), 8);
+    assert_eq!(coarse.len(), 16, "eight of one-step methods, eight of dG");
     assert!(coarse.iter().all(|reason| reason.contains("the two references are")), "{coarse:?}");
 }
 
@@ -116,6 +176,7 @@ fn seconds_are_there_for_benchmarks_only() {
 fn mistakes_are_named() {
     let head = "[study]\nid = \"w\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"work-precision\"\n[work-precision]\n";
     let grid = "elements = [4, 8]\nsteps = [8, 16]\n";
+    let diagonal = "elements = [4, 8]\nscene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\ndiagonal = \"midpoint\"";
     for (body, piece) in [
         ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
         ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
@@ -127,6 +188,16 @@ fn mistakes_are_named() {
         ),
         (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1"), "[[reference]]"),
         (&format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""), "did you mean"),
+        (&format!("{diagonal}\nsteps = [250, 750]"), "each twice the one before"),
+        (&format!("{diagonal}\nsteps = [100, 200]"), "multiples of 250"),
+        (&format!("{diagonal}\nsteps = [250, 500]\nagreement = 1e-6"), "beside diagonal"),
+        (&format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 1]]"), "degree p, degree q, largest step"),
+        (&format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 6, 0.02]]"), "work-precision.dg[0][1]"),
+        (&format!("{diagonal}\nsteps = [250, 500]"), "at least one table [[advantage]]"),
+        (
+            "elements = [4, 8]\nsteps = [250, 500]\nvibration = [0]\nzeta = 0.1\nt_end = 1\ndiagonal = \"midpoint\"",
+            "diagonal without scene",
+        ),
     ] {
         let error = read(&format!("{head}{body}")).err().unwrap_or_else(|| panic!("{body} was accepted"));
         assert!(error.contains("study.toml:") && error.contains(piece), "{piece}: {error}");

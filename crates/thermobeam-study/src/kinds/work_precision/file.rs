@@ -1,43 +1,56 @@
 //! The study file: the problem, the grid of runs, the advantages claimed.
 
-use std::path::Path;
 use std::sync::OnceLock;
 
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{FromFile, Header};
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
-use super::method::{METHODS, Method};
-use super::{Advantage, AnyOrder, ROW, WorkPrecision};
+use super::method::{Degrees, METHODS, Method};
+use super::{Advantage, Answer, OBSERVED, ROW, WorkPrecision};
 use crate::error::evaluator::ErrorMeasure;
 use crate::error::free_vibration;
 use crate::kinds::convergence::Convergence;
+use crate::kinds::prelude::*;
 use crate::kinds::tables::discretisations;
 use crate::run::family::Family;
-use crate::scene::{Scene, limits};
 
 /// Tolerance of the solver that leaves no trace in the errors measured.
 const TOLERANCE: f64 = 1e-11;
 /// Largest misfit of the law, where a file does not say.
 const MISFIT: f64 = 0.15;
+/// The keys of a file; the problem is a solution, a scene or a vibration.
+const KEYS: [&str; 12] = [
+    "elements",
+    "steps",
+    "solution",
+    "scene",
+    "vibration",
+    "zeta",
+    "t_end",
+    "agreement",
+    "dg",
+    "diagonal",
+    "tolerance",
+    "misfit",
+];
 
 impl FromFile for WorkPrecision {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name, "reference", "advantage"])?;
-        let section = root.require(ROW.name, "a table with elements, steps and a problem")?.section()?;
-        let keys = ["solution", "scene", "vibration", "zeta", "t_end", "agreement", "elements", "steps"];
-        section.allow(&[&keys[..], &["tolerance", "misfit"]].concat())?;
-        let steps = levels(&section, "steps")?;
+        let section = root.table(ROW.name, &KEYS)?;
+        let steps = levels(&section, "steps", limits::STEPS)?;
         if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
             return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
         }
-        let elements = levels(&section, "elements")?;
+        let elements = levels(&section, "elements", 1 << 20)?;
         let number = |key: &str, default: f64| section.get(key).map_or(Ok(default), |field| field.positive());
-        let (family, reference) = problem(root, &section, folder)?;
+        let diagonal = diagonal(&section, &elements, &steps)?;
+        let (family, answer) = problem(root, &section, folder, diagonal.is_some())?;
         Ok(Self {
             header,
             family,
-            reference,
-            computed: OnceLock::new(),
+            answer,
+            dg: dg(&section)?,
+            diagonal,
             tolerance: number("tolerance", TOLERANCE)?,
             misfit: number("misfit", MISFIT)?,
             advantages: advantages(root)?,
@@ -48,88 +61,103 @@ impl FromFile for WorkPrecision {
 }
 
 /// An increasing list of at least two whole numbers.
-fn levels(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
+fn levels(section: &Section<'_>, key: &str, most: usize) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two increasing whole numbers >= 1";
-    let field = section.require(key, allowed)?;
-    let items = field.items(allowed)?;
-    let most = if key == "elements" { 1 << 20 } else { limits::STEPS };
-    let levels = items.iter().map(|item| item.count(1..=most)).collect::<Result<Vec<_>, _>>()?;
-    if levels.len() < 2 || levels.windows(2).any(|pair| pair[1] <= pair[0]) {
-        return Err(field.refuse_as_written(allowed));
-    }
-    Ok(levels)
+    section.list(key, allowed, |item| item.count(1..=most), |list: &[usize]| list.len() > 1 && increases(list))
 }
 
-/// The problem, and the reference where it has no exact solution.
-fn problem(root: &Section<'_>, section: &Section<'_>, folder: &Path) -> Result<(Family, Option<AnyOrder>), InputError> {
-    let only_with = |key: &str, owner: &str| match (section.get(key), section.get(owner)) {
-        (Some(field), None) => Err(field.refuse(format!("{key} without {owner}"), format!("{key} beside {owner}"))),
-        _ => Ok(()),
+/// The runs of dG.
+fn dg(section: &Section<'_>) -> Result<Vec<Degrees>, InputError> {
+    let allowed = "a list of [degree p, degree q, largest step]";
+    let row = |item: &Field<'_>| {
+        let [p, q, dt] = item.items(allowed)?.try_into().map_err(|_| item.refuse_as_written(allowed))?;
+        Ok(Degrees { p: p.count(1..=MAX_DEGREE)?, q: q.count(0..=MAX_TIME_DEGREE)?, dt: dt.positive()? })
     };
-    only_with("zeta", "vibration")?;
-    only_with("agreement", "scene")?;
-    if let (Some(field), None) = (root.get("reference"), section.get("scene")) {
-        return Err(field.refuse("reference without scene", "reference beside a scene, which has no exact solution"));
+    section.get("dg").map_or(Ok(vec![]), |_| section.list("dg", allowed, row, |_| true))
+}
+
+/// The one-step method that runs with one number of steps on each mesh.
+fn diagonal(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<Option<Method>, InputError> {
+    let Some(field) = section.get("diagonal") else { return Ok(None) };
+    let one_step: Vec<_> = METHODS.iter().filter(|method| method.one_step.is_some()).map(|&m| (m.name, m)).collect();
+    let doubled = |list: &[usize]| list.windows(2).all(|two| two[1] == 2 * two[0]);
+    if elements.len() != steps.len() || !doubled(elements) || !doubled(steps) || !steps[0].is_multiple_of(OBSERVED) {
+        let allowed = format!("as many elements as steps, each twice the one before, steps multiples of {OBSERVED}");
+        return Err(section.refuse("steps", format!("{steps:?} with {elements:?} elements"), allowed));
+    }
+    field.choice(&one_step).map(Some)
+}
+
+/// The problem, and what its errors are measured against.
+fn problem(
+    root: &Section<'_>,
+    section: &Section<'_>,
+    folder: &Path,
+    tip_alone: bool,
+) -> Result<(Family, Answer), InputError> {
+    for (table, key, owner) in [
+        (section, "zeta", "vibration"),
+        (section, "agreement", "scene"),
+        (section, "diagonal", "scene"),
+        (root, "reference", "scene"),
+    ] {
+        if let (Some(field), None) = (table.get(key), section.get(owner)) {
+            return Err(field.refuse(format!("{key} without {owner}"), format!("{key} beside {owner}")));
+        }
     }
     match (section.get("solution"), section.get("scene"), section.get("vibration")) {
         (Some(file), None, None) => {
             if let Some(field) = section.get("t_end") {
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
-            let spec = <Convergence as convergence_study::study::FromFile>::read(file.file(folder)?)?;
-            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), None))
+            let spec = Convergence::read(file.file(folder)?)?;
+            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), Answer::Exact))
         }
         (None, Some(file), None) => {
-            let mut scene = Scene::read(file.file(folder)?)?;
-            scene.t_end = t_end(section)?;
+            let scene = Scene { t_end: section.positive("t_end")?, ..Scene::read(file.file(folder)?)? };
+            let family = Family::of_scene(&scene);
+            if tip_alone {
+                return match root.get("reference").or_else(|| section.get("agreement")) {
+                    Some(field) => Err(field.refuse("beside diagonal", "no reference: a finer run of dG is one")),
+                    None => Ok((family, Answer::Tip(OnceLock::new()))),
+                };
+            }
             let by = discretisations(root, "reference", None, scene.t_end)?;
             let agreement = section.positive("agreement")?;
-            Ok((Family::of_scene(&scene), Some(AnyOrder { scene, by, agreement })))
+            Ok((family, Answer::Agreed { scene: Box::new(scene), by, agreement, computed: OnceLock::new() }))
         }
-        (None, None, Some(_)) => Ok((vibration(section)?, None)),
+        (None, None, Some(_)) => Ok((vibration(section)?, Answer::Exact)),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
     }
-}
-
-fn t_end(section: &Section<'_>) -> Result<f64, InputError> {
-    section.positive("t_end")
 }
 
 /// The lowest modes, each released from a tip displacement of 0.1.
 fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     const AMPLITUDE: f64 = 0.1;
     let allowed = "a list of at least one mode, numbered from 0";
-    let field = section.require("vibration", allowed)?;
-    let items = field.items(allowed)?;
-    let modes = items.iter().map(|item| Ok((item.count(0..=1000)?, AMPLITUDE))).collect::<Result<Vec<_>, InputError>>();
-    let modes = modes?;
-    let zeta = section.positive("zeta")?;
-    match free_vibration::vibration(&modes, zeta) {
-        Ok(exact) if !modes.is_empty() => {
-            Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end(section)?))
-        }
-        _ => Err(field.refuse_as_written(allowed)),
-    }
+    let mode = |item: &Field<'_>| Ok((item.count(0..=1000)?, AMPLITUDE));
+    let modes = section.list("vibration", allowed, mode, |modes| !modes.is_empty())?;
+    let (zeta, t_end) = (section.positive("zeta")?, section.positive("t_end")?);
+    let exact = free_vibration::vibration(&modes, zeta);
+    let exact = exact.map_err(|error| section.refuse("zeta", error.to_string(), "a viscosity"))?;
+    Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end))
 }
 
+/// What is claimed: at least one advantage.
 fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
-    let Some(field) = root.get("advantage") else { return Ok(vec![]) };
     let methods = METHODS.map(|method| (method.name, method));
     let quantities = ErrorMeasure::ALL.map(|quantity| (quantity.name(), quantity));
-    let items = field.items("a list of tables [[advantage]]")?;
-    let advantage = |section: Section<'_>| {
+    let advantage = |item: &Field<'_>| {
+        let section = item.section()?;
         section.allow(&["norm", "error", "of", "over", "times"])?;
-        let method = |key: &str| -> Result<Method, InputError> {
-            section.require(key, "the name of a method")?.choice(&methods)
-        };
-        let number = |key: &str| section.positive(key);
+        let method = |key: &str| section.require(key, "the name of a method")?.choice(&methods);
         Ok(Advantage {
             quantity: section.require("norm", "the name of a norm")?.choice(&quantities)?,
-            error: number("error")?,
+            error: section.positive("error")?,
             of: method("of")?,
             over: method("over")?,
-            times: number("times")?,
+            times: section.positive("times")?,
         })
     };
-    items.iter().map(|item| advantage(item.section()?)).collect()
+    root.list("advantage", "at least one table [[advantage]]", advantage, |list| !list.is_empty())
 }

@@ -1,18 +1,15 @@
-//! From the grids of all methods to checks, tables and figures.
+//! From the runs of all methods to checks, tables and figures.
 
 use convergence_study::judge::fit::Quantiles;
-use convergence_study::plots;
-use convergence_study::study::Ran;
-use convergence_study::study::levels::completion;
-use convergence_study::study::outcome::{self, Check, Figure, Outcome, Table};
 
 use super::law::{GridPoint, Law, front};
-use super::method::{METHODS, Measurement, Method};
-use super::{Advantage, MethodOnMesh, WorkPrecision};
+use super::method::{Measurement, Method};
+use super::{Advantage, Runs, WorkPrecision};
 use crate::error::evaluator::ErrorMeasure;
+use crate::kinds::prelude::*;
 
 /// Results of all cases.
-type Results = [Ran<MethodOnMesh, Vec<Measurement>>];
+type Results = [Ran<Runs, Vec<Measurement>>];
 
 /// Errors of which the cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -21,15 +18,29 @@ const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 const UNDERCUT: f64 = 2.5;
 /// Relative change of a cost that is tolerated: rates enter its exponent.
 const COST_TOLERANCE: f64 = 1e-2;
+/// Relative change of a ratio of costs that is tolerated.
+const RATIO_TOLERANCE: f64 = 0.05;
 /// Confidence of the intervals of the rates.
 const CONFIDENCE: f64 = 0.95;
+/// How far the fall of a second-order error along a diagonal may be from fourfold.
+const FALL: [f64; 2] = [3.5, 4.5];
+
+/// What an error costs.
+enum Cost {
+    /// What the law says that was fitted to a grid, or why there is none.
+    Law(Result<Law, String>),
+    /// Along a diagonal of the grid: error times cost is constant, the best that a scheme of second order in h and dt can do.
+    Diagonal,
+    /// What the cheapest run costs that has it.
+    Runs,
+}
 
 /// One method in one quantity.
 struct Row {
     method: Method,
     quantity: ErrorMeasure,
     points: Vec<GridPoint>,
-    law: Result<Law, String>,
+    cost: Cost,
 }
 
 impl Row {
@@ -37,14 +48,31 @@ impl Row {
         format!("{}, {}", self.quantity.name(), self.method.name)
     }
 
-    /// Node-steps of an error; NaN without a law.
-    fn cost(&self, error: f64) -> f64 {
-        self.law.as_ref().map_or(f64::NAN, |law| law.cost(error))
+    /// Node-steps and node-solves of an error; NaN where they are not known.
+    fn cost(&self, error: f64) -> [f64; 2] {
+        let cheaper = |a: [f64; 2], b: [f64; 2]| if b[1] >= a[1] { a } else { b };
+        let none = [f64::NAN; 2];
+        match &self.cost {
+            Cost::Law(Err(_)) => none,
+            Cost::Law(Ok(law)) => [law.cost(error), law.cost(error) * self.solves_per_step()],
+            Cost::Diagonal => {
+                let along = |p: &GridPoint| [p.node_steps * p.error / error, p.node_solves * p.error / error];
+                self.points.iter().map(along).reduce(cheaper).unwrap_or(none)
+            }
+            Cost::Runs => {
+                let good = self.points.iter().filter(|point| point.error <= error);
+                good.map(|point| [point.node_steps, point.node_solves]).reduce(cheaper).unwrap_or(none)
+            }
+        }
     }
 
     /// Whether a cost at that error is beyond what was measured.
     fn is_extrapolated(&self, error: f64) -> bool {
-        !self.law.as_ref().is_ok_and(|law| error >= law.reach)
+        match &self.cost {
+            Cost::Law(law) => !law.as_ref().is_ok_and(|law| error >= law.reach),
+            Cost::Diagonal => !self.points.iter().any(|point| point.error <= error),
+            Cost::Runs => false,
+        }
     }
 
     /// Solves per step of the finest run: with it node-steps become node-solves.
@@ -55,39 +83,47 @@ impl Row {
 
 pub(super) fn judge(study: &WorkPrecision, ran: &Results) -> Outcome {
     let rows = rows(study, ran);
-    let mut checks = vec![completion(ran, |runs| not_finite(runs))];
+    let mut checks = vec![completion(ran, |runs| {
+        readings::not_finite(&runs.iter().flat_map(|run| found(study, run)).collect::<Vec<_>>())
+    })];
     checks.extend(rows.iter().flat_map(|row| check_law(row, study.misfit)));
-    let advantages: Vec<Check> = study.advantages.iter().map(|claim| check_advantage(claim, &rows)).collect();
-    let summary = summary(&rows, &advantages);
-    let headline = advantages.first().map_or_else(|| summary.clone(), |check| check.evidence.clone());
+    let claims = study.advantages.iter().map(|claim| (claim, check_advantage(claim, &rows)));
+    let (ratios, advantages): (Vec<_>, Vec<Check>) =
+        claims.map(|(claim, (ratio, check))| ((claim, ratio), check)).unzip();
+    let headline = advantages.first().map_or_else(String::new, |check| check.evidence.clone());
+    let summary = advantages.first().map_or_else(String::new, |check| format!("{}: {headline}", check.claim));
     checks.extend(advantages);
     let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
-    outcome.tables = ErrorMeasure::ALL.map(|quantity| winners(quantity, &rows)).to_vec();
-    outcome.tables.push(laws(&rows));
-    outcome.figures = ErrorMeasure::ALL.map(|quantity| figure(study, quantity, &rows)).to_vec();
-    outcome.quantities = quantities(&rows);
+    let quantities = study.quantities().iter();
+    outcome.tables = quantities.clone().map(|&quantity| winners(quantity, &rows)).collect();
+    outcome.tables.extend([laws(&rows), runs(study, ran)].into_iter().filter(|table| !table.rows.is_empty()));
+    outcome.figures = quantities.map(|&quantity| figure(study, quantity, &rows)).collect();
+    outcome.quantities = guarded(&rows, &ratios);
     outcome
 }
 
-fn not_finite(runs: &[Measurement]) -> Vec<String> {
-    let of_run = |run: &Measurement| {
-        let errors = ErrorMeasure::ALL.into_iter().zip(run.errors).map(|(quantity, error)| (quantity.name(), error));
-        let cost = [("node-steps", run.spent.node_steps), ("node-solves", run.spent.node_solves)];
-        let named = errors.chain(cost).filter(|(_, value)| !value.is_finite());
-        named.map(|(name, _)| name.to_owned()).collect::<Vec<_>>()
-    };
-    runs.iter().flat_map(of_run).collect()
+/// What a run found: the errors measured and its counted cost.
+fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> Vec<Reading> {
+    let error = |&quantity: &ErrorMeasure| Reading::new(quantity.name(), errors[quantity as usize]).scientific(2);
+    let cost =
+        [Reading::new("node-steps", spent.node_steps), Reading::new("node-solves", spent.node_solves).scientific(2)];
+    study.quantities().iter().map(error).chain(cost).collect()
 }
 
-/// The grid of one method in one quantity; NaN where a run failed.
+/// The runs of a method, with one error each; NaN where a run failed.
 fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize) -> Vec<GridPoint> {
     let mut points = vec![];
-    for Ran { case, found } in ran.iter().filter(|ran| ran.case.data.method == *method) {
-        for (k, &steps) in study.steps.iter().enumerate() {
+    for Ran { case, found } in ran {
+        let (elements, steps) = match case.data {
+            Runs::OnMesh(of, _, elements) if of == *method => (elements, study.steps_on(elements)),
+            Runs::Dg(_) if method.one_step.is_none() => (0, &[0][..]),
+            _ => continue,
+        };
+        for (k, &steps) in steps.iter().enumerate() {
             let run = found.as_ref().ok().and_then(|runs| runs.get(k));
             let value = |number: &dyn Fn(&Measurement) -> f64| run.map_or(f64::NAN, number);
             points.push(GridPoint {
-                elements: case.data.elements,
+                elements,
                 steps,
                 error: value(&|run| run.errors[quantity]),
                 node_steps: value(&|run| run.spent.node_steps),
@@ -101,29 +137,44 @@ fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize
 fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
     let Some(quantiles) = Quantiles::new(CONFIDENCE) else { return vec![] };
     let mut rows = vec![];
-    for method in METHODS {
-        let [full, superclose, tip] = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
-        let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, method.runs());
-        let close = fit(&superclose);
-        let law = match &close {
-            Ok(close) => Law::with_interpolation(&full, (&superclose, close), &quantiles),
-            Err(reason) => Err(reason.clone()),
+    for method in study.methods() {
+        let points = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
+        let costs = match (method.one_step, study.diagonal) {
+            (None, _) => [const { Cost::Runs }; 3],
+            (Some(_), Some(_)) => [const { Cost::Diagonal }; 3],
+            (Some(scheme), None) => {
+                let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, scheme.runs());
+                let [full, superclose, tip] = &points;
+                let close = fit(superclose);
+                let law = match &close {
+                    Ok(close) => Law::with_interpolation(full, (superclose, close), &quantiles),
+                    Err(reason) => Err(reason.clone()),
+                };
+                [law, close, fit(tip)].map(Cost::Law)
+            }
         };
-        let row = |quantity, points, law| Row { method, quantity, points, law };
-        rows.push(row(ErrorMeasure::Theorem34, full, law));
-        rows.push(row(ErrorMeasure::Superclose, superclose, close));
-        let law = fit(&tip);
-        rows.push(row(ErrorMeasure::Tip, tip, law));
+        let of_quantity = ErrorMeasure::ALL.into_iter().zip(points).zip(costs);
+        rows.extend(of_quantity.map(|((quantity, points), cost)| Row { method, quantity, points, cost }));
     }
-    rows.sort_by_key(|row| ErrorMeasure::ALL.iter().position(|quantity| *quantity == row.quantity));
+    rows.retain(|row| study.quantities().contains(&row.quantity));
+    rows.sort_by_key(|row| row.quantity as usize);
     rows
 }
 
 fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
     let claim = format!("{}: the errors follow a law", row.name());
-    let law = match &row.law {
-        Ok(law) => law,
-        Err(reason) => return vec![Check::that(false, claim, reason)],
+    let law = match &row.cost {
+        Cost::Law(Ok(law)) => law,
+        Cost::Law(Err(reason)) => return vec![Check::that(false, claim, reason)],
+        Cost::Runs => return vec![],
+        Cost::Diagonal => {
+            let falls: Vec<f64> = row.points.windows(2).map(|two| two[0].error / two[1].error).collect();
+            return vec![Check::that(
+                !falls.is_empty() && falls.iter().all(|fall| (FALL[0]..=FALL[1]).contains(fall)),
+                format!("{}'s error falls fourfold with twice the elements and steps", row.method.name),
+                falls.iter().map(|fall| format!("{fall:.2}")).collect::<Vec<_>>().join(", "),
+            )];
+        }
     };
     let rms = law.misfit;
     let undercut = law.undercut(&row.points);
@@ -138,127 +189,123 @@ fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
     ]
 }
 
-fn find<'r>(rows: &'r [Row], quantity: ErrorMeasure, method: &Method) -> Option<&'r Row> {
-    rows.iter().find(|row| row.quantity == quantity && row.method == *method)
-}
-
-fn check_advantage(claim: &Advantage, rows: &[Row]) -> Check {
+/// The ratio of the costs, and whether it is as large as claimed.
+fn check_advantage(claim: &Advantage, rows: &[Row]) -> (f64, Check) {
     let Advantage { quantity, error, of, over, times } = *claim;
-    let cost = |method: &Method| find(rows, quantity, method).map_or(f64::NAN, |row| row.cost(error));
-    let note = |method: &Method| match find(rows, quantity, method) {
+    let find = |method: Method| rows.iter().find(|row| row.quantity == quantity && row.method == method);
+    let cost = |method| find(method).map_or(f64::NAN, |row| row.cost(error)[claim.unit()]);
+    let note = |method| match find(method) {
         Some(row) if !row.is_extrapolated(error) => "",
         _ => " (extrapolated)",
     };
-    let (cheap, dear) = (cost(&of), cost(&over));
+    let (cheap, dear) = (cost(of), cost(over));
     let ratio = dear / cheap;
-    Check::that(
-        ratio >= times,
+    let unit = ["node-steps", "node-solves"][claim.unit()];
+    let check = Check::that(
+        ratio >= times && ratio.is_finite(),
         format!("{} {error:e}: {} is at least {times} times cheaper than {}", quantity.name(), of.name, over.name),
-        format!("{ratio:.0} times cheaper: {cheap:.2e} node-steps{} against {dear:.2e}{}", note(&of), note(&over)),
-    )
+        format!("{ratio:.0} times cheaper: {cheap:.2e} {unit}{} against {dear:.2e}{}", note(of), note(over)),
+    );
+    (ratio, check)
 }
 
-fn summary(rows: &[Row], advantages: &[Check]) -> String {
-    if let Some(check) = advantages.first() {
-        return format!("{}: {}", check.claim, check.evidence);
-    }
-    let winner = |quantity| cheapest(rows, quantity, 1e-4).map_or("none", |row| row.method.name);
-    let list = ErrorMeasure::ALL.map(|quantity| format!("{} {}", quantity.name(), winner(quantity)));
-    format!("cheapest at an error of 1e-4: {}", list.join(", "))
-}
-
-/// The method with the fewest node-steps; none where a cost is not known.
-fn cheapest(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Option<&Row> {
-    let known = rows.iter().filter(|row| row.quantity == quantity && row.cost(error).is_finite());
-    known.min_by(|a, b| (a.cost(error) * a.solves_per_step()).total_cmp(&(b.cost(error) * b.solves_per_step())))
+/// Node-solves and name of each method whose cost is known, the cheapest first.
+fn ranking(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Vec<(f64, &'static str)> {
+    let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
+    let mut costs: Vec<_> = of_quantity.map(|row| (row.cost(error)[1], row.method.name)).collect();
+    costs.retain(|(cost, _)| cost.is_finite());
+    costs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    costs
 }
 
 fn winners(quantity: ErrorMeasure, rows: &[Row]) -> Table {
-    let mut head = vec!["error".to_owned()];
-    head.extend(METHODS.iter().map(|method| method.name.to_owned()));
-    head.extend(["cheapest", "ahead of the next"].map(str::to_owned));
-    let row = |error: &f64| {
-        let of_quantity: Vec<&Row> = METHODS.iter().filter_map(|method| find(rows, quantity, method)).collect();
-        let solves = |row: &Row| row.cost(*error) * row.solves_per_step();
-        let mut cells = vec![format!("{error:e}")];
-        cells.extend(of_quantity.iter().map(|row| {
-            let mark = if row.is_extrapolated(*error) { "*" } else { "" };
-            format!("{:.2e} / {:.2e}{mark}", row.cost(*error), solves(row))
-        }));
-        let mut costs: Vec<f64> = of_quantity.iter().map(|row| solves(row)).filter(|cost| cost.is_finite()).collect();
-        costs.sort_by(f64::total_cmp);
-        cells.push(cheapest(rows, quantity, *error).map_or("-", |row| row.method.name).to_owned());
-        cells.push(if let [first, second, ..] = costs[..] { format!("{:.1}", second / first) } else { "-".to_owned() });
-        cells
+    let of_quantity: Vec<&Row> = rows.iter().filter(|row| row.quantity == quantity).collect();
+    let line = |&error: &f64| {
+        let cell = |row: &&Row| match row.cost(error) {
+            [_, solves] if solves.is_nan() => "-".to_owned(),
+            [steps, solves] => {
+                format!("{steps:.2e} / {solves:.2e}{}", if row.is_extrapolated(error) { "*" } else { "" })
+            }
+        };
+        let ranking = ranking(rows, quantity, error);
+        let cheapest = ranking.first().map_or("-", |(_, name)| name).to_owned();
+        let ahead = match ranking[..] {
+            [first, second, ..] => format!("{:.1}", second.0 / first.0),
+            _ => "-".to_owned(),
+        };
+        [format!("{error:e}")].into_iter().chain(of_quantity.iter().map(cell)).chain([cheapest, ahead]).collect()
     };
-    Table {
-        title: format!(
-            "Cost of an error in {}: node-steps / node-solves on the best path; * extrapolated along the fitted law",
+    let names = of_quantity.iter().map(|row| row.method.name);
+    Table::new(
+        format!(
+            "Cost of an error in {}: node-steps / node-solves on the best path, of dg by the cheapest run; * extrapolated",
             quantity.name()
         ),
-        head,
-        rows: TARGETS.iter().map(row).collect(),
-    }
+        ["error"].into_iter().chain(names).chain(["cheapest", "ahead of the next"]),
+        TARGETS.iter().map(line),
+    )
 }
 
 fn laws(rows: &[Row]) -> Table {
-    let head =
-        ["error", "method", "C_h", "p", "C_t", "q", "misfit", "cost ~ E^-b", "best path at E = 1e-4", "solves a step"];
-    let row = |row: &Row| {
-        let mut cells = vec![row.quantity.name().to_owned(), row.method.name.to_owned()];
-        match &row.law {
-            Ok(law) => {
-                let [h, dt] = law.best(1e-4);
-                let fit = law;
-                cells.extend([format!("{:.3e}", fit.c_h), format!("{:.3}", fit.p)]);
-                cells.extend([format!("{:.3e}", fit.c_t), format!("{:.3}", fit.q), format!("{:.3}", fit.misfit)]);
-                cells.extend([format!("{:.2}", law.exponent()), format!("h = {h:.2e}, dt = {dt:.2e}")]);
-            }
-            Err(reason) => {
-                cells.extend(vec!["-".to_owned(); 6]);
-                cells.push(reason.clone());
-            }
-        }
-        cells.push(format!("{:.2}", row.solves_per_step()));
-        cells
+    let line = |row: &Row| {
+        let Cost::Law(law) = &row.cost else { return None };
+        let number = |name, of: fn(&Law) -> f64| Reading::new(name, law.as_ref().ok().map(of));
+        let path = law.as_ref().map(|law| law.best(1e-4));
+        let path = path.map_or_else(Clone::clone, |[h, dt]| format!("h = {h:.2e}, dt = {dt:.2e}"));
+        let cells = vec![
+            number("C_h", |law| law.c_h).scientific(3),
+            number("p", |law| law.p).fixed(3),
+            number("C_t", |law| law.c_t).scientific(3),
+            number("q", |law| law.q).fixed(3),
+            number("misfit", |law| law.misfit).fixed(3),
+            number("cost ~ E^-b", Law::exponent).fixed(2),
+            Reading::text("best path at E = 1e-4", path),
+            Reading::new("solves a step", row.solves_per_step()).fixed(2),
+        ];
+        Some((vec![row.quantity.name().to_owned(), row.method.name.to_owned()], cells))
     };
-    Table {
-        title: "Laws e^2 = (C_h h^p)^2 + (C_t dt^q)^2 fitted to all runs; dt is that of the coarse run of richardson"
-            .to_owned(),
-        head: head.map(str::to_owned).to_vec(),
-        rows: rows.iter().map(row).collect(),
-    }
+    let title = "Laws e^2 = (C_h h^p)^2 + (C_t dt^q)^2 fitted to all runs; dt is that of the coarse run of richardson";
+    readings::table(title, &["error", "method"], &rows.iter().filter_map(line).collect::<Vec<_>>())
+}
+
+/// The runs to which no law is fitted.
+fn runs(study: &WorkPrecision, ran: &Results) -> Table {
+    let single = ran.iter().filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
+    let line = |ran: &Ran<Runs, Vec<Measurement>>| {
+        let run = ran.ok().and_then(|runs| runs.first());
+        (vec![ran.case.label.clone()], run.map_or(vec![], |run| found(study, run)))
+    };
+    readings::table("Largest errors over time, and counted work", &["run"], &single.map(line).collect::<Vec<_>>())
 }
 
 fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
-    let series = of_quantity
-        .map(|row| plots::Series {
-            label: row.method.name.to_owned(),
-            points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
-        })
-        .collect();
+    let series = of_quantity.map(|row| plots::Series {
+        label: row.method.name.to_owned(),
+        points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
+    });
     let svg = plots::work_precision(&plots::WorkPrecision {
         title: None,
         x_label: Some("cost: elements × linear solves".to_owned()),
         y_label: format!("error, {}", quantity.name()),
-        series,
+        series: series.collect(),
     });
-    Figure {
-        file: format!("{}-{}.svg", study.header.id, quantity.name()),
-        caption: format!(
-            "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
-            quantity.name()
-        ),
-        svg,
-    }
+    let caption = format!(
+        "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
+        quantity.name()
+    );
+    Figure::new(&study.header.id, quantity.name(), caption, svg)
 }
 
-fn quantities(rows: &[Row]) -> Vec<outcome::Quantity> {
-    let quantity = |row: &Row| outcome::Quantity {
-        name: format!("node-steps for 1e-4, {}", row.name()),
-        value: row.cost(1e-4),
-        tolerance: COST_TOLERANCE,
-    };
-    rows.iter().map(quantity).collect()
+/// Costs by the laws, and the ratios claimed of dG.
+fn guarded(rows: &[Row], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
+    let laws = rows.iter().filter(|row| matches!(row.cost, Cost::Law(_)));
+    let laws = laws
+        .map(|row| Quantity::new(format!("node-steps for 1e-4, {}", row.name()), row.cost(1e-4)[0], COST_TOLERANCE));
+    let of_dg = ratios.iter().filter(|(claim, ratio)| claim.unit() == 1 && ratio.is_finite());
+    laws.chain(of_dg.map(|(Advantage { quantity, error, of, over, .. }, ratio)| {
+        let name = format!("times cheaper, {} {error:e}, {} over {}", quantity.name(), of.name, over.name);
+        Quantity::new(name, *ratio, RATIO_TOLERANCE)
+    }))
+    .collect()
 }

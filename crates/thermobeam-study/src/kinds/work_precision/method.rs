@@ -1,17 +1,33 @@
 //! The methods compared, and one run of each.
+//!
+//! The errors of dG fall faster than any power of h and dt, so no law is fitted: an error costs what the cheapest run costs that
+//! has it. The unit is the node-solve of `midpoint`, of two 3 x 3 blocks a row. A solve of dG(q) on so many blocks has 3 (q + 1)
+//! unknowns a block and costs (q + 1)² as much for each; a factorisation counts as 3 (q + 1) solves.
 
-use crate::error::evaluator::{Evaluator, combine};
-use crate::run::family::{OnMesh, Spent};
-use convergence_study::study::CaseFailure;
-use convergence_study::text::number::max_or_nan;
+use std::time::Instant;
+
+use convergence_study::run::time_limit::Patience;
+use thermobeam::dg;
+use thermobeam::mesh::Mesh;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
 use thermobeam::solve::{Level, Settings, Solver};
+
+use crate::error::evaluator::combine;
+use crate::kinds::prelude::*;
+use crate::run::family::{Family, OnMesh, Spent};
 
 /// A way to the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Method {
     /// Name in study files, tables and figures.
     pub name: &'static str,
+    /// How it steps; `None`: dG(q) on elements of degree p.
+    pub one_step: Option<OneStep>,
+}
+
+/// A one-step scheme.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OneStep {
     /// The time scheme.
     pub scheme: Scheme,
     /// How a step is solved.
@@ -20,12 +36,17 @@ pub struct Method {
     pub extrapolated: bool,
 }
 
-/// All methods; a new one is a row.
-pub const METHODS: [Method; 4] = [
-    Method { name: "fixed-point", scheme: EULER_CRANK_NICOLSON, solver: Solver::FixedPoint, extrapolated: false },
-    Method { name: "euler-crank-nicolson", scheme: EULER_CRANK_NICOLSON, solver: Solver::Newton, extrapolated: false },
-    Method { name: "richardson", scheme: EULER_CRANK_NICOLSON, solver: Solver::Newton, extrapolated: true },
-    Method { name: "midpoint", scheme: MIDPOINT, solver: Solver::Newton, extrapolated: false },
+const fn row(name: &'static str, scheme: Scheme, solver: Solver, extrapolated: bool) -> Method {
+    Method { name, one_step: Some(OneStep { scheme, solver, extrapolated }) }
+}
+
+/// All methods; a new one-step method is a row.
+pub const METHODS: [Method; 5] = [
+    row("fixed-point", EULER_CRANK_NICOLSON, Solver::FixedPoint, false),
+    row("euler-crank-nicolson", EULER_CRANK_NICOLSON, Solver::Newton, false),
+    row("richardson", EULER_CRANK_NICOLSON, Solver::Newton, true),
+    row("midpoint", MIDPOINT, Solver::Newton, false),
+    Method { name: "dg", one_step: None },
 ];
 
 /// A run: largest errors over the times of observation, and its cost.
@@ -37,9 +58,17 @@ pub struct Measurement {
     pub spent: Spent,
 }
 
-impl Method {
+/// The errors of a level at a time, which is observation number `index` from 0.
+pub(super) type Meter<'a> = dyn FnMut(&Level, usize, f64) -> [f64; 3] + 'a;
+
+/// The larger of two errors each, NaN if there is one.
+pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| max_or_nan(errors[k], found[k]))
+}
+
+impl OneStep {
     /// Steps of unit size per step of the coarse run: 3 where a second run goes beside it with half the step.
-    pub fn runs(&self) -> f64 {
+    pub(super) fn runs(&self) -> f64 {
         if self.extrapolated { 3.0 } else { 1.0 }
     }
 
@@ -47,10 +76,10 @@ impl Method {
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's own words.
-    pub fn run(
+    pub(super) fn run(
         &self,
         on: &OnMesh<'_>,
-        evaluator: &mut Evaluator<'_>,
+        meter: &mut Meter<'_>,
         [steps, observations]: [usize; 2],
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
@@ -60,26 +89,94 @@ impl Method {
         let mut errors = [0.0_f64; 3];
         for index in 0..observations {
             run.advance(steps / observations)?;
-            let extrapolated: Option<Level> = match &mut half {
-                None => None,
+            let t = run.t();
+            let found = match &mut half {
+                None => meter(run.level(), index, t),
                 Some(half) => {
                     half.advance(2 * steps / observations)?;
-                    Some(combine(half.level(), run.level(), 2.0))
+                    meter(&combine(half.level(), run.level(), 2.0), index, t)
                 }
             };
-            let t = run.t();
-            let found = match &extrapolated {
-                Some(level) => evaluator.measure(level, index, t),
-                None => evaluator.measure(run.level(), index, t),
-            };
-            for (worst, error) in errors.iter_mut().zip(found) {
-                *worst = max_or_nan(*worst, error);
-            }
+            errors = worst(errors, found);
         }
         let mut spent = run.spent();
         if let Some(half) = half {
             spent += half.spent();
         }
         Ok(Measurement { errors, spent })
+    }
+}
+
+/// Elements that grow towards x = 0: the last one holds the layer of an impact.
+pub(super) const GRADED: [f64; 3] = [0.0, 0.9, 1.0];
+
+/// What a run is compared with where there is nothing better.
+pub(super) const REFERENCE: Degrees = Degrees { p: 26, q: 5, dt: 0.0021 };
+
+/// The first step over the largest.
+const RESTART: f64 = 0.05;
+/// Steps grow by a half where the largest is this one; finer steps grow more slowly.
+const COARSE: f64 = 0.02;
+
+/// Degrees in space and time, and the largest step; the others follow from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Degrees {
+    /// Degree of the elements.
+    pub p: usize,
+    /// Degree in time.
+    pub q: usize,
+    /// The largest step.
+    pub dt: f64,
+}
+
+impl std::fmt::Display for Degrees {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { p, q, dt } = self;
+        write!(f, "p = {p}, q = {q}, dt = {dt}")
+    }
+}
+
+impl Degrees {
+    /// Runs a problem on the elements between these nodes. `observe` is shown the level at each of so many equidistant times,
+    /// numbered from 0; most of them lie inside steps.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] with the solver's own words.
+    pub(super) fn run(
+        self,
+        family: &Family,
+        nodes: &[f64],
+        times: usize,
+        observe: &mut dyn FnMut(&dg::Space, &dg::Level, usize),
+    ) -> Result<Spent, CaseFailure> {
+        let Self { p, q, dt } = self;
+        let stepping = dg::Stepping {
+            degree: q,
+            dt,
+            restart_dt: RESTART * dt,
+            growth: 1.0 + 0.5 * dt / COARSE,
+            ..dg::Stepping::default()
+        };
+        let mut simulation = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
+        let time = |k: usize| if k == times { family.t_end } else { family.t_end * k as f64 / times as f64 };
+        let (mut level, mut shown, mut seconds) = (simulation.level().clone(), 0, 0.0);
+        let mut patience = Patience::new(simulation.space().blocks() * (q + 1));
+        loop {
+            patience.check(simulation.work().steps, || simulation.t())?;
+            let started = Instant::now();
+            let step = simulation.step(family.t_end)?;
+            seconds += started.elapsed().as_secs_f64();
+            if step.is_none() {
+                break;
+            }
+            while shown < times && simulation.level_into(time(shown + 1), &mut level) {
+                observe(simulation.space(), &level, shown);
+                shown += 1;
+            }
+        }
+        let (stages, work) = ((q + 1) as f64, simulation.work());
+        let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
+        let weight = simulation.space().blocks() as f64 * stages * stages;
+        Ok(Spent { node_steps: weight * work.steps as f64, node_solves: weight * solves, seconds })
     }
 }

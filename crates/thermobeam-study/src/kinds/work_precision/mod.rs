@@ -1,8 +1,9 @@
 //! What an error costs, by method: error over node-steps and solves.
 //!
-//! Every method runs over the same grid of elements and steps; its errors are those of the [`evaluator`](crate::error::evaluator),
-//! the largest over equidistant times of observation that all runs share. From the grid follow the fitted [`law::Law`],
-//! the best path dt(h), the cost of an error E, and who is cheapest at 1e-2 ... 1e-8. Costs are counted, not timed, so
+//! Every one-step method runs over the same grid of elements and steps; dG(q) with the degrees and steps that the file lists. Errors
+//! are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation that all runs share;
+//! those of dG are of its values at the nodes of a mesh finer than all others. From a grid follow the fitted [`law::Law`], the best
+//! path dt(h), and the cost of an error E; of dG the cheapest run with that error counts. Costs are counted, not timed, so
 //! that a report is the same on every machine and at every time; [`WorkPrecision::timed`] measures the seconds.
 //!
 //! ```toml
@@ -12,6 +13,9 @@
 //!                                      # agreement = 1e-6; or vibration = [0, 1], with zeta and t_end
 //! elements = [8, 16, 32, 64]
 //! steps = [32, 64, 128, 256]           # multiples of the first, which is the number of observations
+//! dg = [[12, 2, 0.02], [14, 3, 0.01]]  # degree p, degree q, largest step; optional
+//! diagonal = "midpoint"                # optional, for a scene: this method and dG alone, each number of elements with one
+//!                                      # of steps, both twice the ones before; u(1, t) alone, against a finer run of dG
 //! tolerance = 1e-11                    # of the solver; optional
 //! misfit = 0.15                        # root mean square of log e about the law that is allowed; optional
 //!
@@ -27,30 +31,34 @@ mod file;
 mod judge;
 pub mod law;
 pub mod method;
+mod rival;
 mod timed;
 
 use std::sync::OnceLock;
 
-use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
-use thermobeam::solve::Solver;
+use thermobeam::solve::{Level, Solver};
 
 use crate::error::evaluator::{ErrorMeasure, Evaluator};
-use crate::error::reference::{Reference, fine_mesh};
+use crate::error::reference::{FINER, Reference, fine_mesh, nodal};
+use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
-use crate::run::family::Family;
-use crate::scene::Scene;
-use method::{METHODS, Measurement, Method};
+use crate::run::family::{Family, OnMesh};
+use method::{Degrees, GRADED, METHODS, Measurement, Meter, Method, OneStep, REFERENCE, worst};
+pub use rival::{Rival, beside};
 pub use timed::Timed;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
     read: reader::<WorkPrecision>,
-    why: "Every method pays for a smaller error with more node-steps. The law e^2 = (C_h h^p)^2 + (C_t dt^q)^2 of each gives its \
-          cheapest path, and its cost for any error.",
+    why: "Every method pays for a smaller error with more work. The law e^2 = (C_h h^p)^2 + (C_t dt^q)^2 of each one-step method gives \
+          its cheapest path, and its cost for any error: a power of it. High orders pay little more for ten digits than for five.",
     judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
     failure: "A method has become more expensive for the same error, or its order is not what the law says.",
 };
+
+/// Times of observation where u(1, t) alone is measured.
+const OBSERVED: usize = 250;
 
 /// A claim that one method is so many times cheaper than another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,74 +79,144 @@ pub struct Advantage {
 pub struct WorkPrecision {
     header: Header,
     family: Family,
-    /// What stands for the exact solution where there is none.
-    reference: Option<AnyOrder>,
-    computed: OnceLock<Result<Reference, CaseFailure>>,
+    answer: Answer,
     elements: Vec<usize>,
     steps: Vec<usize>,
+    dg: Vec<Degrees>,
+    /// The only one-step method, with one number of steps for each mesh.
+    diagonal: Option<Method>,
     tolerance: f64,
     misfit: f64,
     advantages: Vec<Advantage>,
 }
 
-/// A scene by two discretisations of any order.
-struct AnyOrder {
-    scene: Scene,
-    by: [Discretisation; 2],
-    /// How far they may be apart, in the norm of Theorem 3.4.
-    agreement: f64,
+impl Advantage {
+    /// Which cost is compared: node-steps (0), or node-solves (1) where dG takes part, whose steps are of another kind.
+    fn unit(&self) -> usize {
+        usize::from(self.of.one_step.is_none() || self.over.one_step.is_none())
+    }
 }
 
-/// A method on a mesh: one run for each number of steps.
+type Computed<T> = OnceLock<Result<T, CaseFailure>>;
+
+/// What errors are measured against. What has to be computed is computed once, by whichever thread comes first.
+enum Answer {
+    /// The exact solution.
+    Exact,
+    /// A scene by two discretisations of any order, and how far they may be apart in the norm of Theorem 3.4.
+    Agreed { scene: Box<Scene>, by: [Discretisation; 2], agreement: f64, computed: Computed<Reference> },
+    /// u(1, t) at the times of observation, by dG.
+    Tip(Computed<Vec<f64>>),
+}
+
+/// Runs of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MethodOnMesh {
-    /// The method.
-    pub method: Method,
-    /// Elements of the mesh.
-    pub elements: usize,
+pub enum Runs {
+    /// A one-step method on a mesh of so many elements: one run for each number of steps.
+    OnMesh(Method, OneStep, usize),
+    /// One run by dG.
+    Dg(Degrees),
 }
 
 impl WorkPrecision {
     /// Equidistant times at which the error is measured.
     fn observations(&self) -> usize {
-        self.steps[0]
+        if self.diagonal.is_some() { OBSERVED } else { self.steps[0] }
     }
 
-    fn reference(&self) -> Result<Option<&Reference>, CaseFailure> {
-        let Some(reference) = &self.reference else { return Ok(None) };
-        // Computed once, by whichever thread comes first; the result is the same.
-        let computed = self.computed.get_or_init(|| self.agreed(reference));
-        computed.as_ref().map(Some).map_err(Clone::clone)
+    /// What is measured.
+    pub fn quantities(&self) -> &'static [ErrorMeasure] {
+        if self.diagonal.is_some() { &[ErrorMeasure::Tip] } else { &ErrorMeasure::ALL }
     }
 
-    fn agreed(&self, AnyOrder { scene, by, agreement }: &AnyOrder) -> Result<Reference, CaseFailure> {
+    fn methods(&self) -> impl Iterator<Item = Method> {
+        METHODS.into_iter().filter(|method| match method.one_step {
+            None => !self.dg.is_empty(),
+            Some(_) => self.diagonal.is_none_or(|only| only == *method),
+        })
+    }
+
+    /// Steps of the runs on a mesh.
+    fn steps_on(&self, elements: usize) -> &[usize] {
+        match self.elements.iter().position(|&n| n == elements).filter(|_| self.diagonal.is_some()) {
+            Some(place) => &self.steps[place..=place],
+            None => &self.steps,
+        }
+    }
+
+    fn runs(&self) -> impl Iterator<Item = Runs> {
+        self.methods().flat_map(|method| -> Vec<Runs> {
+            match method.one_step {
+                Some(scheme) => self.elements.iter().map(|&n| Runs::OnMesh(method, scheme, n)).collect(),
+                None => self.dg.iter().copied().map(Runs::Dg).collect(),
+            }
+        })
+    }
+
+    fn agreed(&self, scene: &Scene, by: &[Discretisation; 2], agreement: f64) -> Result<Reference, CaseFailure> {
         let finest = self.elements.last().copied().unwrap_or(1);
         let run = |how: &Discretisation| {
             Reference::compute(scene, how, fine_mesh(scene, finest)?, self.family.t_end, self.observations(), 0)
         };
         let (one, other) = (run(&by[0])?, run(&by[1])?);
         let apart = one.distance(&other);
-        if apart <= *agreement {
+        if apart <= agreement {
             return Ok(one);
         }
         Err(CaseFailure { reason: format!("the two references are {apart:.1e} apart, allowed {agreement:e}") })
     }
 
-    fn meshes(&self) -> impl Iterator<Item = MethodOnMesh> {
-        METHODS.iter().flat_map(|&method| self.elements.iter().map(move |&elements| MethodOnMesh { method, elements }))
+    fn exact_tip(&self) -> Result<Vec<f64>, CaseFailure> {
+        let mut tip = vec![];
+        REFERENCE.run(&self.family, &GRADED, self.observations(), &mut |space, level, _| {
+            tip.extend(nodal(space, level, &[1.0]).u);
+        })?;
+        Ok(tip)
     }
 
-    /// All runs of a method on a mesh, one for each number of steps.
-    fn measure(&self, MethodOnMesh { method, elements }: MethodOnMesh) -> Result<Vec<Measurement>, CaseFailure> {
-        let on = self.family.on(elements)?;
-        let mut evaluator = Evaluator::new(&self.family, &on, self.reference()?)?;
-        let mut run = |&steps: &usize| method.run(&on, &mut evaluator, [steps, self.observations()], self.tolerance);
-        self.steps.iter().map(&mut run).collect()
+    /// Measures levels on a mesh.
+    fn meter(&self, on: &OnMesh<'_>) -> Result<Box<Meter<'_>>, CaseFailure> {
+        let reference = match &self.answer {
+            Answer::Tip(computed) => {
+                let tip = computed.get_or_init(|| self.exact_tip()).as_ref().map_err(Clone::clone)?;
+                let error = move |level: &Level, index: usize| (level.u[level.u.len() - 1] - tip[index]).abs();
+                return Ok(Box::new(move |level, index, _| [f64::NAN, f64::NAN, error(level, index)]));
+            }
+            Answer::Agreed { scene, by, agreement, computed } => {
+                let computed = computed.get_or_init(|| self.agreed(scene, by, *agreement));
+                Some(computed.as_ref().map_err(Clone::clone)?)
+            }
+            Answer::Exact => None,
+        };
+        let mut evaluator = Evaluator::new(&self.family, on, reference)?;
+        Ok(Box::new(move |level, index, t| evaluator.measure(level, index, t)))
+    }
+
+    fn measure(&self, runs: Runs) -> Result<Vec<Measurement>, CaseFailure> {
+        let times = self.observations();
+        match runs {
+            Runs::OnMesh(_, scheme, elements) => {
+                let on = self.family.on(elements)?;
+                let mut meter = self.meter(&on)?;
+                let mut run = |&steps: &usize| scheme.run(&on, &mut meter, [steps, times], self.tolerance);
+                self.steps_on(elements).iter().map(&mut run).collect()
+            }
+            Runs::Dg(degrees) => {
+                let finest = self.elements.last().copied().unwrap_or(1);
+                let on = self.family.on(if self.diagonal.is_some() { 1 } else { FINER * finest })?;
+                let (mut meter, mut errors) = (self.meter(&on)?, [0.0; 3]);
+                let spent = degrees.run(&self.family, &GRADED, times, &mut |space, level, index| {
+                    let [_, nodal, tip] = meter(&nodal(space, level, on.mesh().nodes()), index, level.t);
+                    errors = worst(errors, [nodal, nodal, tip]);
+                })?;
+                Ok(vec![Measurement { errors, spent }])
+            }
+        }
     }
 }
 
 impl Kind for WorkPrecision {
-    type Data = MethodOnMesh;
+    type Data = Runs;
     /// One for each number of steps; of their cost only what is counted is judged, not the seconds.
     type Found = Vec<Measurement>;
 
@@ -146,23 +224,29 @@ impl Kind for WorkPrecision {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<MethodOnMesh>> {
-        let steps: usize = self.steps.iter().sum();
-        let case = |data: MethodOnMesh| {
-            let MethodOnMesh { method, elements } = data;
-            // The fixed point needs several iterations where Newton's method needs one pass.
-            let passes = if method.solver == Solver::FixedPoint { 8.0 } else { 1.0 };
-            let cost = (elements * steps) as f64 * method.runs() * passes;
-            Case { label: format!("{}, n = {elements}", method.name), cost, data }
+    fn cases(&self) -> Vec<Case<Runs>> {
+        let case = |data: Runs| match data {
+            Runs::Dg(degrees) => {
+                let Degrees { p, q, dt } = degrees;
+                let cost = 60.0 * (p * (q + 1)) as f64 * self.family.t_end / dt;
+                Case { label: format!("dg, {degrees}"), cost, data }
+            }
+            Runs::OnMesh(method, scheme, elements) => {
+                let steps: usize = self.steps_on(elements).iter().sum();
+                // The fixed point needs several iterations where Newton's method needs one pass.
+                let passes = if scheme.solver == Solver::FixedPoint { 8.0 } else { 1.0 };
+                let cost = (elements * steps) as f64 * scheme.runs() * passes;
+                Case { label: format!("{}, n = {elements}", method.name), cost, data }
+            }
         };
-        self.meshes().map(case).collect()
+        self.runs().map(case).collect()
     }
 
-    fn run(&self, on: &MethodOnMesh) -> Result<Vec<Measurement>, CaseFailure> {
-        self.measure(*on)
+    fn run(&self, runs: &Runs) -> Result<Vec<Measurement>, CaseFailure> {
+        self.measure(*runs)
     }
 
-    fn judge(&self, ran: &[Ran<MethodOnMesh, Vec<Measurement>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<Runs, Vec<Measurement>>]) -> Outcome {
         judge::judge(self, ran)
     }
 }

@@ -1,126 +1,201 @@
-//! `TABLES.md`: every table on that page is read, or refused, as the page says.
+//! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused with the command that reads it.
+//!
+//! With `BLESS_TABLES` set, results and `TABLES.md` are written anew, to be read before they are committed.
 
-use convergence_study::input::error_table::{Choice, RateTable};
+use std::{env, fs, path::Path};
 
-const PAGE: &str = include_str!("../TABLES.md");
+use convergence_study::input::error_table::{Choice, Column, RateTable};
+use convergence_study::judge::richardson::Estimator;
+use convergence_study::judge::verdict::{Judge, Verdict};
 
-/// One section of the page.
+/// The tolerance of all claims of the page.
+const TOLERANCE: f64 = 0.25;
+
+/// `=== title`, the options, the table, `---`, and what is found.
 struct Sample {
-    title: &'static str,
-    options: &'static str,
+    title: String,
+    options: String,
+    /// `→` stands for a tab, `␛` for the escape character, in the file.
     table: String,
-    /// Whether `expected` is a message.
-    is_refused: bool,
-    expected: &'static str,
+    found: String,
 }
 
-/// A fenced block: the words behind the fence, the text, and what follows.
-fn block(text: &'static str) -> Option<(&'static str, &'static str, &'static str)> {
-    let (head, rest) = text.split_once("```")?.1.split_once('\n')?;
-    let (body, rest) = rest.split_once("\n```\n")?;
-    Some((head, body, rest))
+fn file(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
 
 fn samples() -> Vec<Sample> {
-    let sample = |section: &'static str| {
-        let title = section.lines().next().expect("a title").trim();
-        let (head, table, rest) = block(section).unwrap_or_else(|| panic!("{title}: no table"));
-        let options = head.strip_prefix("table").unwrap_or_else(|| panic!("{title}: {head}")).trim();
-        let (kind, expected, _) = block(rest).unwrap_or_else(|| panic!("{title}: no result"));
-        assert!(matches!(kind, "result" | "refused"), "{title}: {kind}");
-        Sample { title, options, table: table.replace('→', "\t"), is_refused: kind == "refused", expected }
+    let text = fs::read_to_string(file("tests/tables.txt")).expect("the tables");
+    let sample = |part: &str| {
+        let (head, rest) = part.split_once('\n').expect("a title");
+        let (options, rest) = rest.split_once('\n').expect("options");
+        let (table, found) = rest.split_once("\n---\n").unwrap_or_else(|| panic!("{head}: no result"));
+        let options = options.strip_prefix('$').unwrap_or_else(|| panic!("{head}: {options}")).trim().to_owned();
+        Sample {
+            title: head.trim().to_owned(),
+            options,
+            table: table.to_owned() + "\n",
+            found: found.trim_end().to_owned(),
+        }
     };
-    PAGE.split("\n### ").skip(1).map(sample).collect()
+    format!("\n{text}").split("\n=== ").skip(1).map(sample).collect()
 }
 
-fn choice(options: &str) -> Choice {
-    let mut choice = Choice::default();
-    let words: Vec<&str> = options.split_whitespace().collect();
-    for option in words.chunks(2) {
-        match option {
-            ["--dim", dim] => choice.dim = Some(dim.parse().expect("a dimension")),
-            ["--step", step] => choice.step = Some((*step).to_owned()),
-            ["--columns", list] => choice.columns = Some(list.split(',').map(str::to_owned).collect()),
-            _ => panic!("{options}"),
+/// Words as a shell splits them, without escapes.
+fn words(line: &str) -> Vec<String> {
+    let (mut words, mut quoted) = (vec![String::new()], false);
+    for c in line.chars() {
+        match c {
+            '\'' => quoted = !quoted,
+            ' ' if !quoted => words.push(String::new()),
+            c => words.last_mut().expect("a word").push(c),
         }
     }
-    choice
+    words.retain(|word| !word.is_empty());
+    words
 }
 
-/// A table as the page writes it: a line for the step and one for each error.
-fn lines(table: &RateTable) -> Vec<(String, Vec<f64>)> {
-    let steps = table.columns[0].1.iter().map(|level| level.step).collect();
-    let errors = table.columns.iter().map(|(name, levels)| {
-        assert!(levels.iter().zip(&table.columns[0].1).all(|(level, first)| level.step == first.step));
-        (name.clone(), levels.iter().map(|level| level.error).collect())
-    });
-    std::iter::once((table.step.clone(), steps)).chain(errors).collect()
+/// The choice that options make, and the orders that they claim.
+fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
+    let (mut choice, mut orders) = (Choice { command: "rates TABLE".to_owned(), ..Choice::default() }, vec![]);
+    for option in options.chunks(2) {
+        let value = option[1].clone();
+        let list = || value.split(',').map(str::to_owned).collect::<Vec<_>>();
+        match option[0].as_str() {
+            "--dim" => choice.dim = Some(value.parse().expect("a dimension")),
+            "--step" => choice.step = Some(value),
+            "--columns" => choice.columns = Some(list()),
+            "--values" => choice.values = list(),
+            "--names" => choice.names = Some(list()),
+            "--order" => match value.rsplit_once('=') {
+                Some((name, order)) => orders.push((Some(name.to_owned()), order.parse().expect("an order"))),
+                None => orders.push((None, value.parse().expect("an order"))),
+            },
+            other => panic!("{other}"),
+        }
+    }
+    choice.claimed = orders.iter().filter_map(|(name, _)| name.clone()).collect();
+    (choice, orders)
 }
 
-/// Equal up to the rounding of a power, both NaN, or both infinite.
-fn is_same(a: f64, b: f64) -> bool {
-    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= 4.0 * f64::EPSILON * b.abs()
+/// How a table was read, its numbers, and the verdict on each column of which an order is claimed.
+fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
+    let numbers =
+        |column: &Column| column.levels.iter().map(|level| level.error.to_string()).collect::<Vec<_>>().join(" ");
+    let first = table.columns.iter().chain(&table.values).next().expect("a column");
+    let steps: Vec<String> = first.levels.iter().map(|level| level.step.to_string()).collect();
+    let mut text = format!("{}\n{}: {}\n", table.reading, table.step, steps.join(" "));
+    let order = |name: &str| {
+        let by_name =
+            orders.iter().find(|(of, _)| of.as_deref().is_some_and(|of| of == name || format!("column {of}") == name));
+        by_name.or_else(|| orders.iter().find(|(of, _)| of.is_none())).map(|(_, order)| *order)
+    };
+    let judge = Judge::new(TOLERANCE).expect("a tolerance");
+    for column in &table.columns {
+        text += &format!("{}: {}", column.name, numbers(column));
+        if let Some(order) = order(&column.name) {
+            let judged = column.judge(&judge, order);
+            text += &format!(
+                " | {order}: {}{}",
+                judged.verdict,
+                if judged.verdict == Verdict::Pass { String::new() } else { format!(": {}", judged.because) }
+            );
+        }
+        text.push('\n');
+    }
+    for column in &table.values {
+        let found =
+            column.estimate(&Estimator::new(TOLERANCE).expect("a tolerance"), order(&column.name).unwrap_or(f64::NAN));
+        let limit =
+            found.bar.map_or_else(|refusal| refusal.to_string(), |bar| format!("limit {:.6}", bar.extrapolated));
+        text += &format!("{}: {} | {}, {limit}\n", column.name, numbers(column), found.judged.verdict);
+    }
+    text
+}
+
+fn found(sample: &Sample) -> String {
+    let table = sample.table.replace('→', "\t").replace('␛', "\x1b");
+    let (chosen, orders) = choice(&words(&sample.options));
+    match RateTable::parse_with(&table, "TABLE", &chosen) {
+        Ok(table) => told(&table, &orders),
+        Err(error) => {
+            let message = error.to_string();
+            let mut text = format!("refused: {message}\n");
+            // Every command that the message has reads the table.
+            for line in message.lines().filter_map(|line| line.strip_prefix("  rates TABLE")) {
+                let table = RateTable::parse_with(
+                    &table,
+                    "TABLE",
+                    &choice(&words(line.split("  #").next().unwrap_or_default())).0,
+                );
+                let table = table.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
+                text += &format!("then: {}\n", table.reading);
+            }
+            text
+        }
+    }
 }
 
 #[test]
-fn every_table_of_the_page_is_read_or_refused_as_it_says() {
-    let mut wrong = vec![];
-    for sample in samples() {
-        let found = RateTable::parse_with(&sample.table, "TABLE", &choice(sample.options));
-        match (found, sample.is_refused) {
-            (Err(error), true) if error.to_string() == sample.expected => {}
-            (Ok(table), false) => {
-                let expected: Vec<(String, Vec<f64>)> = sample.expected.lines().map(expected).collect();
-                let found = lines(&table);
-                let same = expected.len() == found.len()
-                    && expected.iter().zip(&found).all(|((name, values), (found_name, found))| {
-                        name == found_name
-                            && values.len() == found.len()
-                            && values.iter().zip(found).all(|(a, b)| is_same(*a, *b))
-                    });
-                if !same {
-                    wrong.push(format!("{}: {found:?}", sample.title));
-                }
-            }
-            (Ok(table), true) => wrong.push(format!("{}: not refused: {:?}", sample.title, lines(&table))),
-            (Err(error), _) => wrong.push(format!("{}: {error}", sample.title)),
+fn every_table_is_read_or_refused_as_the_page_says() {
+    let samples = samples();
+    let (mut tables, mut wrong) = (String::new(), vec![]);
+    let [mut read, mut refused] = [String::new(), String::new()];
+    for sample in &samples {
+        let found = found(sample);
+        tables += &format!("=== {}\n$ {}\n{}---\n{found}\n", sample.title, sample.options, sample.table);
+        if found.trim_end() != sample.found {
+            wrong.push(format!("{}:\n{found}", sample.title));
         }
+        let options = if sample.options.is_empty() { String::new() } else { format!("`{}`", sample.options) };
+        let cell = |text: &str| text.replace('|', "\\|");
+        let row = |text: &str| format!("| {} | {} | {} |\n", cell(&sample.title), cell(&options), cell(text));
+        match found.strip_prefix("refused: TABLE") {
+            Some(message) => {
+                let (message, rest) = message.split_once('\n').unwrap_or((message, ""));
+                let command = rest
+                    .lines()
+                    .find_map(|line| line.strip_prefix("  "))
+                    .map_or(String::new(), |line| format!(": `{line}`"));
+                refused += &row(&(message
+                    .trim_start_matches(|c: char| c == ':' || c == ' ' || c.is_ascii_digit())
+                    .to_owned()
+                    + &command));
+            }
+            None => read += &row(found.lines().next().unwrap_or_default()),
+        }
+    }
+    let (head, _) = include_str!("../TABLES.md").split_once("## Read\n").expect("a head");
+    let head_of = |last: &str| format!("| table | options | {last} |\n| --- | --- | --- |\n");
+    let page = format!(
+        "{head}## Read\n\n{}{read}\n## Refused\n\n{}{refused}",
+        head_of("how it is read"),
+        head_of("what is said")
+    );
+    if env::var_os("BLESS_TABLES").is_some() {
+        fs::write(file("tests/tables.txt"), &tables).expect("written");
+        fs::write(file("TABLES.md"), &page).expect("written");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-fn expected(line: &str) -> (String, Vec<f64>) {
-    let (name, values) = line.rsplit_once(": ").unwrap_or_else(|| panic!("{line}"));
-    (name.to_owned(), values.split(' ').map(|value| value.parse().expect("a number")).collect())
-}
-
-#[test]
-fn the_matrix_lists_every_table_with_its_options_and_result() {
-    let (matrix, _) = PAGE.split_once("\n## Tables\n").expect("tables");
-    let rows = |part: &str| part.lines().filter(|line| line.starts_with("| ")).count() - 2;
-    let (read, refused) = matrix.split_once("\n## Refused\n").expect("refusals");
-    let samples = samples();
-    let refusals = samples.iter().filter(|sample| sample.is_refused).count();
-    assert_eq!((rows(read), rows(refused)), (samples.len() - refusals, refusals));
-    assert!(samples.len() - refusals >= 25, "{} tables", samples.len() - refusals);
-    for Sample { title, options, is_refused, .. } in samples {
-        let row = format!("\n| {title} | ");
-        let part = if is_refused { refused } else { read };
-        let line = part.split_once(&row).unwrap_or_else(|| panic!("{title} is not in the matrix")).1;
-        let line = line.lines().next().unwrap_or_default();
-        assert!(options.is_empty() || line.contains(&format!("`{options}`")), "{title}: {line}");
-        assert!(line.ends_with(if is_refused { "| exit status 2 |" } else { "| read |" }), "{title}: {line}");
-    }
+    assert_eq!(include_str!("../TABLES.md"), page, "TABLES.md is not what the tests say");
+    assert!(samples.len() >= 150, "{} tables", samples.len());
 }
 
 #[test]
 fn tables_read_the_same_with_other_line_ends_and_a_byte_order_mark() {
-    for sample in samples().iter().filter(|sample| !sample.is_refused) {
-        let parse =
-            |text: &str| RateTable::parse_with(text, "TABLE", &choice(sample.options)).map(|table| lines(&table));
+    for sample in samples().iter().filter(|sample| !sample.found.starts_with("refused")) {
         for end in ["\r\n", "\r"] {
-            let other = parse(&format!("\u{feff}{}{end}", sample.table.replace('\n', end)));
-            assert_eq!(format!("{other:?}"), format!("{:?}", parse(&sample.table)), "{end:?}: {}", sample.title);
+            let table = format!("\u{feff}{}", sample.table.replace('\n', end));
+            let other = Sample {
+                table,
+                ..Sample {
+                    title: String::new(),
+                    options: sample.options.clone(),
+                    table: String::new(),
+                    found: String::new(),
+                }
+            };
+            assert_eq!(found(&other).trim_end(), sample.found, "{end:?}: {}", sample.title);
         }
     }
 }

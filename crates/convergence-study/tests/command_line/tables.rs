@@ -1,30 +1,45 @@
-//! What `rates` says of how it reads tables and claims.
+//! What `rates` says of how it reads tables, and of claims that do not hold.
 
 use std::fs;
 
+use tempfile::TempDir;
+
 use super::{run, workspace};
+
+/// A table of one column of errors with seven digits, over halved steps.
+fn table(name: &str, first: f64, errors: &[f64]) -> String {
+    let row = |(k, error): (usize, &f64)| format!("{},{error:.6e}\n", first / f64::powi(2.0, k as i32));
+    format!("h,{name}\n{}", errors.iter().enumerate().map(row).collect::<String>())
+}
+
+/// The exit status, and all that was said, with single blanks.
+fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) {
+    fs::write(root.path().join("TABLE"), table).unwrap();
+    let (status, out, err) = run(root, &[&["rates", "TABLE"], options].concat());
+    (status, (out + &err).split_whitespace().collect::<Vec<_>>().join(" "))
+}
 
 pub(super) fn rates_says_how_it_read_a_table() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), "spam,L2,other\n0.4,0.16,4\n0.2,0.04,8\n0.1,0.01,16\n").unwrap();
+    let text = "spam,L2,other\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
+    fs::write(root.path().join("t"), text).unwrap();
     let rates = |more: &[&str]| run(&root, &[&["rates", "t"], more].concat());
-    let note = "step: `spam`, the first column";
+    let reading = "step: `spam`, by its ratio 2; errors: `L2`; left out: `other` (whole numbers that do not fall)";
     let (status, out, _) = rates(&["--order", "2", "--quiet"]);
-    assert_eq!((status, out.as_str()), (Some(0), &*format!("{note}\npass: 1 of 1 column agrees with its order\n")));
+    assert_eq!((status, out.as_str()), (Some(0), &*format!("{reading}\npass: 1 of 1 column agrees with its order\n")));
     let (_, out, _) = rates(&["--order", "2", "--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["notes"][0], &object["rates"][1]["decides"]), (&note.into(), &false.into()));
-    assert!(object["rates"][1]["reason"].as_str().is_some_and(|reason| reason.contains("does not fall")), "{out}");
+    assert_eq!((&object["notes"][0], &object["not_errors"][0]["column"]), (&reading.into(), &"other".into()));
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
-    assert!(page.contains("step: \\`spam\\`, the first column"), "{err}{page}");
-    // Named, it is the step without a word, and no name that is claimed is taken for it.
-    let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam"]);
+    assert!(page.contains(reading), "{err}{page}");
+    // Named, it is the step without a word in the quiet answer, and no name that is claimed is taken for it.
+    let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam", "--quiet"]);
     assert!(status == Some(0) && !out.contains("step: "), "{out}");
     let (status, _, err) = rates(&["--order", "spam=2"]);
-    assert!(status == Some(2) && err.contains("expected a column of steps: add `h`"), "{err}");
-    // What an order for all leaves out is judged where its name is claimed, or chosen, and decides with --all.
-    for more in [&["--order", "other=2"][..], &["--columns", "L2,other"], &["--all"]] {
+    assert!(status == Some(2) && err.contains("expected --dim D for h = other^(-1/D)"), "{err}");
+    // What was left out is judged where its name is claimed, or chosen.
+    for more in [&["--order", "other=2"][..], &["--columns", "L2,other"]] {
         let (status, out, _) = rates(&[&["--order", "2"], more].concat());
         assert_eq!(status, Some(1), "{more:?}: {out}");
     }
@@ -35,7 +50,8 @@ pub(super) fn rates_says_how_it_read_a_table() {
 
 pub(super) fn claims_that_contradict_each_other_are_refused() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), "h [m],L2 [Pa],H1 (Pa)\n0.4,0.16,0.4\n0.2,0.04,0.2\n0.1,0.01,0.1\n").unwrap();
+    let rows = "0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n";
+    fs::write(root.path().join("t"), format!("h [m],L2 [Pa],H1 (Pa)\n{rows}")).unwrap();
     for (options, says) in [
         (
             &["--order", "2", "--order", "3"][..],
@@ -47,11 +63,89 @@ pub(super) fn claims_that_contradict_each_other_are_refused() {
         (&["--order", "-2"], "expected a number > 0, or NAME= and a number > 0"),
         (&["--floor", "-1"], "floor = -1: expected a finite number >= 0"),
         (&["--dim", "-1"], "expected a number > 0"),
+        (&["--columns", "2", "--values", "2"], "each column of --columns and --values once, found twice `L2 [Pa]`"),
     ] {
         let (status, out, err) = run(&root, &[&["rates", "t"], options].concat());
         assert_eq!((status, out.as_str()), (Some(2), ""), "{options:?}");
         assert!(err.contains(says), "{options:?}: {err}");
     }
-    let (status, out, err) = run(&root, &["rates", "t", "--order", "2", "--order", "H1=1", "--step", "h"]);
+    let (status, out, err) = run(&root, &["rates", "t", "--order", "2", "--order", "H1=1", "--step", "1"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+}
+
+pub(super) fn wrong_claims_are_answered_with_what_to_do() {
+    let root = workspace(false);
+    let first = [0.0412, 0.0203, 0.010075, 0.0050188, 0.0025047];
+    let second = [0.00412, 0.001015, 0.00025188, 6.2734e-05, 1.5654e-05];
+    let halved = |levels: i32, error: &dyn Fn(f64) -> f64| {
+        (0..levels).map(|k| error(0.1 / f64::powi(2.0, k))).collect::<Vec<_>>()
+    };
+    let says = |name: &str, errors: &[f64], order: &str, words: &[&str]| {
+        let (status, told) = told(&root, &table(name, 0.1, errors), &["--order", order, "--tolerance", "0.05"]);
+        assert_eq!(status, Some(1), "{told}");
+        words.iter().for_each(|words| assert!(told.contains(words), "{words}\n{told}"));
+    };
+    says("L2", &first, "2", &["L2: fail: 1.0001", "too low", "an order is lost"]);
+    says("L2", &second, "1", &["L2: fail: 2.0001", "too high"]);
+    says(
+        "L2",
+        &[0.010824, 0.01079, 0.010749, 0.010725, 0.010712],
+        "2",
+        &["fail", "tends to 0.0106966, not to zero", "--values 'L2'"],
+    );
+    says("L2", &[4e-3, 1e-3, 2.5e-4, f64::NAN, 1.5625e-5], "2", &["fail", "NaN or infinite"]);
+    says(
+        "L2",
+        &[4.03e-12, 1.0366e-12, 2.8991e-13, 1.0087e-13, 4.8334e-14],
+        "2",
+        &["inconclusive", "round-off floor", "_ set aside"],
+    );
+    says("L2", &[4e-3, 1e-3], "2", &["inconclusive", "too few levels"]);
+    says("L2", &[1.5625e-5, 6.25e-5, 2.5e-4, 1e-3, 4e-3], "2", &["fail", "The errors fall as `h` grows."]);
+    let noise = [0.0056829, 0.0006216, 0.00033212, 4.5499e-05, 1.8908e-05, 3.3439e-06];
+    says("L2", &noise, "2", &["inconclusive"]);
+    says("L2", &halved(6, &|h| 0.4 * h * h + 2e-4), "2", &["fail", "L2: fail"]);
+    says("L2", &halved(6, &|h| 0.5 * h * h + 0.01 * h), "2", &["L2: fail"]);
+    says(
+        "L2",
+        &[0.01, 0.0025, 0.000625, 0.00015625, 3.9e-5, 4.3e-5],
+        "2",
+        &["falls with rate 2.00 down to 3.900e-5, then stops"],
+    );
+    says(
+        "L2",
+        &[0.01, 0.0025, 0.000625, 0.0],
+        "2",
+        &["zero on the finest level only. Is that level its own reference?"],
+    );
+    says("L2", &[0.01, 0.0025, 6.25e-7, 1.5625e-7, 3.9e-8], "2", &["inconclusive", "wild"]);
+    // Rates that approach the order slowly: the level that would decide.
+    let slow = halved(4, &|h| h * h * (1.0 + 2.0 * h));
+    says("L2", &slow, "2", &["inconclusive", "likely to decide (L2: interval ±", "now, about ±"]);
+    // An error that grows beside one that falls, or in the only column.
+    let (status, told) =
+        told(&root, "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n", &["--order", "2"]);
+    assert!(status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"), "{told}");
+}
+
+pub(super) fn values_and_rounded_numbers_are_told_from_errors() {
+    let root = workspace(false);
+    let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
+    let (status, text) = told(&root, drag, &["--order", "2"]);
+    assert!(status == Some(2) && text.contains("`drag` (tends to 5.56988: a value, not an error)"), "{text}");
+    assert!(text.ends_with("powers rates TABLE --order 2 --values drag"), "{text}");
+    let value = |h: f64| 5.5699 + 0.45 * h * h + 0.1 * h.powi(3);
+    let rows: String = [0.1, 0.05, 0.025, 0.0125].map(|h| format!("{h},{:.9}\n", value(h))).concat();
+    let options = ["--order", "2", "--values", "drag"];
+    let (status, text) = told(&root, &format!("h,drag\n{rows}"), &options);
+    assert!(status == Some(0) && text.contains("limit 5.569") && text.contains("GCI ± "), "{text}");
+    // Six decimals of errors of second order.
+    let rows: String = (0..6).map(|k| 0.25 / f64::powi(2.0, k)).map(|h| format!("{h} {:.6}\n", 0.11 * h * h)).collect();
+    let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
+    assert!(status == Some(1) && text.contains("inconclusive") && text.contains("1 digit: print more"), "{text}");
+    // The same rounded to three digits passes, with a wider interval.
+    let rows: String =
+        (0..6).map(|k| 0.25 / f64::powi(2.0, k)).map(|h| format!("{h} {:.2e}\n", 0.11 * h * h)).collect();
+    let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
+    assert!(status == Some(0) && !text.contains("±  0.0000005"), "{text}");
 }

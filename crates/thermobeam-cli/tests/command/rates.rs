@@ -83,7 +83,7 @@ fn a_malformed_table_is_named_with_its_place() {
     let folder = Folder::new();
     for (text, pieces) in [
         ("", &["table.csv: expected a row of names", "found an empty table"][..]),
-        ("0.1,1\n0.05,2\n", &["table.csv:1:1:", "`0.1`", "a name"]),
+        ("0.1,1\n0.05,2\n", &["table.csv:1:1:", "`column 1`", "a column of steps"]),
         ("h\n0.1\n", &["table.csv:1:1:", "one column"]),
         ("h,e,e\n0.1,1,1\n", &["table.csv:1:5:", "a second time"]),
         ("h,e\n\n# note\n0.1, x\n", &["table.csv:4:6: e:", "`x`", "a number"]),

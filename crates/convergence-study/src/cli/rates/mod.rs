@@ -1,29 +1,28 @@
 //! `rates FILE`: errors of any code, judged by the rule of the studies.
 
 mod advice;
-mod files;
-mod object;
-mod text;
+mod shown;
 
-use std::collections::{BTreeMap, HashSet};
 use std::path::PathBuf;
 
-use crate::input::error_table::{Choice, RateTable, names::position};
-use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
-use crate::project::Project;
-use crate::text::names::{did_you_mean, nearest};
 use clap::Args;
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
+use crate::input::error_table::{Choice, Column, RateTable, names::position};
+use crate::judge::richardson::{Estimate, Estimator};
+use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
+use crate::project::Project;
+use crate::text::names::{did_you_mean, nearest};
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
-/// One column is the step, h or dt, or a count such as cells; errors are the others that no name shows to be something else. Exit status 0 where every rate with a claim agrees
-/// with its order, 1 where one does not, the data cannot tell or nothing is claimed, 2 where the table cannot be read.
+/// Tables, logs, lists and JSON are read. The step is what falls, or counts up, by regular ratios; errors are positive and fall; rates are recognised by their numbers. A line
+/// says how the table was read. Exit status 0 where every rate with a claim agrees with its order, 1 where one does not, the data cannot tell or nothing is claimed, 2 where the
+/// table cannot be read: then the message has the command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The table, - for standard input: CSV, aligned columns, Markdown or LaTeX
+    /// The table, - for standard input
     file: PathBuf,
     /// The order that theory claims, for all columns or as NAME=P for one; may be repeated. Without one nothing passes
     #[arg(long, value_name = "[NAME=]P", value_parser = claim, allow_negative_numbers = true)]
@@ -36,12 +35,18 @@ pub struct Arguments {
     /// A level above the floor keeps its say, and so do all levels coarser than it.
     #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR, allow_negative_numbers = true)]
     floor: f64,
-    /// The column of the step, or of a count; without it its name decides, or else the first column is taken and named
+    /// The column of the step, or of a count: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     step: Option<String>,
-    /// The columns of errors, separated by commas; without it all that are not steps, counts, rates or costs by their names
+    /// The columns of errors, by name or number, separated by commas; without it those whose numbers fall
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     columns: Option<Vec<String>>,
+    /// Columns of values, which tend to a limit that nobody knows: their differences are judged
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    values: Vec<String>,
+    /// Names for all columns, in place of those in the table
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    names: Option<Vec<String>>,
     /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
     #[arg(long, value_name = "D", value_parser = dimension, allow_negative_numbers = true)]
     dim: Option<f64>,
@@ -54,9 +59,9 @@ pub struct Arguments {
 
 fn claim(text: &str) -> Result<(Option<String>, f64), String> {
     let (name, order) = text.rsplit_once('=').map_or((None, text), |(name, order)| (Some(name.to_owned()), order));
-    match order.trim().parse() {
-        Ok(order) if order > 0.0 && f64::is_finite(order) => Ok((name, order)),
-        _ => Err("expected a number > 0, or NAME= and a number > 0".to_owned()),
+    match dimension(order.trim()) {
+        Ok(order) => Ok((name, order)),
+        Err(_) => Err("expected a number > 0, or NAME= and a number > 0".to_owned()),
     }
 }
 
@@ -65,28 +70,19 @@ fn dimension(text: &str) -> Result<f64, String> {
     dim.ok_or_else(|| "expected a number > 0".to_owned())
 }
 
-/// A column, judged.
+/// A column, judged; the order of one without a claim is NaN.
 struct Judged<'t> {
-    name: &'t str,
-    rate: &'t RateVerdict,
+    column: &'t Column,
+    rate: RateVerdict,
+    /// Of a column of values.
+    estimate: Option<Estimate>,
     /// Whether its verdict counts.
     decides: bool,
-    /// Whether an order for all columns does not mean it.
-    is_unlike: bool,
 }
 
 impl Judged<'_> {
     fn is_claimed(&self) -> bool {
         !self.rate.order.is_nan()
-    }
-
-    /// The judge reports an unusable order; here none was given.
-    fn reason(&self) -> &str {
-        match (self.is_claimed(), self.is_unlike) {
-            (true, _) => &self.rate.because,
-            (false, true) => "not meant by --order P, for it does not fall with the step; --order NAME=P judges it",
-            (false, false) => "no order is claimed",
-        }
     }
 }
 
@@ -96,7 +92,7 @@ struct Findings<'t> {
     source: String,
     table: &'t RateTable,
     columns: Vec<Judged<'t>>,
-    floor: f64,
+    judge: &'t Judge,
     verdict: Verdict,
 }
 
@@ -106,71 +102,87 @@ struct Findings<'t> {
 /// A table or claims that cannot be used, and a folder that cannot be written to.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
-    let claimed = arguments.order.iter().filter_map(|(name, _)| name.clone()).collect();
-    let choice =
-        Choice { step: arguments.step.clone(), columns: arguments.columns.clone(), claimed, dim: arguments.dim };
+    let source = arguments.file.display().to_string();
+    let claims: String = arguments
+        .order
+        .iter()
+        .map(|(name, order)| match name {
+            Some(name) => format!(" --order '{name}={order}'"),
+            None => format!(" --order {order}"),
+        })
+        .collect();
+    let choice = Choice {
+        step: arguments.step.clone(),
+        columns: arguments.columns.clone(),
+        values: arguments.values.clone(),
+        names: arguments.names.clone(),
+        claimed: arguments.order.iter().filter_map(|(name, _)| name.clone()).collect(),
+        dim: arguments.dim,
+        command: format!("{} rates {source}{claims}", project.command),
+    };
     let table = RateTable::read_with(&arguments.file, &choice)?;
     let orders = orders(arguments, &table)?;
-    // Where nothing is claimed the judge says so: no order is no number.
-    let rates = table.judge(&judge, |column| orders.get(column).copied().unwrap_or(f64::NAN));
-    let for_all = arguments.order.iter().any(|(name, _)| name.is_none());
-    let unlike: HashSet<&str> = table.unclaimed.iter().map(String::as_str).collect();
-    let columns = rates.iter().map(|(name, rate)| Judged {
-        name,
-        rate,
-        decides: arguments.all || !rate.order.is_nan(),
-        is_unlike: for_all && unlike.contains(name.as_str()),
-    });
-    let columns: Vec<Judged<'_>> = columns.collect();
+    let mut columns = vec![];
+    for (k, column) in all(&table).enumerate() {
+        let order = orders[k];
+        let estimator = if k < table.columns.len() { None } else { Some(Estimator::new(arguments.tolerance)?) };
+        let estimate = estimator.map(|estimator| column.estimate(&estimator, order));
+        let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, order), |estimate| estimate.judged.clone());
+        columns.push(Judged { column, rate, estimate, decides: arguments.all || !order.is_nan() });
+    }
     let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
-    let source = arguments.file.display().to_string();
-    let findings = Findings { project, source, table: &table, columns, floor: arguments.floor, verdict };
+    let findings = Findings { project, source, table: &table, columns, judge: &judge, verdict };
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        files::write(&findings, folder)?;
+        shown::write(&findings, folder)?;
     }
-    flags.show("rates", verdict, &object::Object::new(&findings), &text::text(&findings, flags.quiet))?;
+    flags.show("rates", verdict, &shown::object(&findings), &shown::text(&findings, flags.quiet))?;
     Ok(verdict.into())
 }
 
-/// The order of each column for which one is claimed.
-fn orders<'t>(arguments: &Arguments, table: &'t RateTable) -> Result<BTreeMap<&'t str, f64>, Unusable> {
-    let columns = || table.columns.iter().map(|(column, _)| column.as_str());
-    let mut orders = BTreeMap::new();
-    let mut for_all = arguments.order.iter().filter(|(name, _)| name.is_none()).map(|(_, order)| *order);
-    if let Some(order) = for_all.next() {
-        if let Some(second) = for_all.next() {
-            let expected = "expected one order for all columns, and --order NAME=P for others";
-            return Err(Unusable::because(&format!("{expected}; found --order {order} and --order {second}")));
-        }
-        let unlike: HashSet<&str> = table.unclaimed.iter().map(String::as_str).collect();
-        orders.extend(columns().filter(|column| !unlike.contains(column)).map(|column| (column, order)));
+/// The columns that are judged: errors, then values.
+fn all(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
+    table.columns.iter().chain(&table.values)
+}
+
+/// The order that is claimed of each column, NaN for none.
+fn orders(arguments: &Arguments, table: &RateTable) -> Result<Vec<f64>, Unusable> {
+    let names = || all(table).map(|column| column.name.as_str());
+    let for_all: Vec<f64> =
+        arguments.order.iter().filter(|(name, _)| name.is_none()).map(|(_, order)| *order).collect();
+    if let [first, second, ..] = for_all[..] {
+        let expected = "expected one order for all columns, and --order NAME=P for others";
+        return Err(Unusable::because(&format!("{expected}; found --order {first} and --order {second}")));
     }
-    let mut named: HashSet<&str> = HashSet::new();
+    let mut orders = vec![for_all.first().copied().unwrap_or(f64::NAN); names().count()];
+    let mut named = vec![];
     for (name, order) in &arguments.order {
         let Some(name) = name else { continue };
-        let column = position(columns(), name).and_then(|k| table.columns.get(k));
-        let column = column.ok_or_else(|| unknown(name, *order, table))?.0.as_str();
-        if !named.insert(column) {
-            let found = format!("--order {name}={order}: expected each column once; found `{column}` a second time");
+        let k = position(names(), name).ok_or_else(|| unknown(name, *order, table))?;
+        if named.contains(&k) {
+            let found = format!(
+                "--order {name}={order}: expected each column once; found `{}` a second time",
+                names().nth(k).unwrap_or(name)
+            );
             return Err(Unusable::because(&found));
         }
-        orders.insert(column, *order);
+        named.push(k);
+        orders[k] = *order;
     }
     Ok(orders)
 }
 
 /// What is wrong with a claim about a column that is not judged.
 fn unknown(name: &str, order: f64, table: &RateTable) -> Unusable {
-    let columns = || table.columns.iter().map(|(column, _)| column.as_str());
-    let known: Vec<&str> = columns().take(LISTED + 1).collect();
-    let more = if known.len() > LISTED { ", ..." } else { "" };
-    let hint = match table.not_errors.iter().find(|(column, _)| column == name) {
-        Some((_, why)) => format!(", which is {why} unless --columns names it"),
-        None if name.contains('=') => "; repeat --order for each column".to_owned(),
-        None => did_you_mean(&nearest(name, columns()).map(str::to_owned)),
+    let names = || all(table).map(|column| column.name.as_str());
+    let known: Vec<&str> = names().take(LISTED).collect();
+    let more = if names().count() > LISTED { ", ..." } else { "" };
+    let hint = if name.contains('=') || name.contains(',') {
+        "; repeat --order for each column".to_owned()
+    } else {
+        did_you_mean(&nearest(name, names()).map(str::to_owned))
     };
-    let known = known[..known.len().min(LISTED)].join(", ") + more;
+    let known = known.join(", ") + more;
     Unusable::because(&format!("--order {name}={order}: expected a column of errors: {known}; found `{name}`{hint}"))
 }
 

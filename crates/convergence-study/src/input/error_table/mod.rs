@@ -3,49 +3,48 @@
 //! ```text
 //! # comments and blank lines are skipped
 //! h,     L2,      H1
-//! 0.1,   1.0e-3,  2.1e-2
-//! 0.05,  2.5e-4,  1.0e-2
-//! 0.025, 6.2e-5,  5.2e-3
+//! 0.1,   1.01e-3, 2.12e-2
+//! 0.05,  2.51e-4, 1.03e-2
+//! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Commas, semicolons, tabs, blanks, the bars of Markdown or `&` of LaTeX separate the cells; `TABLES.md` shows the formats that are read. One column
-//! is the step, every other an error, but for those that by their name hold rates, counts, costs or the number of the row. Where no name shows the
-//! step it is the first column, unless that is named like an error. Rows may have any order, each with a step of its own. `NaN` and `inf` are
-//! accepted as errors; a column with one of them fails.
+//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The numbers decide what a column is, and
+//! its name where they leave it open: the step falls, or as a count grows, by regular ratios; errors are positive and fall; rates are those of another
+//! column; what tends to a limit is a value. [`RateTable::reading`] says in a line how the table was read. What is in doubt is refused, with the
+//! command that works. `NaN` and `inf` are errors; a column with one of them fails.
 
-mod cells;
 mod columns;
-mod grid;
+mod digits;
 pub(crate) mod names;
 mod number;
 mod pairs;
-mod spans;
-mod step;
-mod words;
+mod text;
 
-use std::borrow::Cow;
-use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 
-use crate::input::{self, Complaint, InputError, Place};
-use crate::judge::verdict::{Judge, Level, RateVerdict};
+use crate::input::{self, InputError};
+use crate::judge::verdict::{Judge, RateVerdict};
 pub use columns::Choice;
-use grid::Grid;
+pub(crate) use columns::limit;
+pub use digits::Column;
+use text::Grid;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateTable {
     /// What the step is: the name of its column, or `cells^(-1/2)` where the column counts.
     pub step: String,
-    /// The errors by name, coarsest level first.
-    pub columns: Vec<(String, Vec<Level>)>,
+    /// The errors.
+    pub columns: Vec<Column>,
+    /// The values that a choice has named.
+    pub values: Vec<Column>,
     /// Columns that are no errors, each with the reason.
-    pub not_errors: Vec<(String, &'static str)>,
-    /// Columns that an order claimed of all does not mean: nothing in their names says that they are errors, and they do not fall with the step.
-    pub unclaimed: Vec<String>,
-    /// How the table was read, where the names did not decide.
-    pub notes: Vec<String>,
+    pub not_errors: Vec<(String, String)>,
+    /// How the table was read: the step, errors, values, and what was left out with the reason.
+    pub reading: String,
+    /// Whether numbers, not names, have told the step.
+    pub is_guessed: bool,
 }
 
 impl RateTable {
@@ -64,7 +63,8 @@ impl RateTable {
     pub fn read_with(path: impl AsRef<Path>, choice: &Choice) -> Result<Self, InputError> {
         let path = path.as_ref();
         if path == Path::new("-") {
-            return Self::parse_with(&standard_input()?, STANDARD_INPUT, choice);
+            let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
+            return Self::parse_with(&text, STANDARD_INPUT, choice);
         }
         Self::parse_with(&input::read_text(path)?, &path.display().to_string(), choice)
     }
@@ -82,59 +82,14 @@ impl RateTable {
     /// # Errors
     /// As [`RateTable::read_with`], but for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        // Spreadsheets put a byte order mark in front.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        // Line ends of the first Macintosh.
-        let text = if text.contains('\n') { Cow::from(text) } else { text.replace('\r', "\n").into() };
-        let grid = Grid::read(&text, file_name)?;
-        columns::read(&grid, file_name, choice)
+        columns::read(&Grid::read(&text::plain(text)), file_name, choice)
     }
 
-    /// Judges every column against its order.
+    /// Judges every column of errors against its order.
     pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
-        self.columns.iter().map(|(name, levels)| (name.clone(), judge.judge(levels, order(name)))).collect()
+        self.columns.iter().map(|column| (column.name.clone(), column.judge(judge, order(&column.name)))).collect()
     }
 }
 
 /// Standard input as messages name it.
 const STANDARD_INPUT: &str = "standard input";
-
-fn standard_input() -> Result<String, InputError> {
-    input::read_from(STANDARD_INPUT, io::stdin().lock())
-}
-
-fn complaint(file: &str, place: Option<Place>, expected: &str, found: &str) -> InputError {
-    let reason = format!("expected {expected}, found {found}");
-    InputError { file: file.to_owned(), place, field: None, complaint: Box::new(Complaint::Invalid { reason }) }
-}
-
-/// A cell as it is quoted: on one line, and no longer than can be read.
-fn shown(cell: &str) -> String {
-    format!("`{}`", input::shorten(cell))
-}
-
-/// Refuses names that are the same or cannot be shown.
-fn check_names(grid: &Grid<'_>, is_named: impl Fn(usize) -> bool, file: &str) -> Result<(), InputError> {
-    let mut seen: HashSet<&str> = HashSet::new();
-    for (k, cell) in grid.names.iter().enumerate() {
-        let place = Some(Place { line: grid.line, column: cell.column });
-        let refuse = |expected: &str, found: &str| Err(complaint(file, place, expected, found));
-        if cell.text.contains(char::is_control) {
-            return refuse("a name without control characters", &shown(cell.text));
-        }
-        if !is_named(k) {
-            continue;
-        }
-        if cell.text.is_empty() || number::number(cell.text, false).is_some() {
-            return refuse("a name in the first row", &shown(cell.text));
-        }
-        if !seen.insert(cell.text) {
-            return refuse("each name once", &format!("{} a second time", shown(cell.text)));
-        }
-    }
-    if grid.names.len() < 2 {
-        let place = Some(Place { line: grid.line, column: 1 });
-        return Err(complaint(file, place, "a column of steps and at least one of errors", "one column"));
-    }
-    Ok(())
-}

@@ -1,113 +1,138 @@
-//! Numbers as tables have them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`.
-
-/// Commands of LaTeX that dress a number and do not change it.
-const DRESS: [&str; 8] = ["\\num", "\\textbf", "\\mathbf", "\\bf", "\\bfseries", "\\displaystyle", "\\left", "\\right"];
+//! Numbers as tables have them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
 
 /// What stands where there is no number: the rate of the coarsest level.
-const DASHES: [&str; 10] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None"];
+const DASHES: [&str; 12] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)"];
+
+/// Markup that dresses a number and does not change it, and what it stands for.
+const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\\frac \\dfrac=\\frac \\num= \\textbf= \\mathbf= \
+    \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
+
+/// A number, and how many digits it is printed with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Number {
+    pub(super) value: f64,
+    /// Decimals, and the power of ten behind them; `None` for fractions and powers, which are exact.
+    place: Option<(i32, Option<i32>)>,
+}
+
+/// Half a unit of the last printed place of each number of a column; 0 for whole numbers and for exact ones.
+///
+/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625 leaves out zeros.
+pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
+    let places = |scaled: bool| {
+        let places = column.iter().flatten().filter_map(|number| number.place);
+        places.filter(|place| place.1.is_some() == scaled).map(|place| place.0).max().unwrap_or(0)
+    };
+    let (plain, scaled) = (places(false), places(true));
+    let half = |number: &Option<Number>| match number.and_then(|number| number.place) {
+        Some((_, None)) if plain > 0 => 0.5 * 10f64.powi(-plain),
+        Some((_, Some(ten))) if number.is_some_and(|number| number.value != 0.0) => 0.5 * 10f64.powi(ten - scaled),
+        _ => 0.0,
+    };
+    column.iter().map(half).collect()
+}
 
 /// Whether a cell says that it has no number.
 pub(super) fn is_dash(cell: &str) -> bool {
-    !cell.starts_with(|c: char| c.is_ascii_digit()) && DASHES.contains(&cell.trim_matches('$'))
+    DASHES.contains(&cell.trim_matches('$'))
 }
 
 /// The value of a cell; `None` where it is no number.
 ///
 /// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may be 1024.
-pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
-    if let Ok(value) = cell.parse() {
-        return Some(value);
-    }
+pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     // Most cells that are no numbers are words, of which there may be a hundred thousand.
-    if cell.starts_with(char::is_alphabetic) {
+    if cell.is_empty() || (cell.starts_with(char::is_alphabetic) && cell.parse::<f64>().is_err()) {
         return None;
+    }
+    if let Some(number) = real(cell) {
+        return Some(number);
     }
     // Two numbers with a blank between them are not one.
     if cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
         return None;
     }
-    let plain = undressed(cell);
-    if decimal_comma && plain.matches(',').count() == 1 && !looks_like_thousands(&plain) {
-        return ratio(&plain.replace(',', "."));
+    if let Some((edge, others)) = cell.split_once(['x', '×'])
+        && !edge.is_empty()
+        && edge.bytes().all(|c| c.is_ascii_digit())
+        && others.split(['x', '×']).all(|other| other == edge)
+    {
+        return real(edge);
     }
-    ratio(&plain)
+    let plain = undressed(cell);
+    let is_decimal = decimal_comma && plain.matches(',').count() == 1 && !looks_like_thousands(&plain);
+    ratio(&if is_decimal { plain.replace(',', ".") } else { plain })
 }
 
-/// Whether a comma in a cell may separate thousands as well as decimals: three digits behind it, and no zero before it.
+/// Whether a comma may separate thousands as well as decimals: three digits behind it, and no zero before it.
 fn looks_like_thousands(cell: &str) -> bool {
     let (whole, rest) = cell.trim_start_matches(['+', '-']).split_once(',').unwrap_or((cell, ""));
-    let digits = rest.chars().take_while(char::is_ascii_digit).count();
-    digits == 3 && digits == rest.len() && !whole.trim_start_matches('0').is_empty()
+    rest.len() == 3 && rest.bytes().all(|c| c.is_ascii_digit()) && !whole.trim_start_matches('0').is_empty()
 }
 
 /// The cell without markup of LaTeX and Markdown, with `*` for times, `^` for powers and `/` for fractions.
 fn undressed(cell: &str) -> String {
-    let emphasis = |text: &str| ["**", "__", "`", "*", "_"].into_iter().find(|mark| text.starts_with(mark));
     let mut text = cell.trim();
-    while let Some(inner) =
-        emphasis(text).and_then(|mark| text.strip_prefix(mark)?.strip_suffix(mark)).filter(|inner| !inner.is_empty())
-    {
-        text = inner;
+    let inner = |text: &str| ["**", "__", "`", "*", "_"].into_iter().find_map(|mark| within(text, mark));
+    while let Some(end) = inner(text) {
+        text = &text[end..text.len() - end];
     }
-    let mut text = text.replace("**", "^").replace('\u{2212}', "-");
-    for (from, to) in [("\\times", "*"), ("\\cdot", "*"), ("×", "*"), ("·", "*"), ("\\,", ""), ("\\tfrac", "\\frac")]
-    {
-        text = text.replace(from, to);
-    }
-    text = text.replace("\\dfrac", "\\frac");
+    let marks = DRESS.split_whitespace().filter_map(|mark| mark.split_once('='));
+    let mut text = marks.fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
     if let Some((before, fraction)) = text.split_once("\\frac") {
         text = before.to_owned() + &fraction.replacen("}{", "/", 1);
-    }
-    for command in DRESS {
-        text = text.replace(command, "");
     }
     text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}'));
     text
 }
 
+/// The length of a mark that a text begins and ends with.
+fn within(text: &str, mark: &str) -> Option<usize> {
+    text.strip_prefix(mark)?.strip_suffix(mark).filter(|inner| !inner.is_empty()).map(|_| mark.len())
+}
+
 /// `a`, or `a/b`.
-fn ratio(text: &str) -> Option<f64> {
+fn ratio(text: &str) -> Option<Number> {
     match text.split_once('/') {
-        Some((above, below)) => Some(scaled(above)? / scaled(below)?),
+        Some((above, below)) => Some(Number { value: scaled(above)?.value / scaled(below)?.value, place: None }),
         None => scaled(text),
     }
 }
 
 /// `a`, or `a*10^n`. Any other product is none: Fortran writes `2*0.1` for the number 0.1 twice.
-fn scaled(text: &str) -> Option<f64> {
-    match text.split_once('*') {
+fn scaled(text: &str) -> Option<Number> {
+    let integer = |text: &str| text.trim_start_matches('(').trim_end_matches(')').parse::<i32>().ok();
+    if let Some((factor, ten)) = text.split_once('*') {
         // Read as one number, for a product is rounded once more.
-        Some((factor, ten)) => format!("{factor}e{}", integer(ten.strip_prefix("10^")?)?).parse().ok(),
-        None => power(text),
+        return real(&format!("{factor}e{}", integer(ten.strip_prefix("10^")?)?));
     }
-}
-
-/// `a`, or `a^n` with a whole number n.
-fn power(text: &str) -> Option<f64> {
     match text.split_once('^') {
-        Some(("10", exponent)) => format!("1e{}", integer(exponent)?).parse().ok(),
-        Some((base, exponent)) => Some(real(base)?.powi(integer(exponent)?)),
+        Some(("10", exponent)) => Some(Number { place: None, ..real(&format!("1e{}", integer(exponent)?))? }),
+        Some((base, exponent)) => Some(Number { value: real(base)?.value.powi(integer(exponent)?), place: None }),
         None => real(text),
     }
 }
 
-fn integer(text: &str) -> Option<i32> {
-    text.trim_start_matches('(').trim_end_matches(')').parse().ok()
+/// A number of C or of Fortran, whose exponents begin with D or, where they have three digits, with their sign.
+fn real(text: &str) -> Option<Number> {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let split = text.find(['e', 'E', 'D', 'd', 'Q', 'q']).map(|at| (&text[..at], &text[at + 1..]));
+    let signed = || {
+        let (mantissa, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
+        let is_exponent = exponent.starts_with(['+', '-']) && exponent[1..].chars().all(is_digit);
+        is_exponent.then_some((mantissa, exponent))
+    };
+    if let Some((mantissa, exponent)) = split.or_else(signed)
+        && mantissa.ends_with(|c: char| is_digit(c) || c == '.')
+    {
+        let ten: i32 = exponent.parse().ok()?;
+        let value = format!("{mantissa}e{ten}").parse().ok()?;
+        return Some(Number { value, place: Some((decimals(mantissa), Some(ten))) });
+    }
+    let value: f64 = text.parse().ok()?;
+    Some(Number { value, place: value.is_finite().then_some((decimals(text), None)) })
 }
 
-/// A number of C or of Fortran, whose exponents begin with D or, where they have three digits, with their sign.
-fn real(text: &str) -> Option<f64> {
-    if let Ok(value) = text.parse() {
-        return Some(value);
-    }
-    let is_mantissa =
-        |text: &str| text.parse::<f64>().is_ok() && text.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-    if let Some((mantissa, exponent)) = text.split_once(['D', 'd', 'Q', 'q']) {
-        let exponent: i32 = exponent.parse().ok()?;
-        return is_mantissa(mantissa).then(|| format!("{mantissa}e{exponent}").parse().ok()).flatten();
-    }
-    let (mantissa, exponent) =
-        text.is_char_boundary(text.len().checked_sub(4)?).then(|| text.split_at(text.len() - 4))?;
-    let is_exponent = exponent.starts_with(['+', '-']) && exponent[1..].chars().all(|c| c.is_ascii_digit());
-    (is_exponent && is_mantissa(mantissa)).then(|| format!("{mantissa}e{exponent}").parse().ok()).flatten()
+fn decimals(text: &str) -> i32 {
+    text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32)
 }

@@ -1,56 +1,149 @@
-//! Lines such as `h = 3.54E-01, E = 1.66E-01` or `h: 3.54E-01 E: 1.66E-01`: a name before each number, the same ones in each line.
+//! Numbers behind their names, on one line or on several: `h = 3.5E-01, E = 1.6E-01`, JSON, lists.
 
-use super::cells::Cell;
-use super::complaint;
-use super::grid::{Grid, Row};
-use super::number::number;
-use crate::input::{InputError, Place};
+use super::names::Word;
+use super::number::{is_dash, number};
+use super::text::{Cell, Grid, Row};
 
-/// Names and numbers of a line.
-type Pairs<'t> = Vec<(Cell<'t>, Cell<'t>)>;
-
-/// Reads such lines, and passes over others; `None` where there are none.
-///
-/// # Errors
-/// A line that begins as they do and is not of their form, and one with other names.
-pub(super) fn read<'t>(text: &'t str, file: &str) -> Result<Option<Grid<'t>>, InputError> {
-    let lines = || text.lines().enumerate().map(|(k, line)| (k + 1, line));
-    let Some((line, first)) = lines().find_map(|(number, line)| Some((number, pairs(line)?))) else { return Ok(None) };
-    let names: Vec<Cell<'_>> = first.iter().map(|(name, _)| *name).collect();
-    let texts = |pairs: &Pairs<'_>| pairs.iter().map(|(name, _)| name.text.to_owned()).collect::<Vec<_>>().join(", ");
-    let expected = format!("{} with a number behind each, as in line {line}", texts(&first));
-    let mut rows = vec![];
-    for (line, text) in lines() {
-        let begins = || text.split_once(['=', ':']).is_some_and(|(name, _)| name.trim() == names[0].text);
-        let refuse = |found: &str| Err(complaint(file, Some(Place { line, column: 1 }), &expected, found));
-        match pairs(text) {
-            Some(pairs) if pairs.iter().map(|(name, _)| name.text).eq(names.iter().map(|name| name.text)) => {
-                rows.push(Row { line, cells: pairs.into_iter().map(|(_, value)| value).collect() });
-            }
-            Some(pairs) => return refuse(&texts(&pairs)),
-            None if begins() => return refuse(&super::shown(text.trim())),
-            None => {}
-        }
-    }
-    Ok(Some(Grid { line, names, rows, decimal_comma: false }))
+/// A name and the numbers behind it.
+struct Entry<'t> {
+    name: Cell<'t>,
+    line: usize,
+    values: Vec<Cell<'t>>,
+    /// Whether `=` or `:` stands between.
+    is_marked: bool,
 }
 
-/// The pairs of a line that has two or more of them, and nothing else.
-fn pairs(line: &str) -> Option<Pairs<'_>> {
-    let mut pairs = vec![];
-    let mut rest = line;
-    while !rest.trim().is_empty() {
-        let (name, behind) = rest.split_once(['=', ':'])?;
-        let begin = behind.trim_start();
-        let end = begin.find(|c: char| c.is_whitespace() || matches!(c, ',' | ';')).unwrap_or(begin.len());
-        let (value, behind) = begin.split_at(end);
-        let column = |tail: &str| line[..line.len() - tail.len()].chars().count() + 1;
-        let (named, name) = (rest.trim_start(), name.trim());
-        if name.is_empty() || number(name, false).is_some() || number(value, false).is_none() {
-            return None;
-        }
-        pairs.push((Cell { column: column(named), text: name }, Cell { column: column(begin), text: value }));
-        rest = behind.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
+/// What surrounds names and values.
+fn is_mark(c: char) -> bool {
+    c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
+}
+
+/// Reads names and numbers; `None` where there are none, or fewer than rows of numbers.
+///
+/// * `must_mark`: whether `=` or `:` must stand between them.
+pub(super) fn read(text: &str, must_mark: bool) -> Option<Grid<'_>> {
+    let (mut entries, mut rows, mut depth, mut name) = (vec![], 0, 0, None);
+    for (line, words) in text.lines().enumerate() {
+        rows += usize::from(entries_of(line + 1, words, &mut depth, &mut name, &mut entries));
     }
-    Some(pairs).filter(|pairs| pairs.len() > 1)
+    let marked = entries.iter().filter(|entry: &&Entry<'_>| entry.is_marked).count();
+    if entries.is_empty() || if must_mark { marked < 2 || marked <= rows } else { rows > 0 } {
+        return None;
+    }
+    let longest = entries.iter().map(|entry| entry.values.len()).max()?;
+    let grid = if longest > 1 { lists(entries, longest) } else { records(&entries) };
+    Some(Grid { text, ..grid })
+}
+
+/// Appends what a line holds; whether it begins with a number that has no name.
+///
+/// * `depth`: how many brackets are open.
+/// * `above`: a name at the end of the line above, `"h": [`.
+fn entries_of<'t>(
+    line: usize,
+    words: &'t str,
+    depth: &mut usize,
+    above: &mut Option<Cell<'t>>,
+    entries: &mut Vec<Entry<'t>>,
+) -> bool {
+    let (mut label, mut position, mut is_row) = (0, 0, false);
+    let mut count = |text: &str| {
+        *depth = (*depth + text.matches('[').count()).saturating_sub(text.matches(']').count());
+        *depth > 0
+    };
+    while let Some(start) = words[position..].find(|c| !is_mark(c)).map(|start| position + start) {
+        position = words[start..].find(is_mark).map_or(words.len(), |end| start + end);
+        let (before, word, behind) = (&words[label..start], &words[start..position], words[position..].trim_start());
+        let is_marked = before.trim_end_matches(|c| is_mark(c) && !":=".contains(c)).ends_with([':', '=']);
+        let is_last = behind.is_empty() || behind.starts_with([',', ';', '}', ')', ']']);
+        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        let is_value = number(word, false).is_some() && (begins || is_last);
+        // Behind a name that has a number elsewhere a word says that there is none.
+        let is_word = || is_dash(word) || entries.iter().any(|entry| before.contains(entry.name.text));
+        if !(is_value || is_marked && is_last && is_word()) {
+            continue;
+        }
+        let is_list = count(before);
+        let value = Cell { start, text: word };
+        let cut = before.rfind([',', ';', '{', '\t']).map_or(0, |cut| cut + 1);
+        let name = before[cut..].trim_matches(is_mark).trim_start_matches("- ");
+        let name = name.rsplit(": ").next().unwrap_or(name).trim_matches(is_mark);
+        if let Some(name) = above.take().filter(|_| name.is_empty()) {
+            entries.push(Entry { name, line, values: vec![value], is_marked: true });
+            label = position;
+            continue;
+        }
+        match entries.last_mut() {
+            Some(last) if name.is_empty() && (is_list || (last.line == line && label > 0)) => last.values.push(value),
+            _ if name.is_empty() => is_row = is_row || label == 0,
+            _ => {
+                let start = label + before.rfind(name).unwrap_or(0);
+                entries.push(Entry { name: Cell { start, text: name }, line, values: vec![value], is_marked });
+            }
+        }
+        label = position;
+    }
+    let rest = &words[label..];
+    count(rest);
+    let name = rest[rest.rfind([',', '{']).map_or(0, |cut| cut + 1)..].trim_matches(is_mark);
+    let is_open = rest.trim_end().ends_with(['[', ':', '=']) && !name.is_empty();
+    *above =
+        above.take().filter(|_| rest.trim().is_empty()).or_else(|| is_open.then_some(Cell { start: 0, text: name }));
+    is_row
+}
+
+/// A column for each list; rates, which are one fewer, begin on the second level.
+fn lists(entries: Vec<Entry<'_>>, longest: usize) -> Grid<'_> {
+    let mut grid = Grid { line: entries[0].line, ..Grid::default() };
+    grid.rows = vec![Row { line: grid.line, cells: vec![] }; longest];
+    for mut entry in entries {
+        if entry.values.len() + 1 == longest && longest > 2 {
+            entry.values.insert(0, Cell { text: "", ..entry.name });
+        }
+        if entry.values.len() != longest {
+            let why = format!("{} instead of {longest}", crate::text::number::counted(entry.values.len(), "number"));
+            grid.left_out.push((entry.name.text.to_owned(), why));
+            continue;
+        }
+        grid.names.push(entry.name);
+        grid.rows.iter_mut().zip(entry.values).for_each(|(row, value)| row.cells.push(value));
+    }
+    grid
+}
+
+/// A row for each time that the names come round. What is printed more often than the step, by a solver, is left out.
+fn records<'t>(entries: &[Entry<'t>]) -> Grid<'t> {
+    let mut names: Vec<(Cell<'t>, usize)> = vec![];
+    for entry in entries {
+        match names.iter_mut().find(|(name, _)| name.text == entry.name.text) {
+            Some((_, count)) => *count += 1,
+            None => names.push((entry.name, 1)),
+        }
+    }
+    let is_step =
+        |(name, count): &&(Cell<'_>, usize)| *count > 1 && matches!(Word::of(name.text), Word::Step | Word::Count(_));
+    let alike = |count: usize| names.iter().filter(|(_, other)| *other == count).count();
+    let common = || names.iter().map(|(_, count)| *count).max_by_key(|count| (alike(*count), *count));
+    let levels = names.iter().find(is_step).map(|(_, count)| *count).or_else(common).unwrap_or(0);
+    let mut grid = Grid { line: entries[0].line, ..Grid::default() };
+    names.retain(|(name, count)| {
+        let kept = *count <= levels && 2 * count >= levels;
+        if !kept {
+            grid.left_out.push((name.text.to_owned(), format!("printed {count} times for {levels} levels")));
+        }
+        kept
+    });
+    let first = names.iter().find(|(_, count)| *count == levels).map(|(name, _)| name.text);
+    for entry in entries {
+        if Some(entry.name.text) == first {
+            let empty = names.iter().map(|_| Cell { start: entry.name.start, text: "" }).collect();
+            grid.rows.push(Row { line: entry.line, cells: empty });
+        }
+        let column = names.iter().position(|(name, _)| name.text == entry.name.text);
+        if let (Some(row), Some(column)) = (grid.rows.last_mut(), column) {
+            row.cells[column] = entry.values[0];
+        }
+    }
+    grid.names = names.into_iter().map(|(name, _)| name).collect();
+    grid
 }

@@ -1,0 +1,228 @@
+//! The result for people, programs and pages.
+
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::{Findings, Judged, advice};
+use crate::cli::{github, screen};
+use crate::explain::section;
+use crate::judge::verdict::{Aside, Verdict};
+use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
+use crate::store::{atomic, junit};
+use crate::text::number::{decimals, interval_places, pair_text, plain_text, short_text};
+use crate::text::visible::{self, visible};
+
+/// Most decimals of a rate.
+const MOST_PLACES: usize = 6;
+/// Most columns in the figure: more would have the colours of the first.
+const DRAWN: usize = 8;
+
+impl Judged<'_> {
+    /// Rate, claim, the reason where that is not a pass, and the limit of values.
+    fn found(&self) -> String {
+        let mut found = self.rate.rate_in_words(MOST_PLACES);
+        if !self.is_claimed() {
+            found += ": no order is claimed";
+        } else {
+            let passes = self.rate.verdict == Verdict::Pass;
+            let why = if passes { self.rate.excludes() } else { self.rate.because.clone() };
+            found += &format!(", claimed {}: {why}", self.rate.claim());
+        }
+        match self.estimate.as_ref().map(|estimate| (&estimate.bar, &estimate.gci)) {
+            Some((Ok(bar), gci)) => {
+                let [low, high] = pair_text(bar.limit);
+                let gci = gci.map_or(String::new(), |gci| format!(", GCI ± {}", short_text(gci.half_width)));
+                found + &format!("; limit {} ({low} to {high}){gci}", pair_text([bar.extrapolated, bar.limit[1]])[0])
+            }
+            Some((Err(refusal), _)) => found + &format!("; no limit: {refusal}"),
+            None => found,
+        }
+    }
+
+    /// The mark of a level without a say.
+    fn mark(&self, level: usize) -> &'static str {
+        match self.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
+            Some(Aside::AtFloor) => "_",
+            Some(Aside::PreAsymptotic | Aside::Outlier) => "~",
+            // A table has a number, or NaN, on every level.
+            Some(Aside::NoResult) | None => "",
+        }
+    }
+
+    /// The rate between a level and the one before; a dash where there is none. Of values the differences have a rate.
+    fn pairwise(&self, level: usize) -> String {
+        let before = level.checked_sub(1 + usize::from(self.estimate.is_some()));
+        let places = self.rate.interval.map_or(3, |interval| interval_places(interval, MOST_PLACES));
+        let rate = before.and_then(|before| self.rate.pairwise.get(before)).filter(|rate| rate.is_finite());
+        rate.map_or_else(|| "-".to_owned(), |rate| decimals(*rate, places))
+    }
+}
+
+/// What the marks mean, as far as they occur.
+fn legend(findings: &Findings<'_>) -> String {
+    let occurs = |because: &Aside| {
+        findings.columns.iter().any(|column| column.rate.set_aside.iter().any(|aside| aside.because == *because))
+    };
+    let marked = |because: Aside| match because {
+        Aside::AtFloor => format!("_ set aside: not above the floor {:e}\n", findings.judge.floor()),
+        _ => format!("~ set aside: {}\n", because.text()),
+    };
+    [Aside::PreAsymptotic, Aside::Outlier, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
+}
+
+/// Step, and each error with its mark and rate, coarsest level first, below their names.
+fn errors(findings: &Findings<'_>) -> String {
+    let names = findings.columns.iter().flat_map(|judged| [judged.column.name.clone(), "rate".to_owned()]);
+    let mut rows = vec![std::iter::once(findings.table.step.clone()).chain(names).collect::<Vec<_>>()];
+    for (k, level) in findings.columns.first().map_or(&[][..], |judged| &judged.column.levels).iter().enumerate() {
+        let error = |judged: &Judged<'_>| format!("{:.4e}{:1}", judged.column.levels[k].error, judged.mark(k));
+        let cells = findings.columns.iter().flat_map(|judged| [error(judged), judged.pairwise(k)]);
+        rows.push(std::iter::once(plain_text(level.step)).chain(cells).collect());
+    }
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        cells.join("  ").trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect::<String>() + &legend(findings) + "\n"
+}
+
+/// The errors with the rates beside them, a verdict for each column, what to do, and the verdict on all.
+pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
+    let mut text = String::new();
+    if !quiet || findings.table.is_guessed {
+        text += &format!("{}\n", findings.table.reading);
+    }
+    if !quiet {
+        text += &errors(findings);
+    }
+    for judged in
+        findings.columns.iter().filter(|judged| !quiet || (judged.decides && judged.rate.verdict != Verdict::Pass))
+    {
+        let _ = writeln!(text, "{}: {}: {}", judged.column.name, screen::verdict(judged.rate.verdict), judged.found());
+    }
+    if !quiet {
+        // The same words for several columns stand once.
+        let mut advice: Vec<(&str, String)> = vec![];
+        for judged in
+            findings.columns.iter().filter(|judged| judged.is_claimed() && judged.rate.verdict != Verdict::Pass)
+        {
+            let words = (judged.rate.kind.code(), advice::words(judged, findings));
+            if !advice.contains(&words) {
+                advice.push(words);
+            }
+        }
+        advice.iter().for_each(|(reason, words)| section(&mut text, reason, words));
+        if findings.columns.iter().any(|judged| !judged.is_claimed()) {
+            let (command, source) = (findings.project.command, &findings.source);
+            let _ = writeln!(
+                text,
+                "\nclaim what theory says: {command} rates {source}: --order P for all columns, --order NAME=P for one"
+            );
+        }
+        text.push('\n');
+    }
+    text + &format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings))
+}
+
+/// The overall verdict in words.
+fn sentence(findings: &Findings<'_>) -> String {
+    let deciding = || findings.columns.iter().filter(|column| column.decides);
+    let passed = deciding().filter(|column| column.rate.verdict == Verdict::Pass).count();
+    match deciding().count() {
+        0 => "no order is claimed".to_owned(),
+        1 => format!("{passed} of 1 column agrees with its order"),
+        count => format!("{passed} of {count} columns agree with their orders"),
+    }
+}
+
+/// What `rates --format json` prints, beside the verdict: rates as in `study --format json`, the column's name for the norm's.
+pub(super) fn object(findings: &Findings<'_>) -> Value {
+    let rate = |judged: &Judged<'_>| {
+        let rate = &judged.rate;
+        let levels: Vec<Value> =
+            judged.column.levels.iter().map(|level| json!({"step": level.step, "error": level.error})).collect();
+        let aside: Vec<Value> =
+            rate.set_aside.iter().map(|aside| json!({"level": aside.level, "because": aside.because.text()})).collect();
+        let mut object = json!({
+            "norm": judged.column.name, "order": rate.order, "tolerance": rate.tolerance, "pairwise": rate.pairwise, "fitted": rate.fitted,
+            "constant": rate.constant, "interval": rate.interval, "extrapolated": rate.extrapolated, "verdict": rate.verdict.name(),
+            "reason": if judged.is_claimed() { &rate.reason } else { "no order is claimed" }, "code": rate.kind.code(),
+            "decides": judged.decides, "levels": levels, "set_aside": aside,
+        });
+        if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
+            object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
+        }
+        if let Some(Ok(gci)) = judged.estimate.as_ref().map(|estimate| &estimate.gci) {
+            object["gci"] = json!(gci.half_width);
+        }
+        object
+    };
+    let not_errors =
+        findings.table.not_errors.iter().map(|(column, because)| json!({"column": column, "because": because}));
+    json!({
+        "step": findings.table.step, "floor": findings.judge.floor(), "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
+        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.table.reading],
+    })
+}
+
+/// Writes figure, Markdown and JUnit XML, each as a whole, and appends to the job summary of GitHub.
+///
+/// # Errors
+/// That of the operating system, with the name of the file.
+pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
+    atomic::prepare_folder(folder)?;
+    atomic::write(&folder.join("rates.svg"), figure(findings))?;
+    atomic::write(&folder.join("rates.md"), markdown(findings, "![Errors over steps](rates.svg)\n\n"))?;
+    let case = |judged: &Judged<'_>| {
+        let claim = if judged.is_claimed() { format!(": order {}", judged.rate.order) } else { String::new() };
+        (judged.column.name.clone() + &claim, judged.rate.verdict, judged.found())
+    };
+    let mut cases: Vec<_> = findings.columns.iter().filter(|column| column.decides).map(case).collect();
+    if cases.is_empty() {
+        cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+    }
+    let junit = junit::junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
+    atomic::write(&folder.join("junit.xml"), junit)?;
+    // A picture would have to be somewhere on the web.
+    github::summarise(&markdown(findings, ""));
+    Ok(())
+}
+
+/// The errors over the steps, columns with a claim first.
+fn figure(findings: &Findings<'_>) -> String {
+    let mut drawn: Vec<&Judged<'_>> = findings.columns.iter().filter(|judged| judged.estimate.is_none()).collect();
+    drawn.sort_by_key(|judged| !judged.decides);
+    let series = |judged: &&Judged<'_>| ErrorSeries {
+        label: judged.column.name.clone(),
+        points: judged.column.levels.iter().map(|level| (level.step, level.error)).collect(),
+        order: Some(judged.rate.order).filter(|order| !order.is_nan()),
+        fit: judged.rate.power_law(),
+        interval: judged.rate.interval,
+        used: Some(judged.rate.used.clone()),
+        ..ErrorSeries::default()
+    };
+    let series: Vec<ErrorSeries> = drawn.iter().take(DRAWN).map(series).collect();
+    let mut slopes: Vec<f64> = series.iter().filter_map(|series| series.order).collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    let at_floor = |judged: &&Judged<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
+    let floor = drawn.iter().any(at_floor).then(|| Guide { label: "floor".to_owned(), value: findings.judge.floor() });
+    let (x_label, y_label) = (findings.table.step.clone(), "error".to_owned());
+    convergence(&Convergence { title: None, x_label, y_label, series, slopes, floor, ..Convergence::default() })
+}
+
+/// What is printed, as a page.
+///
+/// * `picture`: where the figure goes, with the empty line below it.
+fn markdown(findings: &Findings<'_>, picture: &str) -> String {
+    let plain = |c: char| if "\\|*_`<[]".contains(c) { vec!['\\', c] } else { vec![c] };
+    let source: String = visible(&findings.source).chars().flat_map(plain).collect();
+    let text = visible::lines(&text(findings, false));
+    let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
+    format!("# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}", findings.verdict, sentence(findings))
+}

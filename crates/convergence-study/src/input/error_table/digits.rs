@@ -1,0 +1,116 @@
+//! Printed digits: what rounding leaves open decides nothing.
+
+use crate::judge::fit::Level;
+use crate::judge::richardson::{Estimate, Estimator, Value};
+use crate::judge::verdict::{Judge, RateVerdict, Reason, Verdict};
+use crate::text::number::counted;
+
+/// Rounding below this share of a number changes no verdict.
+const NOTHING: f64 = 1e-9;
+/// The finest levels, which rounding changes most.
+const FINEST: usize = 4;
+
+/// A column of errors or of values, coarsest level first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// As it is shown.
+    pub name: String,
+    /// Steps and numbers.
+    pub levels: Vec<Level>,
+    /// Half a unit of the last printed place of each number; 0 where it is exact.
+    pub halves: Vec<f64>,
+    /// The same for the steps.
+    pub step_halves: Vec<f64>,
+}
+
+impl Column {
+    /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could make a pass of another verdict,
+    /// or take it away, the digits are what is missing.
+    pub fn judge(&self, judge: &Judge, order: f64) -> RateVerdict {
+        let judged = judge.judge(&self.levels, order);
+        let doubt = |k: usize| self.doubt(k, order);
+        let is_told = matches!(judged.kind, Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels);
+        if is_told || order.is_nan() || (0..self.levels.len()).all(|k| doubt(k) < NOTHING) {
+            return judged;
+        }
+        let finest = self.levels.windows(2).enumerate().next_back();
+        let wider = finest.map_or(0.0, |(k, pair)| (doubt(k) + doubt(k + 1)) / (pair[0].step / pair[1].step).ln());
+        if judged.verdict != Verdict::Pass {
+            let corners = self.corners(order);
+            let may_be = |verdict: Verdict| corners.iter().any(|levels| judge.judge(levels, order).verdict == verdict);
+            let is_poor =
+                wider > judge.tolerance() && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
+            return if is_poor || may_be(Verdict::Pass) { self.without_digits(judged) } else { judged };
+        }
+        let Some([low, high]) = judged.interval else { return judged };
+        let interval = Some([low - wider, high + wider]);
+        if low - wider < order - judge.tolerance() || high + wider > order + judge.tolerance() {
+            return self.without_digits(RateVerdict { interval, ..judged });
+        }
+        RateVerdict { interval, ..judged }
+    }
+
+    /// Judges the differences of the values, and estimates their limit.
+    pub fn estimate(&self, estimator: &Estimator, order: f64) -> Estimate {
+        let estimate = |levels: &[Level]| {
+            let values: Vec<Value> =
+                levels.iter().map(|level| Value { step: level.step, value: level.error }).collect();
+            estimator.estimate(&values, order)
+        };
+        let mut found = estimate(&self.levels);
+        let corners: Vec<Estimate> = self.corners(order).iter().map(|levels| estimate(levels)).collect();
+        let verdict = found.judged.verdict;
+        if !order.is_nan() && corners.iter().any(|corner| corner.judged.verdict != verdict) {
+            found.judged = self.without_digits(found.judged);
+        }
+        if let Ok(bar) = &mut found.bar {
+            for other in corners.iter().filter_map(|corner| corner.bar.as_ref().ok()) {
+                bar.limit = [bar.limit[0].min(other.limit[0]), bar.limit[1].max(other.limit[1])];
+            }
+        }
+        found
+    }
+
+    /// Half a unit of the last place of an error and of its step, as a share of the error.
+    fn doubt(&self, k: usize, order: f64) -> f64 {
+        let Level { step, error } = self.levels[k];
+        self.halves[k] / error.abs().max(f64::MIN_POSITIVE) + order * self.step_halves[k] / step
+    }
+
+    /// The numbers that may have been rounded to the finest ones: each as it is, or half a unit more or less.
+    fn corners(&self, order: f64) -> Vec<Vec<Level>> {
+        let mut corners = vec![self.levels.clone()];
+        for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
+            let half = self.halves[k]
+                + self.levels[k].error.abs() * order.max(0.0) * self.step_halves[k] / self.levels[k].step;
+            if half > NOTHING * self.levels[k].error.abs() && half.is_finite() {
+                let moved = |by: f64| {
+                    corners
+                        .iter()
+                        .map(move |corner| {
+                            let mut corner = corner.clone();
+                            corner[k].error += by;
+                            corner
+                        })
+                        .collect::<Vec<_>>()
+                };
+                let moved = [moved(-half), moved(half)].concat();
+                corners.extend(moved);
+            }
+        }
+        corners
+    }
+
+    fn without_digits(&self, judged: RateVerdict) -> RateVerdict {
+        let last = self.levels.len() - 1;
+        let shares = [
+            self.halves[last] / self.levels[last].error.abs(),
+            judged.order * self.step_halves[last] / self.levels[last].step,
+        ];
+        let digits = (-(2.0 * shares[0]).log10()).clamp(0.0, 16.0).floor() as usize + 1;
+        let what =
+            if shares[1] > shares[0] { "the steps have too few digits".to_owned() } else { counted(digits, "digit") };
+        let because = format!("{what}: print more");
+        judged.with_reason(Reason::Digits, &because)
+    }
+}

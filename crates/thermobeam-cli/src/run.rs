@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod any_order;
-mod any_order_accuracy;
 mod summary;
 
 use std::fmt::Display;
@@ -14,8 +13,7 @@ use clap::Args;
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use serde::Serialize;
-use thermobeam_study::predict::accuracy::Unreachable;
-use thermobeam_study::predict::estimate::estimate;
+use thermobeam_study::predict::Unreachable;
 use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
 use thermobeam_study::scene::{Method, Scene};
 
@@ -27,6 +25,8 @@ use convergence_study::cli::progress;
 use convergence_study::cli::running::seconds;
 use convergence_study::judge::verdict::Verdict;
 
+use accuracy::Planned;
+
 /// Simulate one scene
 ///
 /// The folder that --out names gets the time history (history.csv), pictures (SVG) and run.json, the object of --format json.
@@ -34,13 +34,16 @@ use convergence_study::judge::verdict::Verdict;
 pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
-    /// Estimate the errors of the result, by space, time, iteration and round-off: seven more runs, most of them cheaper;
-    /// for scheme = "dg" by space and time, three more runs
+    /// Measure the errors of the result by a run of any order, and what to refine first: by two further runs, with a finer space
+    /// alone and with half the steps alone
     #[arg(long)]
     estimate_error: bool,
-    /// Choose scheme, elements and steps so that the error is no larger than this; for scheme = "dg" degrees, elements and steps
+    /// Choose the cheapest run whose error is no larger than this; it is by dG, whatever the scene's scheme
     #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
     target_error: Option<f64>,
+    /// Keep the scene's own scheme and choose elements and steps for it
+    #[arg(long, requires = "target_error")]
+    keep_scheme: bool,
     /// What the target error is about
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
@@ -75,27 +78,29 @@ struct Printed<'a> {
     #[serde(flatten)]
     object: Object<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    accuracy: Option<accuracy::Object>,
+    accuracy: Option<accuracy::Object<'a>>,
 }
 
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let read = Scene::read(&arguments.scene)?;
-    if let Method::Dg(_) = read.method {
-        return any_order::simulate(arguments, &read);
-    }
-    let (scene, planned) = match arguments.target_error {
-        None => (read, None),
-        Some(target) => match accuracy::choose(read, arguments.quantity, target) {
-            Ok((scene, planned)) => (scene, Some(planned)),
-            Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
-            Err(error) => {
-                output::complain(&format!("{}: {error}", arguments.scene.display()));
-                return Ok(Ended::Badly);
-            }
-        },
+    let planned = match arguments.target_error.map(|target| accuracy::plan(arguments, &read, target)).transpose() {
+        Ok(planned) => planned,
+        Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
+        Err(error) => {
+            output::complain(&format!("{}: {error}", arguments.scene.display()));
+            return Ok(Ended::Badly);
+        }
     };
-    let simulator = Simulator::new(&scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let scene = planned.as_ref().map_or(&read, Planned::scene);
+    match scene.method {
+        Method::Dg(_) => any_order::simulate(arguments, scene, planned.as_ref()),
+        Method::OneStep(_) => one_step(arguments, scene, planned.as_ref()),
+    }
+}
+
+fn one_step(arguments: &Arguments, scene: &Scene, planned: Option<&Planned>) -> Outcome {
+    let simulator = Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let recording = match &arguments.flags.out {
         Some(folder) => {
             atomic::prepare_folder(folder)?;
@@ -111,19 +116,19 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     bar.finish_and_clear();
     let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {
         let history = run.history.iter().map(|history| ("history.csv", history.csv()));
-        write_files(folder, history.chain(figures(&scene, &run)))
+        write_files(folder, history.chain(figures(scene, &run)))
     })?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted.then(|| estimate(&scene)).transpose();
+    let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
     let complaint = complaint(run.energy.complaint(run.steps, run.failure.as_ref()), budget.as_ref().err());
-    let object = Object::new(&scene, &run).with_budget(known);
-    let object = Printed { object, accuracy: planned.as_ref().map(accuracy::Planned::object) };
+    let object = Object::new(scene, &run).with_budget(known);
+    let object = Printed { object, accuracy: planned.map(Planned::object) };
     let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps(), run.last.t);
     arguments.show(complaint, &object, &sentence, || {
         let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
-        summary::summary(&scene, &run, planned.as_ref(), &written) + &budget
+        summary::summary(scene, &run, planned, &written) + &budget
     })
 }
 

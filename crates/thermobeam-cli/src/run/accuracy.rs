@@ -1,13 +1,19 @@
-//! `run SCENE --target-error E`: the run is chosen by the error that it is to make.
+//! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of a run.
 
 use clap::ValueEnum;
+use convergence_study::cli::{interrupt, progress};
+use convergence_study::run::time_limit;
 use serde::Serialize;
-use thermobeam::simulation::Stepping;
-use thermobeam_study::error::evaluator;
-use thermobeam_study::predict::accuracy::{self, Choice, Request, Trust, Unreachable};
-use thermobeam_study::run::family::Family;
-use thermobeam_study::run::simulate::Run;
+use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
+use thermobeam_study::predict::estimate::{Budget, estimate};
+use thermobeam_study::predict::{Cost, MOST_WORK, MOST_WORK_KEPT, Unreachable, Work};
 use thermobeam_study::scene::{Method, Scene};
+
+use super::Arguments;
+use super::summary::Line;
+
+/// Ticks of the progress bar over the limit of work.
+const TICKS: f64 = 1000.0;
 
 /// What the error is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -28,92 +34,143 @@ pub(super) fn target(text: &str) -> Result<f64, String> {
 
 /// What was asked for, and the run that was chosen.
 pub(crate) struct Planned {
-    quantity: evaluator::ErrorMeasure,
+    quantity: choice::Quantity,
     target: f64,
+    /// The value of `time.scheme` of the scene.
+    scheme: &'static str,
     choice: Choice,
+    spent: Cost,
 }
 
-/// The scene with scheme, mesh and steps that make the error asked for; those that it came with do not matter, but for
-/// the grading of its mesh.
-pub(crate) fn choose(scene: Scene, quantity: Quantity, target: f64) -> Result<(Scene, Planned), Unreachable> {
-    let quantity = match quantity {
-        Quantity::Tip => evaluator::ErrorMeasure::Tip,
-        Quantity::Theorem34 => evaluator::ErrorMeasure::Theorem34,
+/// Searches with a limit of work and a bar that shows how much of it is spent; ends at the time limit as well.
+fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
+    let unit = "thousandths of the work allowed";
+    let bar = progress::counting(&format!("{}: its error", scene.name), TICKS as usize, unit, arguments.flags.quiet);
+    interrupt::say(|| "the error was not known yet".to_owned());
+    let mut told = |part: f64| bar.set_position((TICKS * part) as u64);
+    let mut work = Work::new(limit, &mut told);
+    let (found, _) = time_limit::within(arguments.time_limit, || find(&mut work));
+    let spent = work.spent();
+    bar.finish_and_clear();
+    (found, spent)
+}
+
+/// The run that makes the error asked for.
+pub(super) fn plan(arguments: &Arguments, scene: &Scene, target: f64) -> Result<Planned, Unreachable> {
+    let quantity = match arguments.quantity {
+        Quantity::Tip => choice::Quantity::Tip,
+        Quantity::Theorem34 => choice::Quantity::Norm,
     };
-    let family = Family::of_scene(&scene);
-    let choice = accuracy::choose(&family, &Request::new(quantity, target))?;
-    let mesh = family.mesh(choice.elements).map_err(|error| Unreachable::Pilot(error.to_string()))?;
-    let dt = scene.t_end / choice.steps as f64;
-    let stepping = Stepping { scheme: choice.scheme, settings: choice.settings, dt, loaded: false };
-    let scene = Scene { mesh, method: Method::OneStep(stepping), ..scene };
-    Ok((scene, Planned { quantity, target, choice }))
+    let (choose, limit): (fn(&Scene, _, _, &mut Work<'_>) -> _, f64) =
+        if arguments.keep_scheme { (keep_scheme, MOST_WORK_KEPT) } else { (choose, MOST_WORK) };
+    let (choice, spent) = search(arguments, scene, limit, |work| choose(scene, quantity, target, work));
+    Ok(Planned { quantity, target, scheme: scene.method.name(), choice: choice?, spent })
 }
 
-/// What was asked for and what is expected, by whatever scheme.
-#[derive(Debug, Serialize)]
-pub(super) struct Expected {
-    pub(super) quantity: &'static str,
-    pub(super) target_error: f64,
-    /// The error that the run is estimated to have made.
-    pub(super) believed_error: f64,
-    pub(super) space_error: f64,
-    pub(super) time_error: f64,
+/// The errors of a scene.
+pub(super) fn budget(arguments: &Arguments, scene: &Scene) -> Result<Budget, Unreachable> {
+    search(arguments, scene, MOST_WORK, |work| estimate(scene, work)).0
 }
 
 /// The key `accuracy` of the JSON object.
 #[derive(Debug, Serialize)]
-pub(super) struct Object {
-    #[serde(flatten)]
-    expected: Expected,
-    confidence: &'static str,
+pub(super) struct Object<'a> {
+    quantity: &'static str,
+    target_error: f64,
+    /// The error that the run makes, as far as it is known.
+    believed_error: f64,
+    space_error: f64,
+    time_error: f64,
+    nodes: &'a [f64],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    node_steps: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unknown_solves: Option<f64>,
+    search_work: f64,
+    search_runs: usize,
+    search_seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own_scheme: Option<OwnScheme>,
+}
+
+/// What the scene's own scheme would need.
+#[derive(Debug, Serialize)]
+struct OwnScheme {
+    scheme: &'static str,
+    elements: f64,
+    steps: f64,
     node_steps: f64,
-    pilot_node_steps: f64,
-    pilot_seconds: f64,
+    seconds: f64,
 }
 
 impl Planned {
-    pub(super) fn object(&self) -> Object {
-        let choice = &self.choice;
+    /// The scene with the run chosen.
+    pub(super) fn scene(&self) -> &Scene {
+        &self.choice.scene
+    }
+
+    pub(super) fn object(&self) -> Object<'_> {
+        let Choice { scene, parts: [space_error, time_error], run, needed, .. } = &self.choice;
+        let is_dg = matches!(scene.method, Method::Dg(_));
         Object {
-            expected: Expected {
-                quantity: self.quantity.name(),
-                target_error: self.target,
-                believed_error: choice.expected_error,
-                space_error: choice.parts[0],
-                time_error: choice.parts[1],
-            },
-            confidence: match choice.trust {
-                Trust::Firm => "firm",
-                Trust::Loose => "loose",
-                Trust::None => "none",
-            },
-            node_steps: choice.node_steps(),
-            pilot_node_steps: choice.pilots.node_steps,
-            pilot_seconds: choice.pilots.seconds,
+            quantity: self.quantity.name(),
+            target_error: self.target,
+            believed_error: self.choice.error,
+            space_error: *space_error,
+            time_error: *time_error,
+            nodes: scene.mesh.nodes(),
+            node_steps: (!is_dg).then_some(run.work),
+            unknown_solves: is_dg.then_some(run.work),
+            search_work: self.spent.work,
+            search_runs: self.spent.runs,
+            search_seconds: self.spent.seconds,
+            own_scheme: needed.map(|needed| OwnScheme {
+                scheme: self.scheme,
+                elements: needed.at[0],
+                steps: needed.at[1],
+                node_steps: needed.node_steps(),
+                seconds: needed.seconds,
+            }),
         }
     }
 
     /// Lines of the summary: name, value, meaning.
-    pub(super) fn lines(&self, run: &Run) -> Vec<(&'static str, String, String)> {
-        let choice = &self.choice;
-        let what = match self.quantity {
-            evaluator::ErrorMeasure::Tip => "maximum over [0, T] of the error of u(1, t)".to_owned(),
-            _ => "maximum over [0, T] of the norm of Theorem 3.4".to_owned(),
+    pub(super) fn lines(&self) -> Vec<Line> {
+        let Choice { scene, parts: [space, time], parts_by, error, run, needed, is_kept } = &self.choice;
+        let line = |name, value: String, meaning: &str| (name, value, meaning.to_owned());
+        let why = if *is_kept {
+            "the scene's own, as --keep-scheme asks for"
+        } else {
+            "the cheapest: the error of any other run is its difference to such a run"
         };
-        let trust = match choice.trust {
-            Trust::Firm => "all rates observed are those of theory",
-            Trust::Loose => "impacts, or rates below those of theory: judged by pilots as fine as this run",
-            Trust::None => "no rates to speak of: judged by coarser runs alone",
-        };
-        let parts = format!("space {:.1e}, time {:.1e}; {trust}", choice.parts[0], choice.parts[1]);
-        let (pilots, node_steps) = (choice.pilots.node_steps, choice.node_steps());
-        let seconds =
-            format!("{:.3} s for the pilots, {:.3} s for the run", choice.pilots.seconds, run.wall.as_secs_f64());
-        vec![
-            ("asked for", format!("{:.3e}", self.target), what),
-            ("expected", format!("{:.3e}", choice.expected_error), parts),
-            ("node-steps", format!("{:.3e}", pilots + node_steps), format!("of which {pilots:.3e} for pilot runs")),
-            ("time", format!("{:.3} s", choice.pilots.seconds + run.wall.as_secs_f64()), seconds),
-        ]
+        let mut lines = vec![
+            line("asked for", format!("{:.3e}", self.target), self.quantity.meaning()),
+            line(
+                "made",
+                format!("{error:.3e}"),
+                "believed: the sum of the differences below, or the difference to a run of any order",
+            ),
+            line("space", format!("{space:.3e}"), &format!("{parts_by}, in space")),
+            line("time", format!("{time:.3e}"), &format!("{parts_by}, in time")),
+            line("scheme", scene.method.name().to_owned(), why),
+        ];
+        if let Method::Dg(stepping) = scene.method {
+            let nodes: Vec<String> = scene.mesh.nodes().iter().map(|x| format!("{x:.4}")).collect();
+            lines.push(line("growth", format!("{:.4}", stepping.growth), "of the steps after a contact event"));
+            let between = format!("between x = {}", nodes.join(", "));
+            lines.push(line("elements", scene.mesh.elements().to_string(), &between));
+        }
+        if let Some(needed) = needed {
+            let [elements, steps] = needed.at;
+            let meaning = format!(
+                "node-steps by {}: {elements:.0} elements, {steps:.1e} steps, about {:.1e} s",
+                self.scheme, needed.seconds
+            );
+            lines.push(line("instead of", format!("{:.0e}", needed.node_steps()), &meaning));
+        }
+        let ratio = self.spent.work / run.work;
+        let meaning = format!("in {} runs to find it, {ratio:.1} times the work of this one", self.spent.runs);
+        lines.push(line("search", format!("{:.3} s", self.spent.seconds), &meaning));
+        lines
     }
 }

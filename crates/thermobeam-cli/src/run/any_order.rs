@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use convergence_study::cli::exit::{Ended, Outcome, Unusable};
-use convergence_study::cli::{interrupt, output, progress};
+use convergence_study::cli::exit::{Outcome, Unusable};
+use convergence_study::cli::{interrupt, progress};
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use convergence_study::text::number::counted;
-use thermobeam_study::predict::any_order::{Budget, estimate};
+use thermobeam_study::predict::estimate::Budget;
 use thermobeam_study::run::any_order::{AnyOrderObject, AnyOrderRun, HISTORY_TIMES, phase_name, run};
 use thermobeam_study::scene::Scene;
 
-use super::any_order_accuracy::{self as accuracy, NotChosen, PlannedAnyOrder};
+use super::accuracy::{self, Planned};
 use super::{Arguments, complaint, summary, write_files};
 
 /// Ticks of the progress bar over the scene's time.
@@ -25,25 +25,11 @@ struct Printed<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     error_budget: Option<&'a Budget>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    accuracy: Option<accuracy::Object>,
+    accuracy: Option<accuracy::Object<'a>>,
 }
 
 /// Runs the scene, writes what was asked for and prints the result.
-pub(super) fn simulate(arguments: &Arguments, scene: &Scene) -> Outcome {
-    let planned = match arguments.target_error {
-        None => None,
-        Some(target) => match accuracy::choose_any_order(scene, arguments.quantity, target) {
-            Ok(planned) => Some(planned),
-            Err(NotChosen::Refused(reason)) => {
-                return Err(Unusable::because(&format!("{}: {reason}", arguments.scene.display())));
-            }
-            Err(NotChosen::NotReached(reason)) => {
-                output::complain(&format!("{}: {reason}", arguments.scene.display()));
-                return Ok(Ended::Badly);
-            }
-        },
-    };
-    let scene = planned.as_ref().map_or(scene, |planned| planned.scene());
+pub(super) fn simulate(arguments: &Arguments, scene: &Scene, planned: Option<&Planned>) -> Outcome {
     let times = if arguments.flags.out.is_some() { HISTORY_TIMES } else { 0 };
     if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
@@ -61,14 +47,14 @@ pub(super) fn simulate(arguments: &Arguments, scene: &Scene) -> Outcome {
     let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| write_files(folder, files))?;
     // A run that failed has nothing whose error could be estimated.
     let wanted = arguments.estimate_error && found.failure.is_none();
-    let budget = wanted.then(|| estimate(scene)).transpose();
+    let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
     let complaint = complaint(found.complaint(), budget.as_ref().err());
-    let accuracy = planned.as_ref().map(|planned| planned.object());
+    let accuracy = planned.map(Planned::object);
     let object = Printed { object: AnyOrderObject::new(scene, &found), error_budget: known, accuracy };
     let sentence = format!("{}: {} steps, to t = {} of {t_end}", scene.name, found.steps, found.ends[1].t);
     arguments.show(complaint, &object, &sentence, || {
-        let mut text = text(scene, &found, planned.as_ref());
+        let mut text = text(scene, &found, planned);
         summary::list(&mut text, &written);
         if let Some(budget) = known {
             let _ = writeln!(text, "\n{budget}");
@@ -77,7 +63,7 @@ pub(super) fn simulate(arguments: &Arguments, scene: &Scene) -> Outcome {
     })
 }
 
-fn text(scene: &Scene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> String {
+fn text(scene: &Scene, run: &AnyOrderRun, planned: Option<&Planned>) -> String {
     let stepping = scene.dg_stepping();
     let mut text = format!(
         "{}: {} of degree {}, dG({}) in time, steps from {:.3e} to {:?}, to t = {:?}\ntolerance {:?}\n",
@@ -95,7 +81,7 @@ fn text(scene: &Scene, run: &AnyOrderRun, planned: Option<&PlannedAnyOrder>) -> 
         let _ = writeln!(text, "\nFAILED at t = {}: {failure}", last.t);
     }
     if let Some(planned) = planned {
-        summary::section(&mut text, "accuracy", planned.lines(run));
+        summary::section(&mut text, "accuracy", planned.lines());
     }
     let work = vec![
         ("steps", run.steps.to_string(), format!("{} of them end where contact begins or ends", run.events.len())),

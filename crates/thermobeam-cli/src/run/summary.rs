@@ -12,13 +12,13 @@ use thermobeam_study::run::tally::{EnergySummary, Extremes, Sample};
 use thermobeam_study::scene::Scene;
 
 /// A line of the summary: name, value, meaning.
-type Line = (&'static str, String, String);
+pub(super) type Line = (&'static str, String, String);
 
 /// What happened, in aligned columns; all quantities are dimensionless but for times on the clock.
 pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, written: &[PathBuf]) -> String {
     let mut text = headline(scene, run);
     if let Some(planned) = planned {
-        section(&mut text, "accuracy", planned.lines(run));
+        section(&mut text, "accuracy", planned.lines());
     }
     let last = format!("at t = {}", run.last.t);
     section(&mut text, "work", work(scene, run));

@@ -99,13 +99,13 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
     assert_eq!(accuracy["quantity"], "tip");
     assert!(number("target_error") == 1e-7 && number("believed_error") <= 1e-7);
     assert_eq!(number("believed_error"), number("space_error") + number("time_error"));
-    assert!(number("pilot_unknown_solves") <= 8.0 * number("unknown_solves"));
+    assert!(number("search_work") <= 9.0 * number("unknown_solves"));
     assert_eq!(accuracy["nodes"].as_array().map(Vec::len), value["elements"].as_u64().map(|n| n as usize + 1));
     assert!(value["degree"].as_u64() > Some(3) && value["time_degree"].as_u64() > Some(0));
 
     let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "expected", "inside steps included", "steps half as long", "runs to compare with"] {
+    for piece in ["asked for", "believed", "inside steps included", "half the steps", "runs to find it"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }
@@ -117,11 +117,7 @@ fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
     let far = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-18"]));
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
     assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
-    for arguments in [
-        &["--target-error", "0"][..],
-        &["--target-error", "nan"],
-        &["--target-error", "1e-3", "--quantity", "theorem-3.4"],
-    ] {
+    for arguments in [["--target-error", "0"], ["--target-error", "nan"]] {
         let ended = ended(thermobeam().arg("run").arg(&scene).args(arguments));
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
         assert!(ended.stderr.contains("expected"), "{}", ended.stderr);
@@ -140,14 +136,15 @@ fn the_error_budget_has_space_and_time() {
     let quantities = budget["quantities"].as_array().expect("a list");
     assert_eq!(quantities.len(), 8);
     for of in quantities {
-        let [space, time, total] = ["space", "time", "total"].map(|key| of[key].as_f64().expect(key));
-        // The smallest u(1) is where the beam starts.
-        let known = of["name"] == "smallest u(1)";
-        assert!(space >= 0.0 && (time > 0.0 || known && time == 0.0) && total == space + time, "{of}");
+        let keys = ["reference", "total", "finer_space", "finer_steps"];
+        let [reference, total, space, time] = keys.map(|key| of[key].as_f64().expect(key));
+        assert!(0.0 < reference && reference <= total, "{of}");
+        // A single number may be right by chance.
+        assert!(of["kind"] != "curve" || time < 0.5 * total && space > 0.5 * total, "{of}");
     }
     assert_eq!(quantities[0]["value"], value["final"]["u_tip"]);
     let text = ended(thermobeam().arg("run").arg(&scene).arg("--estimate-error"));
-    for piece in ["Estimated errors", "u(1) over time", "Time dominates"] {
+    for piece in ["Errors, by a run of any order", "u(1) over time", "Time first"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

@@ -1,172 +1,258 @@
-//! An error budget for any scene: how far its numbers are from the exact ones, and why.
+//! The errors of a scene's numbers: their differences to a run of any order whose own error is at most a tenth of them.
 //!
-//! No exact solution is needed, only the scene run again, seven times at four and a half times its cost:
-//!
-//! * *space*: on a half and a quarter of the elements. With the differences `d1 = |q_{h/2h}|`, `d2 = |q_{2h/4h}|` the rate is
-//!   `p = log2(d2/d1)` and the error of the scene itself `d1/(2^p - 1)` (`convergence_study::judge::richardson`);
-//! * *time*: the same with a half and a quarter of the steps;
-//! * *iteration*: against Newton's method with a tolerance a hundred times tighter;
-//! * *round-off*: with every inner node moved by one rounding error of its position. That changes the lengths, and with
-//!   them every matrix entry, by about as much as rounding changes what the entries act on; with the sum of N rounded
-//!   increments, √N ε |q| at least, it tells the order of magnitude and no more.
-//!
-//! The parts are added up as if their signs were equal.
+//! What to refine first is measured as well: the scene is run with a finer space alone and with finer steps alone, and both are
+//! compared with the same reference. Of a one-step scheme these are twice the elements and half of dt, of dG p + 4 and half the steps.
+//! No rate is assumed: where impacts make errors fall by fits and starts, they do so in the table.
 
-mod report;
-mod runs;
+use std::fmt;
 
+use serde::Serialize;
+
+use super::curves::{Curves, Rows, by_dg, by_one_step};
+use super::reference::{Reference, Wanted, finer_space, finer_steps, reference};
+use super::{Reason, Unreachable, Work};
 use crate::error::curve::distance;
-use crate::run::driver::RunError;
-use crate::scene::Scene;
-use convergence_study::judge::richardson::error_and_rate;
-use runs::{Reading, Runs};
-use thiserror::Error;
+use crate::run::rerun::{at, resampled};
+use crate::scene::{Method, Scene};
 
-/// The budget could not be computed: one of the runs did not complete.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("the run with {run}: {failure}")]
-pub struct EstimateError {
-    /// Which run.
-    pub run: String,
-    /// Why it failed.
-    pub failure: RunError,
-}
+/// Times at which a one-step scheme is compared, at most.
+pub(super) const TIMES: usize = 4000;
+
+/// Error of the first reference, in units of the largest value of a curve.
+const ROUGH: f64 = 1e-4;
+
+/// What the reference's error may be of the error that it measures.
+const TENTH: f64 = 0.1;
+
+/// Error that any reference may have, in units of the largest value of a curve: round-off.
+const FLOOR: f64 = 1e-11;
+
+/// References that are tried, each at least ten times better.
+const ROUNDS: usize = 8;
+
+/// Part of an error that refining has to take away to be worth its cost.
+const GAIN: f64 = 0.1;
 
 /// Where an error comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// The mesh.
+    /// Elements and their degree.
     Space,
-    /// The time step.
+    /// Steps and their degree.
     Time,
-    /// The tolerance of the iteration.
-    Iteration,
-    /// The arithmetic.
-    RoundOff,
 }
 
-impl Source {
-    /// All sources, in the order of the table.
-    pub const ALL: [Source; 4] = [Source::Space, Source::Time, Source::Iteration, Source::RoundOff];
-
-    /// The name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Source::Space => "space",
-            Source::Time => "time",
-            Source::Iteration => "iteration",
-            Source::RoundOff => "round-off",
-        }
-    }
-
-    /// The key in JSON.
-    fn key(self) -> &'static str {
-        match self {
-            Source::RoundOff => "round_off",
-            other => other.name(),
-        }
-    }
+/// What an error is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A curve: the largest error over the whole time; by dG inside steps too, by a one-step scheme at its time levels.
+    Curve,
+    /// The largest value of u(1, t).
+    Largest,
+    /// The smallest.
+    Smallest,
+    /// The value of a curve at the end.
+    End,
 }
 
 /// The error in one number or curve.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Estimate {
     /// What it is the error of.
     pub name: &'static str,
+    /// A number or a curve.
+    pub kind: Kind,
     /// The number itself; of a curve its largest absolute value.
     pub value: f64,
-    /// Error by source, in the order of [`Source::ALL`]; of a curve the largest over time.
-    pub errors: [f64; 4],
-    /// Observed rates in space and in time; `None` where a difference was zero or not finite.
-    pub rates: [Option<f64>; 2],
+    /// The error: the difference to the reference, and the reference's own error.
+    pub total: f64,
+    /// The reference's own error.
+    pub reference: f64,
+    /// The error with a finer space alone; `None` where that run failed.
+    pub finer_space: Option<f64>,
+    /// The error with finer steps alone.
+    pub finer_steps: Option<f64>,
 }
 
-impl Estimate {
-    /// Error from one source.
-    pub fn error(&self, source: Source) -> f64 {
-        self.errors[source as usize]
-    }
-
-    /// Sum of all four.
-    pub fn total(&self) -> f64 {
-        self.errors.iter().sum()
-    }
-
-    /// The largest of the four; the earlier one where two are equal.
-    pub fn dominant(&self) -> Source {
-        let larger = |a: Source, b: Source| if self.error(b) > self.error(a) { b } else { a };
-        Source::ALL.into_iter().fold(Source::Space, larger)
-    }
-}
-
-/// The errors in the numbers that a run of a scene shows.
-#[derive(Debug, Clone, PartialEq)]
+/// The errors in the numbers that a run shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Budget {
-    /// The scene's name.
-    pub scene: String,
-    /// Elements and steps of the scene.
-    pub resolution: [usize; 2],
-    /// Elements and steps that the values are of: those of the scene, brought up to a multiple of 4.
-    pub measured: [usize; 2],
-    /// Order of the time scheme.
-    pub time_order: f64,
+    /// What to refine first; `None` where refining one alone lowers no error.
+    pub dominant: Option<Source>,
+    /// The same in a sentence.
+    pub advice: String,
     /// One for each number or curve.
-    pub estimates: Vec<Estimate>,
+    pub quantities: Vec<Estimate>,
 }
 
-/// What is estimated, by name, and how it is read off a run.
-type Observable = (&'static str, fn(&Reading) -> Vec<f64>);
-
-const OBSERVABLES: [Observable; 8] = [
-    ("u(1) at the end", |r| last(&r.tip)),
-    ("largest u(1)", |r| vec![r.extremes[1]]),
-    ("smallest u(1)", |r| vec![r.extremes[0]]),
-    ("u(1) over time", |r| r.tip.clone()),
-    ("phi(1) at the end", |r| last(&r.rotation)),
-    ("phi(1) over time", |r| r.rotation.clone()),
-    ("energy at the end", |r| last(&r.energy)),
-    ("energy over time", |r| r.energy.clone()),
+const OBSERVABLES: [(&str, Kind, usize); 8] = [
+    ("u(1) at the end", Kind::End, 0),
+    ("largest u(1)", Kind::Largest, 0),
+    ("smallest u(1)", Kind::Smallest, 0),
+    ("u(1) over time", Kind::Curve, 0),
+    ("phi(1) at the end", Kind::End, 1),
+    ("phi(1) over time", Kind::Curve, 1),
+    ("energy at the end", Kind::End, 2),
+    ("energy over time", Kind::Curve, 2),
 ];
 
-fn last(curve: &[f64]) -> Vec<f64> {
-    vec![curve.last().copied().unwrap_or(f64::NAN)]
-}
-
-/// Order of everything estimated here in h: values at nodes and the energy converge faster than the theorem's norm.
-const SPACE_ORDER: f64 = 2.0;
-
-/// Estimates the discretisation errors of a scene.
+/// Estimates the errors of a scene by any method.
 ///
 /// # Errors
-/// [`EstimateError`] where the scene, or one of the coarser runs, does not come to its end.
-pub fn estimate(scene: &Scene) -> Result<Budget, EstimateError> {
-    let runs = Runs::new(scene)?;
-    let estimates = OBSERVABLES.iter().map(|&observable| of(observable, scene, &runs)).collect();
-    let resolution = [scene.mesh.elements(), scene.steps()];
-    let time_order = order(scene);
-    Ok(Budget { scene: scene.name.clone(), resolution, measured: runs.resolution, time_order, estimates })
-}
-
-/// Order of the scheme in dt.
-fn order(scene: &Scene) -> f64 {
-    scene.one_step().map_or(f64::NAN, |stepping| stepping.scheme.order)
-}
-
-fn of((name, read): Observable, scene: &Scene, runs: &Runs) -> Estimate {
-    let own = read(&runs.own);
-    let tight = read(&runs.tight);
-    let richardson = |coarser: &[Reading; 2], order: f64, from: usize, to: usize| {
-        let [half, quarter] = [read(&coarser[0]), read(&coarser[1])];
-        let (error, rate) = error_and_rate(distance(&half, &tight), distance(&quarter, &half), order);
-        // From the resolution measured to the scene's own, where 4 does not divide that.
-        (error * (from as f64 / to as f64).powf(order), rate)
+/// [`Unreachable`]: the scene's own run fails, or there is no reference that is good enough.
+pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
+    let every = scene.steps().div_ceil(TIMES);
+    let own = match scene.method {
+        Method::OneStep(_) => by_one_step(scene, &Rows::Numbers, every, work),
+        Method::Dg(_) => by_dg(scene, &Rows::Numbers, None, work),
     };
-    let (space, space_rate) = richardson(&runs.space, SPACE_ORDER, runs.resolution[0], scene.mesh.elements());
-    let (time, time_rate) = richardson(&runs.time, order(scene), runs.resolution[1], scene.steps());
-    let value = if own.len() == 1 { own[0] } else { distance(&own, &vec![0.0; own.len()]) };
-    let summed = (scene.steps() as f64).sqrt() * f64::EPSILON * value.abs();
-    let moved = distance(&read(&runs.moved), &tight);
-    // A NaN must stay a NaN.
-    let round_off = if moved < summed { summed } else { moved };
-    Estimate { name, value, errors: [space, time, distance(&own, &tight), round_off], rates: [space_rate, time_rate] }
+    let own = own.map_err(|reason| none(0.0, reason))?;
+    let times = own.own_times();
+    let (reference, exact) = against(scene, &own, &times, work)?;
+    let finer = match scene.method {
+        Method::OneStep(_) => finer_one_step(scene, &Rows::Numbers, every, work),
+        Method::Dg(_) => [finer_space(scene), Some(finer_steps(scene))]
+            .map(|finer| by_dg(&finer.ok_or(Reason::Finest)?, &Rows::Numbers, Some(&times), work)),
+    };
+    let quantities: Vec<Estimate> = OBSERVABLES
+        .iter()
+        .map(|&(name, kind, k)| {
+            let (value, difference) = measured(kind, k, &own, &exact);
+            let error = if kind == Kind::End { reference.end * largest(&exact.column(k)) } else { reference.error(k) };
+            let [finer_space, finer_steps] =
+                [&finer[0], &finer[1]].map(|run| run.as_ref().ok().map(|run| measured(kind, k, run, &exact).1 + error));
+            Estimate { name, kind, value, total: difference + error, reference: error, finer_space, finer_steps }
+        })
+        .collect();
+    let dominant = dominant(&quantities);
+    Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
+}
+
+/// A one-step scheme with twice the elements alone, and with half of dt alone.
+pub(super) fn finer_one_step(
+    scene: &Scene,
+    rows: &Rows,
+    every: usize,
+    work: &mut Work<'_>,
+) -> [Result<Curves, Reason>; 2] {
+    let (elements, steps) = (scene.mesh.elements(), scene.steps());
+    [(2 * elements, 1), (elements, 2)].map(|(elements, part)| {
+        let mesh = resampled(&scene.mesh, elements).map_err(Reason::of_run)?;
+        by_one_step(&at(scene, mesh, part * steps, scene.t_end), rows, part * every, work)
+    })
+}
+
+/// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
+///
+/// A better one is looked for until there is; where there is none, the last is taken if its error is no larger than the scene's.
+fn against(
+    scene: &Scene,
+    own: &Curves,
+    times: &[f64],
+    work: &mut Work<'_>,
+) -> Result<(Reference, Curves), Unreachable> {
+    let scales: [f64; 3] = std::array::from_fn(|k| largest(&own.column(k)).max(f64::MIN_POSITIVE));
+    let mut wanted = Wanted { rows: Rows::Numbers, tolerance: scales.map(|scale| ROUGH * scale) };
+    let mut held: Option<(Reference, Curves, [[f64; 2]; 3])> = None;
+    let fits = |errors: &[[f64; 2]; 3], part: f64| {
+        errors.iter().zip(scales).all(|([made, its], scale)| *its <= (part * made).max(FLOOR * scale))
+    };
+    for _ in 0..ROUNDS {
+        let start = held.as_ref().map(|(reference, ..)| &reference.scene);
+        let found = reference(scene, start, &wanted, work).and_then(|reference| {
+            let curves = by_dg(&reference.scene, &Rows::Numbers, Some(times), work);
+            curves.map(|curves| (reference, curves)).map_err(|reason| none(wanted.tolerance[0], reason))
+        });
+        let (reference, exact) = match (found, held) {
+            (Ok(found), _) => found,
+            (Err(_), Some((reference, exact, errors))) if fits(&errors, 1.0) => return Ok((reference, exact)),
+            (Err(error), _) => return Err(error),
+        };
+        let errors = std::array::from_fn(|k| [distance(&own.column(k), &exact.column(k)), reference.error(k)]);
+        if fits(&errors, TENTH) {
+            return Ok((reference, exact));
+        }
+        for (tolerance, ([made, its], scale)) in wanted.tolerance.iter_mut().zip(errors.iter().zip(scales)) {
+            *tolerance = (TENTH * made.max(TENTH * its)).max(FLOOR * scale).min(*tolerance);
+        }
+        held = Some((reference, exact, errors));
+    }
+    Err(none(wanted.tolerance[0], Reason::Rounds))
+}
+
+/// Nothing was reached at all.
+pub(super) fn none(target: f64, reason: Reason) -> Unreachable {
+    Unreachable::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
+}
+
+fn largest(curve: &[f64]) -> f64 {
+    distance(curve, &vec![0.0; curve.len()])
+}
+
+/// The value of a number or curve, and its difference to the reference.
+fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
+    let [curve, truth] = [own, exact].map(|run| run.column(k));
+    let last = |curve: &[f64]| curve.last().copied().unwrap_or(f64::NAN);
+    let (value, truth) = match kind {
+        Kind::Curve => return (largest(&curve), distance(&curve, &truth)),
+        Kind::Largest => (own.range[1], exact.range[1]),
+        Kind::Smallest => (own.range[0], exact.range[0]),
+        Kind::End => (last(&curve), last(&truth)),
+    };
+    (value, (value - truth).abs())
+}
+
+/// What lowers the errors of the curves more if refined alone; those of single numbers may be small by chance.
+fn dominant(quantities: &[Estimate]) -> Option<Source> {
+    let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
+        let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);
+        let gains: Vec<f64> = curves.map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total).collect();
+        gains.iter().sum::<f64>() / gains.len() as f64
+    };
+    let (space, time) = (gain(|of| of.finer_space), gain(|of| of.finer_steps));
+    let (source, gain) = if space > time { (Source::Space, space) } else { (Source::Time, time) };
+    (gain >= GAIN).then_some(source)
+}
+
+fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
+    match (dominant, scene.method) {
+        (Some(Source::Space), Method::OneStep(_)) => "Space first: take twice the elements.",
+        (Some(Source::Space), Method::Dg(_)) => "Space first: raise mesh.degree by 2, or add elements near x = 1.",
+        (Some(Source::Time), Method::OneStep(stepping)) if stepping.scheme.order > 1.0 => {
+            "Time first: take half of dt."
+        }
+        (Some(Source::Time), Method::OneStep(_)) => {
+            "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less."
+        }
+        (Some(Source::Time), Method::Dg(_)) => {
+            "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
+        }
+        (None, _) => {
+            "Neither alone lowers the errors: refine space and time together; if that does not help, take a smaller tolerance."
+        }
+    }
+}
+
+impl fmt::Display for Budget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cell = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"));
+        writeln!(f, "Errors, by a run of any order")?;
+        writeln!(
+            f,
+            "{:<18}{:>20}{:>10}{:>12}{:>14}{:>14}",
+            "", "value", "error", "of the run", "finer space", "finer steps"
+        )?;
+        for of in &self.quantities {
+            let cells = [Some(of.total), Some(of.reference), of.finer_space, of.finer_steps].map(cell);
+            let [total, reference, space, steps] = cells;
+            writeln!(f, "{:<18}{:>20.12}{total:>10}{reference:>12}{space:>14}{steps:>14}", of.name, of.value)?;
+        }
+        writeln!(
+            f,
+            "The last two columns: the errors with a finer space alone (twice the elements, or p + 4), and with half the steps alone."
+        )?;
+        write!(f, "{}", self.advice)
+    }
 }

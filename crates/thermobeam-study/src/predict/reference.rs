@@ -1,6 +1,6 @@
-//! Ask a scene of any order for an accuracy: degrees, elements and steps that make an error no larger than wanted.
+//! A run of any order whose own error is known: degrees, elements and steps are refined until it is small enough.
 //!
-//! A discretisation is judged by two comparisons in the curve u(1, t), at several times inside each of its steps: with a finer
+//! A discretisation is judged by two comparisons of its curves, at several times inside each of its steps: with a finer
 //! space (p + 4, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
 //! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long;
 //! `restart_dt` is halved twice. The difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where
@@ -12,30 +12,14 @@
 //! * Steps: during an impact, of duration (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
 //!   which ends of steps do not show. The degree q helps between impacts, short steps within.
 //! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; its width is √(ζ t) after the time t.
-//!
-//! ```
-//! use thermobeam_study::predict::any_order::choose;
-//! use thermobeam_study::scene::Scene;
-//!
-//! let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 1.0";
-//! let scene = Scene::parse(text, "swing.toml")?;
-//! let choice = choose(&scene, 1e-7)?;
-//! assert!(choice.expected_error() <= 1e-7);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-
-mod budget;
-mod sampled;
-
-use std::ops::AddAssign;
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
-use thiserror::Error;
 
+use super::curves::{Apart, Curves, Rows, by_dg};
+use super::{Cost, Reason, Unreachable, Work};
+use crate::error::curve::distance;
 use crate::scene::{Method, Scene};
-pub use budget::{Budget, Estimate, Kind, Source, estimate};
-use sampled::{Apart, Sampled, Wanted, sample};
 
 /// Share of the target that each of the two differences may take.
 const SHARE: f64 = 0.5;
@@ -55,8 +39,11 @@ const SHORTENED: [f64; 2] = [2.0, 32.0];
 /// A layer at x = 1 is resolved if its width is so many times that of the finest detail an element shows there, its length / p².
 const RESOLVED: f64 = 12.0;
 
-/// Halvings of all steps in one go: a difference that is too large tells no more.
-const MOST_HALVINGS: i32 = 2;
+/// What all steps are multiplied by in one go, at least and at most: a difference that is too large tells no more.
+const SHORTER: [f64; 2] = [0.25, 0.8];
+
+/// A difference that has to fall by more than this takes a higher degree in time as well.
+const MUCH: f64 = 4.0;
 
 /// Degrees that the finer space has more: with two, the difference is half of the error where a layer is not resolved.
 const FINER_DEGREES: usize = 4;
@@ -77,14 +64,8 @@ const LONG: f64 = 0.25;
 /// Most elements that are tried.
 const MOST_ELEMENTS: usize = 64;
 
-/// What is refused where no finer elements are to be had.
-const FINEST: &str = "the elements are as fine as they get";
-
 /// Rounds of refinement: each at least halves something.
 const ROUNDS: usize = 14;
-
-/// Unknowns times solves of the costliest run that is begun: some ten minutes.
-const MOST_UNKNOWN_SOLVES: f64 = 2e10;
 
 /// A round that lowers the difference by less than this has not paid.
 const STALLED: f64 = 0.7;
@@ -92,127 +73,85 @@ const STALLED: f64 = 0.7;
 /// Difference below which a round that has not paid has met round-off: that of the solver's own stopping rule, 1e-14 a step.
 const ROUND_OFF: f64 = 1e-11;
 
-/// What runs have cost.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Cost {
-    /// Unknowns of a step times linear solves: the same on every machine.
-    pub unknown_solves: f64,
-    /// Seconds in steps.
-    pub seconds: f64,
-    /// Runs.
-    pub runs: usize,
-}
+/// Longest step for an error of 1e-5: a tenth of the shortest period that carries much energy.
+const LONGEST: f64 = 0.02;
 
-impl AddAssign for Cost {
-    fn add_assign(&mut self, other: Self) {
-        self.unknown_solves += other.unknown_solves;
-        self.seconds += other.seconds;
-        self.runs += other.runs;
-    }
-}
-
-/// The discretisation chosen.
+/// What is compared, and the difference that is to be reached: in u(1), φ(1) and the energy, or in the norm.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub(super) struct Wanted {
+    pub(super) rows: Rows,
+    pub(super) tolerance: [f64; 3],
+}
+
+/// A run whose own error is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
     /// The scene with the mesh, the degrees and the steps chosen.
     pub scene: Scene,
-    /// Largest difference of u(1, t) to a finer space.
-    pub space: f64,
-    /// Largest difference of u(1, t) to finer steps.
-    pub time: f64,
-    /// What all runs made to find it have cost, the last comparisons included.
-    pub checks: Cost,
-    /// What the run chosen costs.
+    /// Largest difference to a finer space: of u(1, t), φ(1, t) and the energy, or once in the norm.
+    pub space: [f64; 3],
+    /// The same to finer steps.
+    pub time: [f64; 3],
+    /// Both together at the end, in units of the largest value of the curve; the largest of all curves.
+    pub(super) end: f64,
+    /// What the run costs.
     pub run: Cost,
     /// The finer space of the last comparison, in words.
     pub finer_space: String,
 }
 
-impl Choice {
-    /// The error that the run is estimated to make.
-    pub fn expected_error(&self) -> f64 {
-        self.space + self.time
+impl Reference {
+    /// The error of curve k.
+    pub(super) fn error(&self, k: usize) -> f64 {
+        self.space[k] + self.time[k]
     }
 }
 
-/// Why there is no such run.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Unreachable {
-    /// The target is not a positive number.
-    #[error("target error {target}: expected a finite number > 0")]
-    Target {
-        /// As asked for.
-        target: f64,
-    },
-    /// Refinement came to its end.
-    #[error(
-        "an error of {target:.3e} in u(1, t) was not reached: {reason}{}",
-        reachable(*reached, *space, *time)
-    )]
-    NotReached {
-        /// As asked for.
-        target: f64,
-        /// The smallest target that the comparisons would have met.
-        reached: f64,
-        /// Its part of space.
-        space: f64,
-        /// Its part of time.
-        time: f64,
-        /// What stopped it.
-        reason: &'static str,
-    },
-    /// A run did not come to its end.
-    #[error("a run to compare with failed: {0}")]
-    Run(String),
-}
-
-/// What can be reached, in words; nothing before the first comparison.
-fn reachable(reached: f64, space: f64, time: f64) -> String {
-    if reached.is_finite() {
-        format!("; about {reached:.1e} can be reached (space {space:.1e}, time {time:.1e})")
-    } else {
-        String::new()
-    }
-}
-
-/// Chooses degrees, elements and steps.
+/// Refines until both differences are at most half of the tolerance.
 ///
 /// * `scene`: its own mesh, degrees and steps do not matter.
-/// * `target`: bound on the largest error of u(1, t) over [0, `t_end`], inside steps included.
+/// * `start`: where to begin, if not with a guess.
 ///
 /// # Errors
 /// [`Unreachable`]: why there is no such run, and the error that was reached.
-pub fn choose(scene: &Scene, target: f64) -> Result<Choice, Unreachable> {
+pub(super) fn reference(
+    scene: &Scene,
+    start: Option<&Scene>,
+    wanted: &Wanted,
+    work: &mut Work<'_>,
+) -> Result<Reference, Unreachable> {
+    let target = wanted.tolerance[0];
     if !(target > 0.0 && target.is_finite()) {
         return Err(Unreachable::Target { target });
     }
-    let mut search = Search::new(target);
-    let begun = search.begin(&first(scene, target));
-    Search { spent: search.spent, ..Search::new(target) }.refine(begun)
+    let mut search = Search { wanted, work, last: 0.0, best: [f64::INFINITY; 2] };
+    let begun = start.cloned().unwrap_or_else(|| search.begin(&first(scene, wanted)));
+    search.last = 0.0;
+    search.refine(begun).map_err(|reason| {
+        let [space, time] = search.best.map(|part| part * target);
+        Unreachable::NotReached { target, reached: space.max(time) / SHARE, space, time, reason }
+    })
 }
 
 /// Two finer runs and how far they are from a run.
 struct Compared {
-    finer: (Scene, Sampled),
-    shorter: (Scene, Sampled),
+    finer: Curves,
+    shorter: Curves,
     space: Apart,
     time: Apart,
 }
 
 /// What a search for a discretisation keeps.
-struct Search {
-    target: f64,
-    spent: Cost,
-    last: Cost,
+struct Search<'s, 'w> {
+    wanted: &'s Wanted,
+    work: &'s mut Work<'w>,
+    /// Work of the last run.
+    last: f64,
     /// The differences of the round whose sum was smallest.
     best: [f64; 2],
 }
 
-impl Search {
-    fn new(target: f64) -> Self {
-        Self { target, spent: Cost::default(), last: Cost::default(), best: [f64::INFINITY; 2] }
-    }
-
+impl Search<'_, '_> {
     /// Refines for the first two steps alone, which cost little: the start often needs the shortest steps of all.
     ///
     /// Returns the discretisation given where that finds none.
@@ -224,16 +163,12 @@ impl Search {
             // Shorter steps only: room is made for each length, and these are all that occur.
             let method = Method::Dg(Stepping { dt: t_end.min(dt), ..scene.dg_stepping() });
             let short = Scene { t_end: t_end.min(scene.t_end), method, ..scene.clone() };
-            let Ok(Compared { space, time, .. }) =
-                self.sample(&short, &[]).and_then(|base| self.compare(&short, &base))
-            else {
-                return first.clone();
-            };
-            let share = SHARE * self.target;
-            if space.most() <= share && time.most() <= share {
+            let compared = self.run(&short, None).and_then(|base| self.compare(&short, &base));
+            let Ok(Compared { space, time, .. }) = compared else { return first.clone() };
+            if space.most() <= SHARE && time.most() <= SHARE {
                 return scene;
             }
-            match refined(&scene, &space, &time, share) {
+            match refined(&scene, &space, &time) {
                 Some(next) => scene = next,
                 None => return first.clone(),
             }
@@ -242,81 +177,84 @@ impl Search {
     }
 
     /// Refines a discretisation until both differences are small enough.
-    fn refine(mut self, mut scene: Scene) -> Result<Choice, Unreachable> {
-        let share = SHARE * self.target;
-        let mut base = self.sample(&scene, &[])?;
+    fn refine(&mut self, mut scene: Scene) -> Result<Reference, Reason> {
         for _ in 0..ROUNDS {
-            let Compared { finer, shorter, space, time } = self.compare(&scene, &base)?;
-            if space.most() <= share && time.most() <= share {
-                let (space, time, finer_space) = (space.most(), time.most(), words(&finer.0));
-                return Ok(Choice { scene, space, time, checks: self.spent, run: base.cost, finer_space });
+            let base = self.run(&scene, None)?;
+            let compared = self.compare(&scene, &base)?;
+            let (space, time) = (&compared.space, &compared.time);
+            if space.most() <= SHARE && time.most() <= SHARE {
+                return Ok(self.found(scene, &base, &compared));
             }
             self.judge(space.most(), time.most())?;
-            scene = refined(&scene, &space, &time, share).ok_or_else(|| self.not_reached(FINEST))?;
-            // A run that is already there is not made again.
-            let there = [finer, shorter].into_iter().find(|(other, _)| *other == scene);
-            base = there.map_or_else(|| self.sample(&scene, &[]), |(_, run)| Ok(run))?;
+            scene = refined(&scene, space, time).ok_or(Reason::Finest)?;
         }
-        Err(self.not_reached("it was refined as often as is sensible"))
+        Err(Reason::Rounds)
+    }
+
+    fn found(&self, scene: Scene, base: &Curves, compared: &Compared) -> Reference {
+        let Compared { finer, shorter, .. } = compared;
+        let mut found = Reference {
+            finer_space: finer_space(&scene).map_or_else(String::new, |finer| words(&finer)),
+            scene,
+            space: [compared.space.most() * self.wanted.tolerance[0]; 3],
+            time: [compared.time.most() * self.wanted.tolerance[0]; 3],
+            end: 0.0,
+            run: base.cost,
+        };
+        if !matches!(self.wanted.rows, Rows::Norm(_)) {
+            for k in 0..base.width {
+                let [own, finer, shorter] = [base, finer, shorter].map(|run| run.column(k));
+                (found.space[k], found.time[k]) = (distance(&own, &finer), distance(&own, &shorter));
+                let last = own.len() - 1;
+                let end = (own[last] - finer[last]).abs() + (own[last] - shorter[last]).abs();
+                found.end = found.end.max(end / distance(&own, &vec![0.0; own.len()]));
+            }
+        }
+        found
     }
 
     /// The two comparisons of a scene, `base` being its run.
-    fn compare(&mut self, scene: &Scene, base: &Sampled) -> Result<Compared, Unreachable> {
-        let finer = finer_space(scene).ok_or_else(|| self.not_reached(FINEST))?;
-        let shorter = finer_steps(scene);
+    fn compare(&mut self, scene: &Scene, base: &Curves) -> Result<Compared, Reason> {
         let times = base.own_times();
-        let in_space = self.sample(&finer, &times)?;
-        let in_time = self.sample(&shorter, &times)?;
-        let (space, time) = (Apart::of(base, &in_space), Apart::of(base, &in_time));
-        Ok(Compared { finer: (finer, in_space), shorter: (shorter, in_time), space, time })
+        let finer = self.run(&finer_space(scene).ok_or(Reason::Finest)?, Some(&times))?;
+        let shorter = self.run(&finer_steps(scene), Some(&times))?;
+        let Wanted { rows, tolerance } = self.wanted;
+        let [space, time] = [&finer, &shorter].map(|finer| Apart::of(rows, base, finer, tolerance));
+        Ok(Compared { finer, shorter, space, time })
     }
 
     /// Runs a scene, to be compared with the run whose times are `at`.
-    fn sample(&mut self, scene: &Scene, at: &[f64]) -> Result<Sampled, Unreachable> {
+    fn run(&mut self, scene: &Scene, at: Option<&[f64]>) -> Result<Curves, Reason> {
         // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
-        if !(4.0 * self.last.unknown_solves <= MOST_UNKNOWN_SOLVES) {
-            return Err(self.not_reached("a finer run would take more than some ten minutes"));
-        }
-        let sampled = sample(scene, Wanted { at, ends: &[], own: true, all: false }).map_err(Unreachable::Run)?;
-        self.spent += sampled.cost;
-        self.last = sampled.cost;
-        Ok(sampled)
+        self.work.leaves(2.0 * self.last)?;
+        let run = by_dg(scene, &self.wanted.rows, at, self.work)?;
+        self.last = run.cost.work;
+        Ok(run)
     }
 
     /// Notes what a round has found; stops where refining has met round-off.
-    fn judge(&mut self, space: f64, time: f64) -> Result<(), Unreachable> {
+    fn judge(&mut self, space: f64, time: f64) -> Result<(), Reason> {
         let ([best_space, best_time], found) = (self.best, space + time);
         let stalled = !(found <= STALLED * (best_space + best_time));
         if found < best_space + best_time {
             self.best = [space, time];
         }
         if !found.is_finite() {
-            return Err(self.not_reached("a curve is not finite"));
+            return Err(Reason::NotFinite);
         }
-        if stalled && found <= ROUND_OFF {
-            return Err(self.not_reached("finer runs differ by as much: rounding errors"));
-        }
-        Ok(())
-    }
-
-    fn not_reached(&self, reason: &'static str) -> Unreachable {
-        let [space, time] = self.best;
-        Unreachable::NotReached { target: self.target, reached: space.max(time) / SHARE, space, time, reason }
+        if stalled && found * self.wanted.tolerance[0] <= ROUND_OFF { Err(Reason::RoundOff) } else { Ok(()) }
     }
 }
 
 /// Duration of an impact; without obstacles the longest step stands in for it.
-fn impact(scene: &Scene) -> f64 {
+pub(super) fn impact(scene: &Scene) -> f64 {
     scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
-/// Longest step for an error of 1e-5: a tenth of the shortest period that carries much energy.
-const LONGEST: f64 = 0.02;
-
 /// The discretisation tried first, from what scenes of the paper needed: two degrees in space for every decimal digit, half
 /// a degree in time, and steps that shrink by two for every four digits.
-fn first(scene: &Scene, target: f64) -> Scene {
-    let digits = (-target.log10()).clamp(1.0, 11.0);
+fn first(scene: &Scene, wanted: &Wanted) -> Scene {
+    let digits = (-wanted.tolerance[0].log10()).clamp(1.0, 11.0);
     let shrink = 10.0_f64.powf(-(digits - 5.0).max(0.0) / 11.0);
     let dt = (LONGEST * shrink).min(0.125 * scene.t_end);
     let impact = impact(scene);
@@ -345,24 +283,24 @@ fn graded(layer: f64) -> Vec<f64> {
     ends.chain([1.0]).collect()
 }
 
-/// Refined where a difference exceeds `share`; `None` where the elements are as fine as they get.
-fn refined(scene: &Scene, space: &Apart, time: &Apart, share: f64) -> Option<Scene> {
+/// Refined where a difference exceeds its share; `None` where the elements are as fine as they get.
+fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
     let (mut next, mut stepping) = (scene.clone(), scene.dg_stepping());
-    if !(space.most() <= share) {
-        next = more_space(&next, space, space.most() / share)?;
+    if !(space.most() <= SHARE) {
+        next = more_space(&next, space, space.most() / SHARE)?;
     }
-    if !(time.late <= share) {
-        stepping = more_time(stepping, time.late / share);
+    if !(time.late <= SHARE) {
+        stepping = more_time(stepping, time.late / SHARE);
     }
-    if !(time.early <= share) {
-        let restart_dt = scene.dg_stepping().restart_dt / shortening(time.early / share);
+    if !(time.early <= SHARE) {
+        let restart_dt = scene.dg_stepping().restart_dt / shortening(time.early / SHARE);
         stepping.restart_dt = stepping.restart_dt.min(restart_dt);
     }
     Some(Scene { method: Method::Dg(stepping), ..next })
 }
 
 /// p + 4, or the longest elements halved.
-fn finer_space(scene: &Scene) -> Option<Scene> {
+pub(super) fn finer_space(scene: &Scene) -> Option<Scene> {
     if scene.degree + FINER_DEGREES <= MAX_DEGREE {
         return Some(Scene { degree: scene.degree + FINER_DEGREES, ..scene.clone() });
     }
@@ -379,14 +317,17 @@ fn halved(scene: &Scene) -> Option<Scene> {
         }
     }
     nodes.push(1.0);
-    let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
-    Some(Scene { mesh, ..scene.clone() })
+    on(scene, nodes)
 }
 
 /// One more node.
 fn split(scene: &Scene, x: f64) -> Option<Scene> {
     let mut nodes = scene.mesh.nodes().to_vec();
     nodes.insert(nodes.len() - 1, x);
+    on(scene, nodes)
+}
+
+fn on(scene: &Scene, nodes: Vec<f64>) -> Option<Scene> {
     let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
     Some(Scene { mesh, ..scene.clone() })
 }
@@ -407,15 +348,16 @@ fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
     halved(scene)
 }
 
-fn half_steps(stepping: Stepping) -> Stepping {
+/// All steps multiplied by `part`.
+fn shorter(stepping: Stepping, part: f64) -> Stepping {
     let Stepping { dt, restart_dt, growth, .. } = stepping;
-    let growth = (1.0 + 0.5 * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
-    Stepping { dt: 0.5 * dt, restart_dt: 0.5 * restart_dt, growth, ..stepping }
+    let growth = (1.0 + part * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
+    Stepping { dt: part * dt, restart_dt: part * restart_dt, growth, ..stepping }
 }
 
 /// Half the steps; the first ones are shorter still, since the error there falls more slowly.
-fn finer_steps(scene: &Scene) -> Scene {
-    let half = half_steps(scene.dg_stepping());
+pub(super) fn finer_steps(scene: &Scene) -> Scene {
+    let half = shorter(scene.dg_stepping(), 0.5);
     let stepping = Stepping { restart_dt: 0.5 * half.restart_dt, ..half };
     Scene { method: Method::Dg(stepping), ..scene.clone() }
 }
@@ -426,12 +368,12 @@ fn shortening(factor: f64) -> f64 {
     if wanted.is_finite() { wanted.clamp(SHORTENED[0], SHORTENED[1]) } else { SHORTENED[1] }
 }
 
-/// Steps refined for an error smaller by `factor`; the degree grows with them while it can.
+/// Steps refined for an error smaller by `factor`.
 fn more_time(stepping: Stepping, factor: f64) -> Stepping {
-    let wanted = (factor.log2() / EVENT_RATE).ceil();
-    let halvings = if wanted.is_finite() { (wanted as i32).clamp(1, MOST_HALVINGS) } else { MOST_HALVINGS };
-    let degree = (stepping.degree + 1).min(MAX_TIME_DEGREE);
-    (0..halvings).fold(Stepping { degree, ..stepping }, |stepping, _| half_steps(stepping))
+    let part = (1.5 * factor).powf(-1.0 / EVENT_RATE);
+    let part = if part.is_finite() { part.clamp(SHORTER[0], SHORTER[1]) } else { SHORTER[0] };
+    let degree = (stepping.degree + usize::from(!(factor <= MUCH))).min(MAX_TIME_DEGREE);
+    shorter(Stepping { degree, ..stepping }, part)
 }
 
 fn words(scene: &Scene) -> String {

@@ -1,0 +1,308 @@
+//! Ask for an accuracy: the cheapest run with an error no larger than wanted, or the scene's own scheme with such an error.
+//!
+//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: any other run would have to be compared with such
+//! a run to know its error. What the scene's own scheme would need follows from two constants: with n elements and s steps its
+//! error is about `S (n0/n)^p + T (s0/s)^q`, and S and T are what halving h alone and dt alone takes away from a coarse run,
+//! divided by `1 - 2^-p` and `1 - 2^-q`.
+//!
+//! ```
+//! use thermobeam_study::predict::choice::{Quantity, choose};
+//! use thermobeam_study::predict::{MOST_WORK, Work};
+//! use thermobeam_study::scene::Scene;
+//!
+//! let scene = Scene::parse("[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0", "swing.toml")?;
+//! let choice = choose(&scene, Quantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
+//! assert!(choice.error <= 1e-7 && choice.scene.method.name() == "dg");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use thermobeam::mesh::Mesh;
+
+use super::curves::{Apart, Curves, Rows, by_dg, by_one_step};
+use super::estimate::{TIMES, finer_one_step, none};
+use super::reference::{Reference, Wanted, impact, reference};
+use super::{Cost, Reason, Unreachable, Work};
+use crate::run::rerun::{at, resampled};
+use crate::scene::{Method, Scene};
+
+/// Elements of the coarsest run by the scene's own scheme.
+const ELEMENTS: f64 = 16.0;
+
+/// Steps of the runs that tell what the scene's own scheme would need, at most: some milliseconds.
+const MOST_STEPS: f64 = 4000.0;
+
+/// Part of the target that a one-step scheme aims at: what is left is for constants that change from level to level.
+const AIM: f64 = 0.75;
+
+/// Part of the target that the reference of a one-step scheme may be off.
+const TENTH: f64 = 0.1;
+
+/// Elements and steps grow in one go by at most this: constants of coarse runs do not reach further.
+const MOST_GROWTH: f64 = 8.0;
+
+/// Rounds of refinement.
+const ROUNDS: usize = 16;
+
+/// Runs that may fail.
+const FAILURES: usize = 4;
+
+/// Numbers that a run in the norm keeps, at most.
+const MOST_KEPT: usize = 4_000_000;
+
+/// What an error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Maximum over [0, T] of the error of u(1, t).
+    Tip,
+    /// Maximum over [0, T] of the norm of Theorem 3.4.
+    Norm,
+}
+
+impl Quantity {
+    /// The name in JSON and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tip => "tip",
+            Self::Norm => "theorem-3.4",
+        }
+    }
+
+    /// What it is, in words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Tip => "maximum over [0, T] of the error of u(1, t), inside steps included",
+            Self::Norm => "maximum over [0, T] of the error in the norm of Theorem 3.4",
+        }
+    }
+
+    fn rows(self, mesh: &Mesh) -> Rows {
+        match self {
+            Self::Tip => Rows::Tip,
+            Self::Norm => Rows::of_norm(mesh),
+        }
+    }
+
+    /// What is compared by dG: in the norm on a mesh that is graded towards x = 1.
+    fn wanted(self, target: f64) -> Result<Wanted, Unreachable> {
+        let mesh = Mesh::mapped(20, |s| s * (2.0 - s)).map_err(|error| none(target, Reason::of_run(error)))?;
+        Ok(Wanted { rows: self.rows(&mesh), tolerance: [target; 3] })
+    }
+}
+
+/// What the scene's own scheme would need for the error asked for, by its two constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Needed {
+    /// Elements and steps.
+    pub at: [f64; 2],
+    /// Seconds, at the speed of the runs that told.
+    pub seconds: f64,
+}
+
+impl Needed {
+    /// Elements times steps.
+    pub fn node_steps(&self) -> f64 {
+        self.at[0] * self.at[1]
+    }
+}
+
+/// The run chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The scene with the mesh, the method and the steps chosen.
+    pub scene: Scene,
+    /// The parts of space and of time in the error.
+    pub parts: [f64; 2],
+    /// Where they come from, in words.
+    pub parts_by: String,
+    /// What the run itself costs.
+    pub run: Cost,
+    /// What the scene's own scheme would need; `None` where it is what was chosen, or where its coarse runs fail.
+    pub needed: Option<Needed>,
+    /// The error that the run makes.
+    pub error: f64,
+    /// Whether the scheme is the scene's own, as [`keep_scheme`] chooses it.
+    pub is_kept: bool,
+}
+
+/// The cheapest run with an error no larger than `target`.
+///
+/// * `scene`: its own mesh and steps do not matter, nor does its method.
+///
+/// # Errors
+/// [`Unreachable`]: why there is no such run, and the error that was reached.
+pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
+    let Reference { scene: chosen, space, time, run, finer_space, .. } =
+        reference(scene, None, &quantity.wanted(target)?, work)?;
+    let law = own_scheme(scene, target, MOST_STEPS).and_then(|coarse| {
+        let own = Own::run(&coarse, quantity, work).ok()?;
+        Law::of(&coarse, &own, work).ok()
+    });
+    Ok(Choice {
+        scene: chosen,
+        parts: [space[0], time[0]],
+        parts_by: format!("differences to {finer_space}, and to half the steps"),
+        error: space[0] + time[0],
+        is_kept: false,
+        run,
+        needed: law.map(|law| law.needed(target)),
+    })
+}
+
+/// The scene's own scheme with the elements and steps that it needs; its error is the difference to a run of any order.
+///
+/// # Errors
+/// As [`choose`].
+pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
+    let Some(mut scene) = own_scheme(scene, target, f64::INFINITY) else {
+        return choose(scene, quantity, target, work);
+    };
+    let reference = reference(&scene, None, &quantity.wanted(TENTH * target)?, work)?;
+    let mut best = (f64::INFINITY, [f64::NAN; 2]);
+    let (mut law, mut failures) = (None, 0);
+    let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
+        target,
+        reached,
+        space,
+        time,
+        reason,
+    };
+    for _ in 0..ROUNDS {
+        let outcome = work.leaves(node_steps(&scene)).and_then(|()| Own::run(&scene, quantity, work)).and_then(|own| {
+            let error = own.error(&reference, work)?;
+            // A law for the first run, and for each that has missed the target.
+            if law.is_none() || error > target {
+                law = Some(Law::of(&scene, &own, work)?);
+            }
+            Ok((own, error))
+        });
+        let finer = match (outcome, &law) {
+            (Ok((own, error)), Some(law)) if error <= target => {
+                let parts = law.parts(size(&scene));
+                let parts_by = "by runs with twice the elements and with half of dt".to_owned();
+                return Ok(Choice { scene, parts, parts_by, error, is_kept: true, run: own.curves.cost, needed: None });
+            }
+            (Ok((_, error)), Some(law)) => {
+                if error < best.0 {
+                    best = (error, law.parts(size(&scene)));
+                }
+                // What is clearly too much is not begun.
+                let [elements, steps] = law.cheapest(AIM * target);
+                work.leaves(0.25 * elements * steps).map_err(|reason| not_reached(best, reason))?;
+                law.next(size(&scene), target)
+            }
+            // Coarse steps may fail where finer ones do not.
+            (Err(Reason::Run(_)), _) if failures < FAILURES => {
+                failures += 1;
+                size(&scene).map(|count| 2.0 * count)
+            }
+            (Err(reason), _) => return Err(not_reached(best, reason)),
+            (Ok(_), None) => return Err(not_reached(best, Reason::NotFinite)),
+        };
+        scene = resized(&scene, finer).ok_or_else(|| not_reached(best, Reason::Finest))?;
+    }
+    Err(not_reached(best, Reason::Rounds))
+}
+
+/// The scene with a one-step scheme of its own on coarse levels; `None` of a scene by dG.
+fn own_scheme(scene: &Scene, target: f64, most_steps: f64) -> Option<Scene> {
+    let Method::OneStep(mut stepping) = scene.method else { return None };
+    stepping.settings.tolerance = stepping.settings.tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
+    let steps = (2.0 * scene.t_end / impact(scene)).clamp(8.0, most_steps);
+    resized(&Scene { method: Method::OneStep(stepping), ..scene.clone() }, [ELEMENTS, steps])
+}
+
+fn size(scene: &Scene) -> [f64; 2] {
+    [scene.mesh.elements() as f64, scene.steps() as f64]
+}
+
+fn node_steps(scene: &Scene) -> f64 {
+    size(scene).iter().product()
+}
+
+/// The scene with so many elements and steps; `None` where there is no such mesh.
+fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
+    let mesh = resampled(&scene.mesh, elements.ceil() as usize).ok()?;
+    Some(at(scene, mesh, steps.ceil() as usize, scene.t_end))
+}
+
+/// A run by the scene's own scheme.
+struct Own {
+    rows: Rows,
+    every: usize,
+    curves: Curves,
+}
+
+impl Own {
+    fn run(scene: &Scene, quantity: Quantity, work: &mut Work<'_>) -> Result<Self, Reason> {
+        let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
+        let rows = quantity.rows(&finer);
+        let every = scene.steps().div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
+        let curves = by_one_step(scene, &rows, every, work)?;
+        Ok(Self { rows, every, curves })
+    }
+
+    /// Its error, that of the reference included.
+    fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, Reason> {
+        let exact = by_dg(&reference.scene, &self.rows, Some(&self.curves.own_times()), work)?;
+        Ok(self.apart(&exact) + reference.error(0))
+    }
+
+    fn apart(&self, other: &Curves) -> f64 {
+        Apart::of(&self.rows, &self.curves, other, &[1.0; 3]).most()
+    }
+}
+
+/// How the error of a one-step scheme falls with elements and steps.
+#[derive(Debug, Clone, Copy)]
+struct Law {
+    at: [f64; 2],
+    /// Errors of space and time there.
+    parts: [f64; 2],
+    orders: [f64; 2],
+    seconds_per_node_step: f64,
+}
+
+impl Law {
+    /// From twice the elements alone and half of dt alone.
+    fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
+        let [space, time] = finer_one_step(scene, &own.rows, own.every, work);
+        let (space, time) = (own.apart(&space?), own.apart(&time?));
+        let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
+        // In the norm the error of the mesh is orthogonal to that of a finer one, so that squares add.
+        let (p, left) = match own.rows {
+            Rows::Norm(_) => (1.0, 0.75_f64.sqrt()),
+            _ => (2.0, 0.75),
+        };
+        let cost = own.curves.cost;
+        Ok(Self {
+            at: size(scene),
+            parts: [space / left, time / (1.0 - 0.5_f64.powf(order))],
+            orders: [p, order],
+            seconds_per_node_step: cost.seconds / cost.work,
+        })
+    }
+
+    fn parts(&self, [elements, steps]: [f64; 2]) -> [f64; 2] {
+        let ([n, s], [p, q]) = (self.at, self.orders);
+        [self.parts[0] * (n / elements).powf(p), self.parts[1] * (s / steps).powf(q)]
+    }
+
+    /// The fewest node-steps with an error: there the parts of space and time are as q to p.
+    fn cheapest(&self, error: f64) -> [f64; 2] {
+        let ([n, s], [p, q]) = (self.at, self.orders);
+        let wanted = [error * q / (p + q), error * p / (p + q)];
+        [n * (self.parts[0] / wanted[0]).powf(1.0 / p), s * (self.parts[1] / wanted[1]).powf(1.0 / q)]
+    }
+
+    /// The size after one that has missed the target: larger, but not further than the law reaches.
+    fn next(&self, now: [f64; 2], target: f64) -> [f64; 2] {
+        let best = self.cheapest(AIM * target);
+        let next: [f64; 2] = std::array::from_fn(|k| best[k].clamp(now[k], MOST_GROWTH * now[k]));
+        if next[0] * next[1] >= 1.5 * now[0] * now[1] { next } else { now.map(|count| 1.3 * count) }
+    }
+
+    fn needed(&self, target: f64) -> Needed {
+        let at = self.cheapest(target).map(|count| count.max(1.0).ceil());
+        Needed { at, seconds: self.seconds_per_node_step * at[0] * at[1] }
+    }
+}

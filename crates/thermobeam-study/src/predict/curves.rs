@@ -1,0 +1,277 @@
+//! Runs by their curves alone: numbers over time, of any method, and how far two such runs are apart.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use convergence_study::run::time_limit::Patience;
+use convergence_study::text::number::max_or_nan;
+use thermobeam::dg::{self, Field};
+use thermobeam::mesh::Mesh;
+use thermobeam::solve::Level;
+
+use super::{Cost, Reason, Work};
+use crate::run::simulate;
+use crate::scene::Scene;
+
+/// Times of comparison in a step of dG, its end among them: dense at its ends, since a layer at the start of a step is shorter than that.
+const POINTS: usize = 12;
+
+/// Steps of the largest length that are compared, at most: the others of a longer run are left out evenly.
+const MOST_LONG_STEPS: f64 = 20_000.0;
+
+/// What is read off a run at a time: a row of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Rows {
+    /// u(1).
+    Tip,
+    /// u(1), φ(1) and the energy.
+    Numbers,
+    /// What the norm of Theorem 3.4 is made of, at points x; the second number is the root of the weight of a point.
+    Norm(Vec<(f64, f64)>),
+}
+
+impl Rows {
+    /// Those of the norm, exact for linear functions on the mesh.
+    pub(super) fn of_norm(mesh: &Mesh) -> Self {
+        let gauss = 0.5 / 3.0_f64.sqrt();
+        let points = mesh.nodes().windows(2).flat_map(|x| {
+            let (middle, h) = (0.5 * (x[0] + x[1]), x[1] - x[0]);
+            [-gauss, gauss].map(|s| (middle + s * h, (0.5 * h).sqrt()))
+        });
+        Self::Norm(points.collect())
+    }
+
+    /// Numbers in a row.
+    pub(super) fn width(&self) -> usize {
+        match self {
+            Self::Tip => 1,
+            Self::Numbers => 3,
+            Self::Norm(points) => 5 * points.len(),
+        }
+    }
+
+    /// The distance of two rows in units of a tolerance: of each number, or of all in the norm.
+    fn distance(&self, one: &[f64], other: &[f64], tolerance: &[f64; 3]) -> f64 {
+        let differences = one.iter().zip(other).map(|(a, b)| a - b);
+        match self {
+            Self::Norm(_) => differences.map(|d| d * d).sum::<f64>().sqrt() / tolerance[0],
+            _ => differences.zip(tolerance).map(|(d, tolerance)| d.abs() / tolerance).fold(0.0, max_or_nan),
+        }
+    }
+
+    /// Adds the part of a row that belongs to a point, from u_x, φ, φ_x, v, w and θ there.
+    fn push(row: &mut Vec<f64>, weight: f64, [u_x, phi, phi_x, v, w, theta]: [f64; 6]) {
+        row.extend([v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
+    }
+
+    fn of_dg(&self, simulation: &dg::Simulation, t: f64, level: &mut dg::Level, row: &mut Vec<f64>) {
+        if let Self::Tip = self {
+            row.push(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
+            return;
+        }
+        simulation.level_into(t, level);
+        let space = simulation.space();
+        let Self::Norm(points) = self else {
+            row.extend([Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0));
+            return row.push(simulation.energy(level).total());
+        };
+        for &(x, weight) in points {
+            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes(space, x);
+            Self::push(row, weight, [u_x, phi, phi_x, v, w, theta]);
+        }
+    }
+
+    fn of_one_step(&self, mesh: &Mesh, level: &Level, energy: impl FnOnce() -> f64, row: &mut Vec<f64>) {
+        let (last, nodes) = (mesh.elements(), mesh.nodes());
+        let Self::Norm(points) = self else {
+            row.push(level.u[last]);
+            if let Self::Numbers = self {
+                row.extend([level.phi[last], energy()]);
+            }
+            return;
+        };
+        let mut i = 0;
+        for &(x, weight) in points {
+            while nodes[i + 1] < x {
+                i += 1;
+            }
+            let h = nodes[i + 1] - nodes[i];
+            let value = |y: &[f64]| y[i] + (y[i + 1] - y[i]) * ((x - nodes[i]) / h);
+            let slope = |y: &[f64]| (y[i + 1] - y[i]) / h;
+            let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
+            Self::push(row, weight, [slope(&level.u), value(&level.phi), slope(&level.phi), v, w, theta]);
+        }
+    }
+}
+
+/// A time of comparison of a run's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instance {
+    pub(super) t: f64,
+    /// Time since the start or the last contact event; 0 of a one-step scheme.
+    pub(super) since: f64,
+    /// Whether the step is longer than steps far from an event are at its distance from the last one: a smaller `restart_dt` shortens it.
+    pub(super) early: bool,
+}
+
+/// A run's curves.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Curves {
+    /// Where they were read, unless the times were asked for.
+    pub(super) times: Vec<Instance>,
+    /// Numbers in a row.
+    pub(super) width: usize,
+    /// Row by row, one for each time.
+    pub(super) values: Vec<f64>,
+    /// Smallest and largest u(1, t); by dG between all those times as well.
+    pub(super) range: [f64; 2],
+    /// What the run has cost.
+    pub(super) cost: Cost,
+}
+
+impl Curves {
+    fn new(rows: &Rows, u_tip: [f64; 2]) -> Self {
+        Self { width: rows.width(), range: u_tip, ..Self::default() }
+    }
+
+    /// The times of its own.
+    pub(super) fn own_times(&self) -> Vec<f64> {
+        self.times.iter().map(|instance| instance.t).collect()
+    }
+
+    /// One number over time.
+    pub(super) fn column(&self, k: usize) -> Vec<f64> {
+        self.values.iter().skip(k).step_by(self.width.max(1)).copied().collect()
+    }
+
+    fn include(&mut self, [low, high]: [f64; 2]) {
+        self.range = [-max_or_nan(-self.range[0], -low), max_or_nan(self.range[1], high)];
+    }
+}
+
+/// Runs a scene by dG.
+///
+/// * `at`: times, which increase, at which it is read; `None` for times of its own, inside steps too.
+///
+/// # Errors
+/// The scene is refused, a step fails, or a limit of time or work is reached.
+pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    let stepping = scene.dg_stepping();
+    let mut simulation = dg::Simulation::new(scene.dg_problem(), stepping).map_err(Reason::of_run)?;
+    let unknowns = 3 * simulation.space().blocks() * (stepping.degree + 1);
+    let mut patience = Patience::new(unknowns / 3);
+    let mut curves = Curves::new(rows, simulation.tip_range());
+    let mut level = simulation.level().clone();
+    let mut wall = Duration::ZERO;
+    let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
+    let early = stepping.restart_dt / (stepping.growth - 1.0);
+    let stride = (scene.t_end / stepping.dt / MOST_LONG_STEPS).ceil().max(1.0) as usize;
+    loop {
+        patience.check(simulation.work().steps, || simulation.t()).map_err(Reason::of_run)?;
+        let started = Instant::now();
+        let step = simulation.step(scene.t_end).map_err(Reason::of_run)?;
+        wall += started.elapsed();
+        if step.is_none() {
+            break;
+        }
+        let done = simulation.work().solves;
+        work.add((unknowns * (done - solves)) as f64)?;
+        solves = done;
+        let (from, to) = (simulation.old_level().t, simulation.t());
+        curves.include(simulation.tip_range());
+        if let Some(at) = at {
+            while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
+                rows.of_dg(&simulation, t, &mut level, &mut curves.values);
+                passed += 1;
+            }
+            continue;
+        }
+        let is_long = to - from >= stepping.dt && to < scene.t_end;
+        long += usize::from(is_long);
+        if is_long && !long.is_multiple_of(stride) {
+            continue;
+        }
+        for instance in instances(&simulation, early) {
+            rows.of_dg(&simulation, instance.t, &mut level, &mut curves.values);
+            curves.times.push(instance);
+        }
+    }
+    curves.cost = Cost { work: (unknowns * solves) as f64, seconds: wall.as_secs_f64(), runs: 1 };
+    work.ran(&curves.cost);
+    Ok(curves)
+}
+
+/// Times in the last step; steps closer than `early` to the start or an event are early.
+fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
+    let (from, to) = (simulation.old_level().t, simulation.t());
+    let event = simulation.events().iter().rev().map(|event| event.t).find(|t| *t <= from).unwrap_or(0.0);
+    std::array::from_fn(|point| {
+        let s = 0.5 * (1.0 - (PI * (point + 1) as f64 / POINTS as f64).cos());
+        let t = if point + 1 == POINTS { to } else { from + s * (to - from) };
+        Instance { t, since: t - event, early: from - event < early }
+    })
+}
+
+/// Runs a scene by its one-step scheme, read at its last level and each of number `every`, `2 every`, ...
+///
+/// # Errors
+/// As [`by_dg`].
+pub(super) fn by_one_step(scene: &Scene, rows: &Rows, every: usize, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
+    let (elements, steps) = (scene.mesh.elements(), scene.steps());
+    let tip = driver.level().u[elements];
+    let mut curves = Curves::new(rows, [tip; 2]);
+    let broken = driver.run(steps, |step| {
+        let (simulation, n) = (step.simulation, step.simulation.step());
+        curves.include([step.new.u[elements]; 2]);
+        if n % every == 0 || n == steps {
+            curves.times.push(Instance { t: simulation.t(), since: 0.0, early: false });
+            let energy = || simulation.energy(step.new).total();
+            rows.of_one_step(&scene.mesh, step.new, energy, &mut curves.values);
+        }
+        work.add(elements as f64).map_or_else(ControlFlow::Break, ControlFlow::Continue)
+    });
+    if let Some(reason) = broken.map_err(Reason::of_run)? {
+        return Err(reason);
+    }
+    curves.cost = Cost { work: (elements * steps) as f64, seconds: driver.wall().as_secs_f64(), runs: 1 };
+    work.ran(&curves.cost);
+    Ok(curves)
+}
+
+/// The largest differences between a run, at the times of its own, and another, in units of the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Apart {
+    /// In early steps.
+    pub(super) early: f64,
+    /// In the others.
+    pub(super) late: f64,
+    /// Time since the last event, or the start, where the difference is largest.
+    pub(super) since: f64,
+}
+
+impl Apart {
+    /// Between `own` and `other`, which was read at the times of `own`; NaN where the curves do not match.
+    pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
+        if own.values.len() != other.values.len() || own.values.is_empty() {
+            return Self { early: f64::NAN, late: f64::NAN, since: 0.0 };
+        }
+        let mut apart = Self::default();
+        let pairs = own.values.chunks(own.width).zip(other.values.chunks(own.width));
+        for (instance, (one, other)) in own.times.iter().zip(pairs) {
+            let difference = rows.distance(one, other, tolerance);
+            if !(difference <= apart.most()) {
+                apart.since = instance.since;
+            }
+            let part = if instance.early { &mut apart.early } else { &mut apart.late };
+            *part = max_or_nan(*part, difference);
+        }
+        apart
+    }
+
+    /// In all steps.
+    pub(super) fn most(&self) -> f64 {
+        max_or_nan(self.early, self.late)
+    }
+}

@@ -1,4 +1,5 @@
-//! The ratchet: files, lines and types of each crate, in `src` and beside it, against `.ci/size.toml`. They may only fall.
+//! The ratchet: files, lines and types of each crate, in `src` and beside it, and names that several of its types have, against
+//! `.ci/size.toml`. They may only fall.
 //!
 //! Counted are all tracked `.rs` and `.py` files. What is beside `src` has entries of its own, so that moving code is not shrinking.
 //! A crate that has shrunk passes: `LOWER_SIZE=1 cargo test -p xtask --test size` writes what it has shrunk to. To grow, edit the list
@@ -13,15 +14,16 @@ use std::process::Command;
 type Size = [usize; 3];
 const NAMES: [&str; 3] = ["files", "lines", "types"];
 
-/// A table for `src`, one for what is beside it; in each the crates, or the folders outside of all crates.
+/// A table for `src`, one for what is beside it, one for homonyms; in each the crates, or the folders outside of all crates.
 type Sizes = BTreeMap<String, BTreeMap<String, BTreeMap<String, usize>>>;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn size(text: &str) -> Size {
-    let (mut is_test, mut is_open, mut depth, mut types) = (false, false, 0, 0);
+/// The names of the types that a file defines, but for tests.
+fn types(text: &str) -> Vec<String> {
+    let (mut is_test, mut is_open, mut depth, mut types) = (false, false, 0, vec![]);
     for line in text.lines().map(str::trim) {
         if !is_test && line.starts_with("#[cfg(test)]") {
             (is_test, is_open, depth) = (true, false, 0);
@@ -33,11 +35,16 @@ fn size(text: &str) -> Size {
             continue;
         }
         let rest = line.strip_prefix("pub").map_or(line, |rest| rest.trim_start_matches(|c| c != ' ').trim_start());
-        types += usize::from(
-            ["struct ", "enum ", "type ", "trait ", "union ", "class "].iter().any(|word| rest.starts_with(word)),
-        );
+        let kinds = ["struct ", "enum ", "type ", "trait ", "union ", "class "];
+        let name = kinds.iter().find_map(|kind| rest.strip_prefix(kind));
+        let is_of_a_name = |c: &char| c.is_alphanumeric() || *c == '_';
+        types.extend(name.map(|name| name.chars().take_while(is_of_a_name).collect::<String>()));
     }
-    [1, text.lines().count(), types]
+    types
+}
+
+fn size(text: &str) -> Size {
+    [1, text.lines().count(), types(text).len()]
 }
 
 /// The table and the entry of a file.
@@ -52,17 +59,31 @@ fn entry(path: &str) -> (&'static str, String) {
 fn counted() -> Sizes {
     let listed = Command::new("git").args(["ls-files", "*.rs", "*.py"]).current_dir(root()).output().expect("git");
     assert!(listed.status.success(), "git ls-files: {}", String::from_utf8_lossy(&listed.stderr));
-    let mut sizes = Sizes::new();
+    let (mut sizes, mut names) = (Sizes::new(), BTreeMap::<String, Vec<String>>::new());
     for path in String::from_utf8(listed.stdout).expect("names in UTF-8").lines() {
         // A file may have been removed and not yet committed.
         let Ok(text) = fs::read_to_string(root().join(path)) else { continue };
         let (table, name) = entry(path);
+        if table == "src" {
+            names.entry(name.clone()).or_default().extend(types(&text));
+        }
         let of = sizes.entry(table.to_owned()).or_default().entry(name).or_default();
         for (name, count) in NAMES.into_iter().zip(size(&text)) {
             *of.entry(name.to_owned()).or_default() += count;
         }
     }
+    for (of, names) in names {
+        let count = BTreeMap::from([("names".to_owned(), homonyms(names))]);
+        sizes.entry("homonyms".to_owned()).or_default().insert(of, count);
+    }
     sizes
+}
+
+/// How many names are those of several types. Each command has its `Arguments`, and the `Object` that it prints.
+fn homonyms(mut names: Vec<String>) -> usize {
+    names.retain(|name| !matches!(name.as_str(), "Arguments" | "Object"));
+    names.sort();
+    names.chunk_by(|one, next| one == next).filter(|same| same.len() > 1).count()
 }
 
 /// What has grown, in words, and the list with what has shrunk.
@@ -127,6 +148,8 @@ fn files_are_counted_by_crate_and_tests_define_no_types() {
         "pub(crate) struct A;\nenum B {}\n#[cfg(test)]\nmod tests {\n    struct C;\n}\n    type D = A;\nstructure\n";
     assert_eq!(size(text), [1, 8, 3]);
     assert_eq!(size("class A:\n    pass\n"), [1, 2, 1]);
+    let names = |names: &str| homonyms(names.split(' ').map(str::to_owned).collect());
+    assert_eq!([names("A B A A C B"), names("A B C"), names("Object Object Arguments Arguments")], [2, 0, 0]);
     for (path, table, of) in [
         ("crates/a/src/b/c.rs", "src", "crates/a"),
         ("crates/a/tests/src.rs", "beside", "crates/a"),

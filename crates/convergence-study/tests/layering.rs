@@ -114,8 +114,8 @@ fn nothing_in_this_crate_names_the_application() {
         .iter()
         .flat_map(|folder| files(&here().join(folder), &["rs", "js", "css", "toml", "csv"]))
         .chain(["README.md", "Cargo.toml"].map(|name| here().join(name)))
-        // This file is the list of the words.
-        .filter(|path| !path.ends_with("tests/layering.rs"))
+        // This file is the list of the words; the other one is about every crate.
+        .filter(|path| !path.ends_with("tests/layering.rs") && !path.ends_with("tests/circles.rs"))
         .flat_map(|path| {
             let text = fs::read_to_string(&path).unwrap();
             foreign(&text).into_iter().map(move |(line, word)| format!("{}:{line}: {word}", path.display()))

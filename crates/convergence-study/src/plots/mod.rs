@@ -30,7 +30,6 @@
 //! ```
 
 pub mod canvas;
-mod coincide;
 mod colour;
 mod contour;
 mod convergence;

@@ -3,9 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::HashSet;
 
-use super::html::{escape, phrase};
+use super::html::{badge, escape, phrase};
 use super::markdown::{anchor, cell, text};
-use super::page::badge;
 use super::words::summary;
 use crate::input::visible;
 use crate::judge::verdict::{Reason, Verdict};

@@ -6,6 +6,7 @@
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 use super::forest;
+use crate::judge::verdict::Verdict;
 use crate::study::outcome::Figure;
 
 /// Converts a piece of the report; pictures are put in place.
@@ -99,6 +100,11 @@ fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
         escape(&figure.caption),
         figure.svg
     ))
+}
+
+/// A verdict on its colour.
+pub(super) fn badge(verdict: Verdict) -> String {
+    format!("<span class=\"badge {0}\">{0}</span>", verdict.name())
 }
 
 /// Text as it is to be read, in an element or an attribute.

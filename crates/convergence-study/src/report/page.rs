@@ -2,7 +2,7 @@
 //!
 //! Its elements are closed as XML wants it, so that tests can read it.
 
-use super::html::{escape, html, phrase};
+use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
 use super::{Findings, SeeAlso};
 use super::{changes, failures, forest, section};
@@ -82,10 +82,6 @@ fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
     }
     groups.retain(|(_, studies)| !studies.is_empty());
     groups
-}
-
-pub(super) fn badge(verdict: Verdict) -> String {
-    format!("<span class=\"badge {0}\">{0}</span>", verdict.name())
 }
 
 /// All verdicts in one table, below the controls, which scripts bring to life.

@@ -1,12 +1,12 @@
 //! `run SCENE`: simulates one scene.
 
 mod accuracy;
-mod any_order;
 mod summary;
 
-use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use clap::Args;
@@ -14,8 +14,10 @@ use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use serde::Serialize;
 use thermobeam_study::predict::Unreachable;
-use thermobeam_study::run::simulate::{Object, Recording, Simulator, figures};
-use thermobeam_study::scene::{Method, Scene};
+use thermobeam_study::predict::estimate::Budget;
+use thermobeam_study::run::object::Object;
+use thermobeam_study::run::simulate::{Recording, Run, Simulator};
+use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
@@ -78,8 +80,13 @@ struct Printed<'a> {
     #[serde(flatten)]
     object: Object<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    error_budget: Option<&'a Budget>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<accuracy::Object<'a>>,
 }
+
+/// Ticks of the progress bar over the scene's time.
+const TICKS: f64 = 1000.0;
 
 /// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
@@ -93,14 +100,29 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
     };
     let scene = planned.as_ref().map_or(&read, Planned::scene);
-    match scene.method {
-        Method::Dg(_) => any_order::simulate(arguments, scene, planned.as_ref()),
-        Method::OneStep(_) => one_step(arguments, scene, planned.as_ref()),
-    }
+    let simulator = Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let run = simulate(arguments, scene, simulator)?;
+    let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {
+        let history = run.history.iter().map(|history| ("history.csv", history.csv()));
+        write_files(folder, history.chain(run.pictures(scene)))
+    })?;
+    // A run that failed has nothing whose error could be estimated.
+    let wanted = arguments.estimate_error && run.failure.is_none();
+    let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
+    let known = budget.as_ref().ok().and_then(Option::as_ref);
+    let complaint = budget.as_ref().err().map(|reason| format!("error budget: {reason}")).or(run.complaint());
+    let accuracy = planned.as_ref().map(Planned::object);
+    let object = Printed { object: Object::new(scene, &run), error_budget: known, accuracy };
+    let sentence = format!("{}: {} steps, to t = {} of {}", scene.name, run.steps, run.last.t, scene.t_end);
+    arguments.show(complaint, &object, &sentence, || {
+        let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
+        let worth = if planned.is_some() && known.is_none() { String::new() } else { format!("\n{worth}\n") };
+        summary::summary(scene, &run, planned.as_ref(), &written) + &worth
+    })
 }
 
-fn one_step(arguments: &Arguments, scene: &Scene, planned: Option<&Planned>) -> Outcome {
-    let simulator = Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+/// Runs the scene, with a bar of the time reached, and a history where files are wanted.
+fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::Result<Run> {
     let recording = match &arguments.flags.out {
         Some(folder) => {
             atomic::prepare_folder(folder)?;
@@ -108,33 +130,20 @@ fn one_step(arguments: &Arguments, scene: &Scene, planned: Option<&Planned>) -> 
         }
         None => Recording::Summary,
     };
-    let bar = progress::bar(&scene.name, scene.steps(), arguments.flags.quiet);
-    let (told, steps) = (bar.clone(), scene.steps());
-    interrupt::say(move || format!("{} of {steps} steps were done; nothing is kept of them", told.position()));
-    let simulate = || simulator.run(recording, &mut |step| bar.set_position(step as u64));
-    let (run, _) = time_limit::within(arguments.time_limit, simulate);
+    let bar = progress::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
+    let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
+    let (told, shown) = (Arc::clone(&done), bar.clone());
+    interrupt::say(move || {
+        let percent = 100.0 * shown.position() as f64 / TICKS;
+        format!("{} steps were done, {percent} % of the time; nothing is kept of them", told.load(Ordering::Relaxed))
+    });
+    let mut tell = |step, t: f64| {
+        done.store(step, Ordering::Relaxed);
+        bar.set_position((TICKS * t / t_end) as u64);
+    };
+    let (run, _) = time_limit::within(arguments.time_limit, || simulator.run(recording, &mut tell));
     bar.finish_and_clear();
-    let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {
-        let history = run.history.iter().map(|history| ("history.csv", history.csv()));
-        write_files(folder, history.chain(figures(scene, &run)))
-    })?;
-    // A run that failed has nothing whose error could be estimated.
-    let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
-    let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let complaint = complaint(run.energy.complaint(run.steps, run.failure.as_ref()), budget.as_ref().err());
-    let object = Object::new(scene, &run).with_budget(known);
-    let object = Printed { object, accuracy: planned.map(Planned::object) };
-    let sentence = format!("{}: {} of {} steps, to t = {}", scene.name, run.steps, scene.steps(), run.last.t);
-    arguments.show(complaint, &object, &sentence, || {
-        let budget = known.map_or(String::new(), |budget| format!("\n{budget}\n"));
-        summary::summary(scene, &run, planned, &written) + &budget
-    })
-}
-
-/// Why a run has not done what was asked for: there is no error budget, or the `complaint` about its numbers.
-fn complaint(complaint: Option<String>, no_budget: Option<&impl Display>) -> Option<String> {
-    no_budget.map(|reason| format!("error budget: {reason}")).or(complaint)
+    Ok(run)
 }
 
 /// Writes files into a folder; returns their paths.

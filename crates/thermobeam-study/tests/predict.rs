@@ -11,9 +11,8 @@ use thermobeam_study::error::free_vibration;
 use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate, Source};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Reason, Unreachable, Work};
-use thermobeam_study::run::any_order::{AnyOrderRun, run};
 use thermobeam_study::run::family::Family;
-use thermobeam_study::run::simulate::{Recording, Simulator};
+use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::run::tally::Sample;
 use thermobeam_study::scene::{Method, Scene};
 
@@ -49,17 +48,26 @@ fn scene(beam: &str, time: &str) -> Scene {
     parsed(&text)
 }
 
+fn run(scene: &Scene, times: usize) -> Run {
+    Simulator::new(scene).expect("a motion").run(Recording::Curve(times), &mut |_, _| ())
+}
+
+fn samples(run: &Run) -> Vec<Sample> {
+    run.history.iter().flat_map(|history| &history.rows).map(|row| row.sample).collect()
+}
+
 /// Ten digits and more, from a discretisation that the search never tries.
-fn reference(scene: &Scene) -> AnyOrderRun {
+fn reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.7, 0.9, 0.97, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 5, dt: 0.003, restart_dt: 1e-4, growth: 1.12, ..Stepping::default() };
     let fine = Scene { mesh, degree: 20, method: Method::Dg(stepping), ..scene.clone() };
-    run(&fine, TIMES, &mut |_| ()).expect("a run")
+    run(&fine, TIMES)
 }
 
-fn largest_difference(one: &AnyOrderRun, other: &AnyOrderRun) -> f64 {
-    assert_eq!(one.history.len(), TIMES + 1);
-    let pairs = one.history.iter().zip(&other.history);
+fn largest_difference(one: &Run, other: &Run) -> f64 {
+    let [one, other] = [one, other].map(samples);
+    assert_eq!(one.len(), TIMES + 1);
+    let pairs = one.iter().zip(&other);
     pairs.map(|(a, b)| (a.u_tip - b.u_tip).abs()).fold(0.0, |most, difference| {
         assert!(difference.is_finite());
         most.max(difference)
@@ -75,11 +83,11 @@ fn parsed(text: &str) -> Scene {
 }
 
 /// Of the first steps and of contact, on elements that resolve their layers.
-fn layered_reference(scene: &Scene) -> AnyOrderRun {
+fn layered_reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.95, 0.99, 0.998, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 4, dt: 0.0035, restart_dt: 1e-6, growth: 1.18, ..Stepping::default() };
     let fine = Scene { mesh, degree: 16, method: Method::Dg(stepping), ..scene.clone() };
-    run(&fine, TIMES, &mut |_| ()).expect("a run")
+    run(&fine, TIMES)
 }
 
 #[test]
@@ -94,11 +102,11 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
         for t_end in [2e-4, 4e-3] {
             let begun = |scene: &Scene| Scene { t_end, ..scene.clone() };
             // The run's own steps: it goes on, and its history ends.
-            let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES, &mut |_| ()).expect("a run");
-            let exact = layered_reference(&begun(&scene));
+            let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES);
+            let own = samples(&own);
+            let exact = samples(&layered_reference(&begun(&scene)));
             let every = (5e3 * t_end).round() as usize;
-            let made =
-                (1..=TIMES).map(|k| (own.history[k * every].u_tip - exact.history[k].u_tip).abs()).fold(0.0, f64::max);
+            let made = (1..=TIMES).map(|k| (own[k * every].u_tip - exact[k].u_tip).abs()).fold(0.0, f64::max);
             assert!(made <= target, "to t = {t_end}: {made:e} with {choice:?}");
             assert!(made <= 1.3 * choice.error, "{made:e} with {choice:?}");
         }
@@ -152,7 +160,7 @@ fn no_number_of_the_budget_is_small_by_chance() {
     ];
     for (number, scene) in scenes.iter().enumerate() {
         let budget = estimate(scene).expect("a budget");
-        let (own, exact) = (run(scene, TIMES, &mut |_| ()).expect("a run"), layered_reference(scene));
+        let (own, exact) = (run(scene, TIMES), layered_reference(scene));
         for (name, made) in errors(&own, &exact) {
             let total = estimated(&budget, name);
             assert!(made <= 1.3 * total, "scene {number}, {name}: {made:e} in {budget}");
@@ -161,10 +169,10 @@ fn no_number_of_the_budget_is_small_by_chance() {
 }
 
 /// The errors of all numbers of a budget, by name.
-fn errors(own: &AnyOrderRun, exact: &AnyOrderRun) -> [(&'static str, f64); 8] {
-    let [end, true_end] = [own, exact].map(|run| run.ends[1]);
+fn errors(own: &Run, exact: &Run) -> [(&'static str, f64); 8] {
+    let [end, true_end] = [own, exact].map(|run| run.last);
     let over_time = |read: fn(&Sample) -> f64| {
-        own.history.iter().zip(&exact.history).map(|(a, b)| (read(a) - read(b)).abs()).fold(0.0, f64::max)
+        samples(own).iter().zip(&samples(exact)).map(|(a, b)| (read(a) - read(b)).abs()).fold(0.0, f64::max)
     };
     [
         ("u(1) at the end", (end.u_tip - true_end.u_tip).abs()),
@@ -190,7 +198,7 @@ fn the_error_asked_for_is_made_inside_steps_too_and_the_checks_cost_a_few_runs()
         for target in [1e-4, 1e-6, 1e-8] {
             let (choice, spent) = limited(|work| predict::choice::choose(&scene, Quantity::Tip, target, work));
             let choice = choice.unwrap_or_else(|error| panic!("{target:e}: {error}"));
-            let made = largest_difference(&run(&choice.scene, TIMES, &mut |_| ()).expect("a run"), &exact);
+            let made = largest_difference(&run(&choice.scene, TIMES), &exact);
             assert!(made <= target, "{beam}, {target:e}: {made:e} with {choice:?}");
             assert!(choice.error <= target);
             // The belief is no flattery: it is the error within a factor of two.
@@ -255,12 +263,12 @@ fn the_budget_of_dg_is_the_error_and_names_what_dominates() {
         let budget = estimate(&scene).expect("a budget");
         assert_eq!(budget.dominant, Some(expected), "{budget}");
         let exact = reference(&scene);
-        let own = run(&scene, TIMES, &mut |_| ()).expect("a run");
+        let own = run(&scene, TIMES);
         let (made, tip) = (largest_difference(&own, &exact), named(&budget, "u(1) over time"));
         assert!(made <= 1.1 * tip.total && tip.total <= 1.5 * made, "{made:e} against {budget}");
         let end = named(&budget, "u(1) at the end");
-        assert_eq!(end.value, own.ends[1].u_tip);
-        assert!((end.value - exact.ends[1].u_tip).abs() <= 1.1 * end.total);
+        assert_eq!(end.value, own.last.u_tip);
+        assert!((end.value - exact.last.u_tip).abs() <= 1.1 * end.total);
     }
 }
 
@@ -322,9 +330,9 @@ fn the_errors_of_a_one_step_scheme_in_contact_are_those_to_the_exact_motion() {
     for scheme in ["euler-crank-nicolson", "midpoint"] {
         let scene = parsed(&format!("{CONTACT}[time]\ndt = 5e-4\nt_end = 1.0\nscheme = \"{scheme}\"\n"));
         let budget = estimate(&scene).expect("a budget");
-        let own = Simulator::new(&scene).expect("a scene").run(Recording::Summary, &mut |_| ());
+        let own = Simulator::new(&scene).expect("a scene").run(Recording::Summary, &mut |_, _| ());
         let exact = reference(&parsed(&format!("{CONTACT}[time]\nscheme = \"dg\"\nt_end = 1.0\n")));
-        let last = exact.ends[1];
+        let last = exact.last;
         for (name, made) in [
             ("u(1) at the end", own.last.u_tip - last.u_tip),
             ("phi(1) at the end", own.last.phi_tip - last.phi_tip),
@@ -417,9 +425,9 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_in_contact() {
     for (scheme, target) in [("midpoint", 1e-4), ("euler-crank-nicolson", 1e-3)] {
         let text = format!("{CONTACT}[time]\ndt = 0.01\nt_end = 1.0\nscheme = \"{scheme}\"\n");
         let choice = keep(&parsed(&text), Quantity::Tip, target);
-        let own = Simulator::new(&choice.scene).expect("a scene").run(Recording::History, &mut |_| ());
-        let exact = run(&parsed(&format!("{CONTACT}[time]\nscheme = \"dg\"\nt_end = 1.0\n")), 0, &mut |_| ());
-        let last = exact.expect("a run").ends[1];
+        let own = Simulator::new(&choice.scene).expect("a scene").run(Recording::History, &mut |_, _| ());
+        let exact = run(&parsed(&format!("{CONTACT}[time]\nscheme = \"dg\"\nt_end = 1.0\n")), 1);
+        let last = exact.last;
         assert!((own.last.u_tip - last.u_tip).abs() <= target, "{:?}", own.last);
         assert!((0.2 * target..=target).contains(&choice.error), "{}", choice.error);
     }
@@ -449,7 +457,7 @@ fn in_the_norm_dg_makes_the_error_asked_for() {
     let (finer, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-5, work));
     let finer = finer.expect("a run");
     // The norm bounds the shear, and so the free end's distance but for the rotation's.
-    let [one, other] = [&choice, &finer].map(|choice| run(&choice.scene, TIMES, &mut |_| ()).expect("a run"));
+    let [one, other] = [&choice, &finer].map(|choice| run(&choice.scene, TIMES));
     let made = largest_difference(&one, &other);
     assert!(choice.error <= 1e-3 && made <= 2.0 * choice.error && made > 1e-8, "{made:e}");
     assert!(finer.run.work > choice.run.work);

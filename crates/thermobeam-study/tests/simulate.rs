@@ -3,13 +3,14 @@
 use std::time::Duration;
 
 use convergence_study::run::time_limit::within;
-use thermobeam::dg::Stepping;
+use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
-use thermobeam_study::run::any_order::{self, AnyOrderFailure};
 use thermobeam_study::run::driver::RunError;
-use thermobeam_study::run::simulate::{MOST_ROWS, Object, Recording, Run, Simulator, figures, run_together};
-use thermobeam_study::scene::{Method, Scene};
+use thermobeam_study::run::object::Object;
+use thermobeam_study::run::simulate::{Recording, Run, Simulator};
+use thermobeam_study::run::together::run_together;
+use thermobeam_study::scene::Scene;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {
@@ -21,7 +22,7 @@ fn thrown(dt: &str, more: &str) -> Scene {
 }
 
 fn run(scene: &Scene, recording: Recording) -> Run {
-    Simulator::new(scene).unwrap().run(recording, &mut |_| ())
+    Simulator::new(scene).unwrap().run(recording, &mut |_, _| ())
 }
 
 #[test]
@@ -32,7 +33,7 @@ fn recording_changes_nothing_but_the_record() {
     let history = recorded.history.clone().unwrap();
     assert_eq!(Run { history: None, wall: plain.wall, ..recorded.clone() }, plain);
 
-    assert_eq!((history.rows.len(), history.steps_per_row), (1001, 1));
+    assert_eq!(history.rows.len(), 1001);
     assert_eq!([history.rows[0].sample, history.rows[1000].sample], [plain.first, plain.last]);
     let tips = history.rows.iter().map(|row| row.sample.u_tip);
     assert_eq!(tips.clone().fold(f64::INFINITY, f64::min), plain.extremes.u_tip_min);
@@ -45,8 +46,8 @@ fn recording_changes_nothing_but_the_record() {
 #[test]
 fn the_steps_are_told_one_by_one() {
     let mut told = Vec::new();
-    Simulator::new(&thrown("0.1", "")).unwrap().run(Recording::Summary, &mut |step| told.push(step));
-    assert_eq!(told, (1..=10).collect::<Vec<_>>());
+    Simulator::new(&thrown("0.1", "")).unwrap().run(Recording::Summary, &mut |step, t| told.push((step, t)));
+    assert_eq!(told, (1..=10).map(|step| (step, step as f64 * 0.1)).collect::<Vec<_>>());
 }
 
 #[test]
@@ -71,9 +72,8 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
     let scene = Scene::parse(text, "long.toml").unwrap();
     let run = run(&scene, Recording::History);
     let history = run.history.unwrap();
-    assert_eq!((scene.steps(), history.steps_per_row), (500_001, 3));
+    assert_eq!(scene.steps(), 500_001);
     assert_eq!(history.rows.len(), 1 + 500_001 / 3);
-    assert!(history.rows.len() <= MOST_ROWS + 1);
     assert_eq!(history.rows.last().unwrap().sample, run.last);
     assert_eq!(history.frames.times.last(), Some(&run.last.t));
     assert!(history.frames.times.len() <= 442);
@@ -94,7 +94,7 @@ fn what_could_be_done_before_a_failure_is_kept() {
     assert_eq!(history.rows.len(), run.steps + 1);
     assert_eq!(history.rows.last().unwrap().sample, run.last);
     assert_eq!(history.csv().lines().count(), run.steps + 2);
-    assert_eq!(figures(&scene, &run).len(), 5);
+    assert_eq!(run.pictures(&scene).len(), 5);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let (stopped, up) = within(Some(limit), || {
         let simulator = Simulator::new(&scene).unwrap();
         // Each step hears that it is done, and this one dawdles.
-        simulator.run(Recording::Summary, &mut |_| std::thread::sleep(limit))
+        simulator.run(Recording::Summary, &mut |_, _| std::thread::sleep(limit))
     });
     let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
     assert_eq!(Some(told), up);
@@ -125,7 +125,7 @@ fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
     assert_eq!(run.first, run.last);
     assert!(run.energy.largest_increase.is_nan());
     assert_eq!(run.history.as_ref().map(|history| (history.rows.len(), history.frames.times.len())), Some((1, 1)));
-    assert_eq!(figures(&scene, &run).len(), 5);
+    assert_eq!(run.pictures(&scene).len(), 5);
 }
 
 #[test]
@@ -167,38 +167,21 @@ fn every_bit_of_the_history_can_be_read_back() {
 }
 
 #[test]
-fn a_run_of_any_order_stops_at_the_step_that_breaks_the_law_of_the_energy() {
-    let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[mesh]\ndegree = 6\n[time]\nscheme = \"dg\"\nt_end = 2.0\n\
-                restart_dt = 0.1\ndt = 0.1\n";
-    let scene = Scene::parse(text, "loose.toml").unwrap();
-    // Steps that are not solved.
-    let method = Method::Dg(Stepping { tolerance: 100.0, ..scene.dg_stepping() });
-    let scene = Scene { method, ..scene };
-    let run = any_order::run(&scene, 0, &mut |_| ()).unwrap();
-    let Some(AnyOrderFailure::Unsound { step, t, dt, .. }) = run.failure else { panic!("{:?}", run.failure) };
-    assert_eq!((step, t + dt), (run.steps, run.ends[1].t));
-    assert!(run.ends[1].t < 2.0, "{:?}", run.ends);
-    let complaint = run.complaint().unwrap();
-    assert!(
-        complaint.starts_with(&format!("step {step} (from t = {t}")) && complaint.contains("in a step"),
-        "{complaint}"
-    );
-}
-
-#[test]
-fn a_one_step_run_stops_at_the_step_that_raises_the_energy_alone_and_in_lanes() {
-    // Steps that are not solved.
-    let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
-                t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n";
-    let scene = Scene::parse(text, "loose.toml").unwrap();
-    let alone = run(&scene, Recording::Summary);
-    let Some(RunError::Unsound { step, t, dt, unsound }) = &alone.failure else { panic!("{:?}", alone.failure) };
-    assert!(alone.steps == *step && alone.steps < scene.steps() && (t + dt - alone.last.t).abs() < 1e-15, "{alone:?}");
-    assert!(alone.energy.complaint(alone.steps, alone.failure.as_ref()).unwrap().contains(&unsound.to_string()));
-    assert_eq!(serde_json::to_value(Object::new(&scene, &alone)).unwrap()["failure"]["kind"], "unsound");
-    let together = run_together(&[scene.clone(), scene]).unwrap();
-    for run in together {
-        assert_eq!((run.steps, &run.failure, run.last), (alone.steps, &alone.failure, alone.last));
+fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
+    let start = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[time]\nt_end = 2.0\ndt = 0.1\n";
+    for method in ["scheme = \"dg\"\nrestart_dt = 0.1", "scheme = \"midpoint\""] {
+        // Steps that are not solved.
+        let loose = Scene::parse(&format!("{start}{method}\ntolerance = 100.0"), "loose.toml").unwrap();
+        let alone = run(&loose, Recording::Summary);
+        assert_eq!(serde_json::to_value(Object::new(&loose, &alone)).unwrap()["failure"]["kind"], "unsound");
+        for run in run_together(&[loose.clone(), loose]).unwrap().into_iter().chain([alone]) {
+            let Some(RunError::Unsound { step, t, dt, .. }) = run.failure else { panic!("{:?}", run.failure) };
+            assert_eq!((step, t + dt), (run.steps, run.last.t));
+            assert!(run.last.t < 2.0, "{:?}", run.last);
+            let complaint = run.complaint().unwrap();
+            let words = format!("step {step} (from t = {t}");
+            assert!(complaint.starts_with(&words) && complaint.contains("in a step"), "{complaint}");
+        }
     }
 }
 
@@ -212,13 +195,7 @@ fn a_run_whose_energy_is_infinite_fails() {
                  dt = 0.01\n"
             );
             let scene = Scene::parse(&text, "s.toml").unwrap();
-            let complaint = match scene.method {
-                Method::OneStep(_) => {
-                    let run = run(&scene, Recording::Summary);
-                    run.energy.complaint(run.steps, run.failure.as_ref())
-                }
-                Method::Dg(_) => any_order::run(&scene, 0, &mut |_| ()).unwrap().complaint(),
-            };
+            let complaint = run(&scene, Recording::Summary).complaint();
             let complaint = complaint.unwrap_or_else(|| panic!("{scheme} {beta}: pass"));
             assert!(
                 complaint.contains("the energy is inf") || complaint.contains("finite"),
@@ -226,4 +203,56 @@ fn a_run_whose_energy_is_infinite_fails() {
             );
         }
     }
+}
+
+/// The paper's first experiment by dG.
+fn located(time: &str, u: &str) -> Scene {
+    let text = format!(
+        "[obstacles]\n[initial]\nu = \"{u}\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
+         [mesh]\ndegree = 12\n[time]\nscheme = \"dg\"\n{time}\n"
+    );
+    Scene::parse(&text, "s.toml").unwrap()
+}
+
+#[test]
+fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
+    let pressed = |t_end: &str| run(&located(t_end, "0.15*x^2"), Recording::Summary);
+    let run = pressed("t_end = 0.005");
+    let contact = run.contact.as_ref().unwrap();
+    assert_eq!((contact.started_in, contact.events.len()), (Phase::Upper, 0));
+    assert_eq!(run.contact_phases(), [(0.0, 0.005)]);
+    assert_eq!(run.contact_steps, run.steps);
+    let run = pressed("t_end = 0.02");
+    let event = run.contact.as_ref().unwrap().events[0];
+    assert_eq!((event.from, event.to), (Phase::Upper, Phase::Free));
+    assert_eq!(run.contact_phases()[0], (0.0, event.t));
+    assert!(0 < run.contact_steps && run.contact_steps < run.steps);
+}
+
+#[test]
+fn the_first_experiment_by_dg_comes_out_to_seven_digits_with_its_events() {
+    let scene = located("t_end = 1.0", "0.01*x*(x-2)");
+    let run_curve = run(&scene, Recording::Curve(100));
+    assert_eq!(run_curve.failure, None);
+    assert!((run_curve.last.u_tip - -0.011_764_243_810).abs() < 1e-7, "{:?}", run_curve.last);
+    assert_eq!(run_curve.contact.as_ref().unwrap().events.len(), 3);
+    let phases = run_curve.contact_phases();
+    assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
+    assert_eq!(phases[1].1, 1.0);
+    // Each time once, whatever the steps.
+    let rows = &run_curve.history.as_ref().unwrap().rows;
+    assert_eq!(rows.len(), 101);
+    assert!(rows.windows(2).all(|pair| (pair[1].sample.t - pair[0].sample.t - 0.01).abs() < 1e-12));
+    assert_eq!(rows[100].sample, run_curve.last);
+    // E falls in every step and its balance closes to round-off.
+    let energy = run_curve.energy;
+    assert!(energy.largest_increase < 0.0 && energy.largest_balance_residual < 1e-12 * energy.initial);
+    let extremes = run_curve.extremes;
+    assert!(extremes.u_tip_max > 0.105 && extremes.u_tip_min < -0.011, "{extremes:?}");
+    let [drawn, plain] = [Recording::History, Recording::Summary].map(|recording| run(&scene, recording));
+    let history = drawn.history.as_ref().unwrap();
+    assert_eq!((history.frames.times.len(), history.frames.u.len(), history.rows.len()), (441, 441, 4001));
+    assert_eq!((plain.first, plain.last, plain.history), (drawn.first, drawn.last, None));
+    let lost: f64 = history.rows.iter().map(|row| row.dissipation.change).sum();
+    assert!((lost - (energy.last - energy.initial)).abs() < 1e-12);
 }

@@ -80,20 +80,24 @@ pub(crate) struct Tip {
     pub(crate) force: f64,
 }
 
-/// The balance of one step; `residual` is the sum of the other terms and round-off for an exactly solved step.
+/// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of the other terms, and round-off
+/// for an exactly solved step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
     /// E^n - E^{n-1}, computed from the differences of the fields, without cancellation.
     pub change: f64,
-    /// dt ζ (‖V_x - W‖² + ‖W_x‖²).
+    /// dt ζ (‖V_x - W‖² + ‖W_x‖²); by dG its integral over the step.
     pub viscous: f64,
-    /// dt ‖θ~_x‖² at n-½.
+    /// dt ‖θ~_x‖² at n-½; by dG its integral over the step.
     pub thermal: f64,
-    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`.
+    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`. By dG that of the jumps at the
+    /// start of the step, of the temperature too.
     pub inertial: f64,
-    /// The gap of the contact energy.
+    /// The gap of the contact energy; by dG round-off, unless the free end grazes an obstacle.
     pub contact: f64,
-    /// The sum of the five terms.
+    /// Minus the work of the loads; left out, and zero, for one-step schemes.
+    pub load: f64,
+    /// The sum of the other terms.
     pub residual: f64,
 }
 
@@ -105,6 +109,7 @@ impl Balance {
         thermal: f64::NAN,
         inertial: f64::NAN,
         contact: f64::NAN,
+        load: f64::NAN,
         residual: f64::NAN,
     };
 
@@ -143,7 +148,8 @@ impl Balance {
         // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
         // none.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
-        Self { change, viscous, thermal, inertial, contact: gap, residual: change + viscous + thermal + inertial + gap }
+        let residual = change + viscous + thermal + inertial + gap;
+        Self { change, viscous, thermal, inertial, contact: gap, load: 0.0, residual }
     }
 
     /// [`Balance::change`] alone, at half the cost.

@@ -14,7 +14,7 @@ const N: usize = 22;
 
 /// The bits of a balance.
 fn bits(balance: &Balance) -> [u64; 6] {
-    let Balance { change, viscous, thermal, inertial, contact, residual } = *balance;
+    let Balance { change, viscous, thermal, inertial, contact, residual, .. } = *balance;
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 

@@ -15,7 +15,7 @@ use crate::run::Effort;
 use crate::store::atomic;
 
 /// Number of the form of [`Answer`]: higher where a key of any command has changed its meaning or is gone.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
 /// What every command takes.
 #[derive(Debug, Clone, Args)]

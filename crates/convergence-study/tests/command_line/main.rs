@@ -307,7 +307,7 @@ fn rates_come_in_words_and_as_an_object() {
     assert!(out.starts_with("H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.25: too low\n"), "{out}");
     let (_, out, _) = with(&["--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["schema"], &object["verdict"]), (&1.into(), &"pass".into()));
+    assert_eq!((&object["schema"], &object["verdict"]), (&2.into(), &"pass".into()));
     assert_eq!(
         (&object["rates"][2]["decides"], &object["rates"][0]["levels"][3]["step"]),
         (&false.into(), &0.05.into())
@@ -423,7 +423,7 @@ fn json_is_alone_on_standard_output() {
         command.args(["--format", "json"]).env("GITHUB_ACTIONS", "true").env("GITHUB_STEP_SUMMARY", &summary);
         let (status, out, err) = texts(command.output().unwrap());
         let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &1.into()));
+        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &2.into()));
         assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
         assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
         fs::remove_file(summary).unwrap();

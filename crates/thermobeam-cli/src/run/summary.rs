@@ -4,15 +4,22 @@ use convergence_study::text::number::counted;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use super::accuracy::Planned;
+use thermobeam::dg::ContactEvent;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_study::figures::energy_at_rest;
+use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::run::tally::{EnergySummary, Extremes, Sample};
-use thermobeam_study::scene::Scene;
+use thermobeam_study::scene::{Method, Scene};
+
+use super::accuracy::Planned;
 
 /// A line of the summary: name, value, meaning.
 pub(super) type Line = (&'static str, String, String);
+
+/// What is said of a run whose errors are not known.
+pub(super) const UNKNOWN: &str =
+    "Six digits are shown; --estimate-error says how many are right, --format json has all.";
 
 /// What happened, in aligned columns; all quantities are dimensionless but for times on the clock.
 pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, written: &[PathBuf]) -> String {
@@ -20,14 +27,17 @@ pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, writt
     if let Some(planned) = planned {
         section(&mut text, "accuracy", planned.lines());
     }
-    let last = format!("at t = {}", run.last.t);
     section(&mut text, "work", work(scene, run));
-    section(&mut text, &last, state(&run.last, scene.obstacles));
+    section(&mut text, &format!("at t = {}", run.last.t), state(&run.last, scene.obstacles));
     let mut range = range(&run.extremes, scene.obstacles);
     if scene.obstacles.is_some() {
         range.push(("steps in contact", run.contact_steps.to_string(), String::new()));
     }
-    section(&mut text, "over all time levels", range);
+    section(&mut text, "over the whole time", range);
+    let events: Vec<Line> = run.contact.iter().flat_map(|contact| &contact.events).map(event).collect();
+    if !events.is_empty() {
+        section(&mut text, "contact events", events);
+    }
     section(&mut text, "energy", energy(&scene.beam, &run.energy));
     let skipped = left_out(scene, run);
     if !skipped.is_empty() {
@@ -37,8 +47,12 @@ pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, writt
     text
 }
 
+fn event(event: &ContactEvent) -> Line {
+    ("", format!("{:.12}", event.t), format!("{} -> {}", phase_name(event.from), phase_name(event.to)))
+}
+
 /// The files that were written.
-pub(super) fn list(text: &mut String, written: &[PathBuf]) {
+fn list(text: &mut String, written: &[PathBuf]) {
     if !written.is_empty() {
         text.push_str("\nwrote\n");
     }
@@ -47,7 +61,7 @@ pub(super) fn list(text: &mut String, written: &[PathBuf]) {
     }
 }
 
-pub(super) fn section(text: &mut String, title: &str, lines: Vec<Line>) {
+fn section(text: &mut String, title: &str, lines: Vec<Line>) {
     let _ = writeln!(text, "\n{title}");
     for (name, value, meaning) in lines {
         let line = format!("  {name:<18}{value:>20}   {meaning}");
@@ -56,19 +70,21 @@ pub(super) fn section(text: &mut String, title: &str, lines: Vec<Line>) {
 }
 
 fn headline(scene: &Scene, run: &Run) -> String {
-    let mut text = format!(
-        "{}: {}, {} of dt = {:?} to t = {:?}\n{}, {}, tolerance {:?}\n",
-        scene.name,
-        counted(scene.mesh.elements(), "element"),
-        counted(scene.steps(), "step"),
-        scene.dt(),
-        scene.t_end,
-        scene.method.name(),
-        scene.method.solver(),
-        scene.method.tolerance(),
-    );
+    let (elements, t_end) = (counted(scene.mesh.elements(), "element"), scene.t_end);
+    let discretised = match &scene.method {
+        Method::OneStep(by) => {
+            let (steps, solver) = (counted(scene.steps(), "step"), by.settings.solver.name());
+            format!("{elements}, {steps} of dt = {:?} to t = {t_end:?}\n{}, {solver}", by.dt, by.scheme.name)
+        }
+        Method::Dg(by) => {
+            let (p, q) = (scene.degree, by.degree);
+            let steps = format!("steps from {:.3e} to {:?}, to t = {t_end:?}", by.restart_dt, by.dt);
+            format!("{elements} of degree {p}, dG({q}) in time, {steps}\n{}", scene.method.solver())
+        }
+    };
+    let mut text = format!("{}: {discretised}, tolerance {:?}\n", scene.name, scene.method.tolerance());
     if let Some(failure) = &run.failure {
-        let _ = writeln!(text, "\nFAILED after {} of {} steps: {failure}", run.steps, scene.steps());
+        let _ = writeln!(text, "\nFAILED after {}, at t = {}: {failure}", counted(run.steps, "step"), run.last.t);
     }
     text
 }
@@ -76,8 +92,13 @@ fn headline(scene: &Scene, run: &Run) -> String {
 fn work(scene: &Scene, run: &Run) -> Vec<Line> {
     let seconds = run.wall.as_secs_f64();
     let per_step = |count: usize| count as f64 / run.steps as f64;
+    let rate = 1e9 * per_step(1) * seconds / scene.mesh.elements() as f64;
+    let located = run
+        .contact
+        .as_ref()
+        .map_or(String::new(), |contact| format!("{} of them end where contact begins or ends", contact.events.len()));
     let mut lines = vec![
-        ("steps", run.steps.to_string(), String::new()),
+        ("steps", run.steps.to_string(), located),
         (
             "iterations",
             run.iterations.total.to_string(),
@@ -85,25 +106,21 @@ fn work(scene: &Scene, run: &Run) -> Vec<Line> {
         ),
         ("linear solves", run.work.passes.to_string(), String::new()),
         ("factorizations", run.work.factorizations.to_string(), String::new()),
+        ("time loop", format!("{seconds:.3} s"), format!("{rate:.1} ns per element and step, observing left out")),
     ];
-    let rate = 1e9 * per_step(1) * seconds / scene.mesh.elements() as f64;
-    lines.push((
-        "time loop",
-        format!("{seconds:.3} s"),
-        format!("{rate:.1} ns per element and step, observing left out"),
-    ));
     if run.steps == 0 {
         lines.truncate(1);
     }
     lines
 }
 
+/// No more digits than a coarse mesh may have; an error budget has its own.
 fn number(value: f64) -> String {
-    format!("{value:.12e}")
+    format!("{value:.5e}")
 }
 
 /// The free end, and the temperature in the middle, at one time.
-pub(super) fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
+fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
     let mut lines = vec![
         ("u(1)", number(last.u_tip), "displacement of the free end".to_owned()),
         ("phi(1)", number(last.phi_tip), "its rotation".to_owned()),
@@ -123,7 +140,7 @@ pub(super) fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
 }
 
 /// How far the free end went.
-pub(super) fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
+fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
     let [low, high] = match obstacles {
         Some(obstacles) => {
             [format!("lower obstacle at {:?}", obstacles.g1), format!("upper one at {:?}", obstacles.g2)]
@@ -134,7 +151,7 @@ pub(super) fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Li
 }
 
 /// The energy and the defect of its balance.
-pub(super) fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<Line> {
+fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<Line> {
     let mut lines =
         vec![("initial", number(energy.initial), String::new()), ("final", number(energy.last), String::new())];
     if let Some(rest) = energy_at_rest(beam) {

@@ -14,7 +14,7 @@ pub(crate) fn thrown(mesh: &str, time: &str) -> String {
 const CONTRACT: &str = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
     final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
     energy _initial _final _largest_increase _largest_balance_residual \
-    scheme degree time_degree restart_dt growth work _passes _factorizations events __t __from __to";
+    scheme solver heated contact_steps degree time_degree restart_dt growth work _passes _factorizations events __t __from __to";
 
 fn expected(contract: &str) -> Vec<String> {
     contract.split_whitespace().map(|key| key.replace('_', "\0").trim_start_matches('\0').replace('\0', "_")).collect()

@@ -86,7 +86,7 @@ fn a_diverging_iteration_keeps_what_was_done() {
     let out = folder.path("out");
     let text = ended(thermobeam().arg("run").arg(&scene).arg("--out").arg(&out));
     assert_eq!(text.status, Some(1));
-    assert!(text.stdout.contains(&format!("FAILED after {steps} of 100 steps")), "{}", text.stdout);
+    assert!(text.stdout.contains(&format!("FAILED after {steps} steps, at t = ")), "{}", text.stdout);
     let history = std::fs::read_to_string(out.join("history.csv")).expect("a history");
     assert_eq!(history.lines().count() as u64, steps + 2);
 }

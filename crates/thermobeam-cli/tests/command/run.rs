@@ -36,7 +36,7 @@ fn the_keys_and_their_order_are_the_contract() {
     let contract = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
         final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
         energy _initial _final _largest_increase _largest_balance_residual";
-    let added = "scheme solver heated contact_steps work _passes _factorizations";
+    let added = "scheme solver heated contact_steps degree work _passes _factorizations";
     let expected: Vec<String> = [contract, added]
         .iter()
         .flat_map(|keys| keys.split_whitespace())
@@ -51,7 +51,10 @@ fn the_summary_says_what_was_left_out() {
     let cold = folder.file("cold.toml", "[beam]\na = 0\n[initial]\nu_t = \"x\"\n[time]\nt_end = 1\ndt = 0.1");
     let ended = ended(thermobeam().arg("run").arg(cold));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    for piece in ["cold: 100 elements, 10 steps", "nothing heats the beam", "the scene has none", "ns per element"] {
+    let digits = "Six digits are shown; --estimate-error says how many are right, --format json has all.\n";
+    for piece in
+        ["cold: 100 elements, 10 steps", "nothing heats the beam", "the scene has none", "ns per element", digits]
+    {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
     }
 }
@@ -78,7 +81,7 @@ fn the_history_and_the_pictures_of_every_scheme_are_written() {
             let text = std::fs::read_to_string(out.join(&name)).expect("text");
             let is_whole = match name.as_str() {
                 "history.csv" => text.lines().count() == lines,
-                "run.json" => text.starts_with("{\n  \"schema\": 1,\n  \"verdict\": \"pass\",\n"),
+                "run.json" => text.starts_with("{\n  \"schema\": 2,\n  \"verdict\": \"pass\",\n"),
                 _ => text.starts_with("<svg"),
             };
             assert!(is_whole, "{name}");

@@ -5,17 +5,18 @@
 //! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements of degree 1 are those of
 //!   (3.7)-(3.8) and their initial data the same.
 
+use std::ops::ControlFlow;
+
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
-use thermobeam::dg::{self, Field, Simulation, Space};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
 use super::evaluator::distance;
 use crate::kinds::tables::Discretisation;
-use crate::run::any_order;
+use crate::run::motion::{Motion, Report};
 use crate::run::rerun::resampled;
-use crate::run::tally::Sample;
+use crate::run::simulate::{Recording, Simulator};
 use crate::scene::Scene;
 
 /// Elements on which polynomials are kept as linear functions, for one of the finest mesh compared. What they leave out is
@@ -65,16 +66,18 @@ impl Reference {
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
-        let mut observe = |simulation: &Simulation, state: Sample| {
-            levels.push(nodal(simulation.space(), simulation.level(), mesh.nodes()));
-            energies.push(state.energy);
+        let mut observe = |motion: &mut dyn Motion, _: &Report| {
+            let t = motion.t();
+            if times.contains(&t) {
+                levels.push(motion.on(&mesh));
+                energies.push(motion.at(t).energy);
+            }
+            Ok(ControlFlow::Continue(()))
         };
-        let run = any_order::run_at(&how.of(scene, t_end)?, &times, &mut observe, curve, &mut |_| ())?;
-        if let Some(failure) = run.failure {
-            return Err(failure.into());
-        }
-        let tip = run.history.iter().map(|state| (state.t, state.u_tip)).collect();
-        Ok(Self { mesh, levels, energies, tip, tip_range: [run.extremes.u_tip_min, run.extremes.u_tip_max] })
+        let run = Simulator::new(&how.of(scene, t_end)?)?.watched(Recording::Curve(curve), &times, &mut observe);
+        let run = run.finished()?;
+        let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
+        Ok(Self { tip: run.tip(), mesh, levels, energies, tip_range })
     }
 
     /// The largest distance of two references at their times, in the norm of Theorem 3.4; NaN where they cannot be compared.
@@ -85,18 +88,5 @@ impl Reference {
         let lengths: Vec<f64> = self.mesh.lengths().collect();
         let pairs = self.levels.iter().zip(&other.levels);
         pairs.map(|(one, other)| distance(&lengths, one, other)).fold(0.0, max_or_nan)
-    }
-}
-
-/// A level of any order by its values at the nodes; without contact force.
-pub(crate) fn nodal(space: &Space, level: &dg::Level, nodes: &[f64]) -> Level {
-    let at = |field| nodes.iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
-    Level {
-        u: at(Field::U),
-        v: at(Field::V),
-        phi: at(Field::Phi),
-        w: at(Field::W),
-        theta: at(Field::Theta),
-        contact_force: 0.0,
     }
 }

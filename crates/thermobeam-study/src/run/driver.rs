@@ -1,16 +1,20 @@
-//! The one driver that steps a simulation: time limit, loads, step, levels shown to an observer.
+//! A simulation by a one-step scheme under way: time limit, loads, step, levels shown to an observer.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::{Patience, TimeUp};
+use thermobeam::dg;
+use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
-use thermobeam::mesh::MeshError;
+use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 use thiserror::Error;
 
-use super::tally::{EnergyLaw, Unsound};
+use super::motion::{Motion, Report};
+use super::simulate::Sampler;
+use super::tally::{EnergySummary, Sample, Solves, Unsound};
 
 /// Why a problem was not stepped to its end.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -18,13 +22,16 @@ pub enum RunError {
     /// The solver refuses the problem.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// The same of dG.
+    #[error(transparent)]
+    DgSetup(#[from] dg::SetupError),
     /// A step failed.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// The time limit of the case was reached.
+    /// The same of dG.
     #[error(transparent)]
-    TimeUp(#[from] TimeUp),
-    /// A step raised the energy far beyond what rounding and tolerance explain, or it is not finite.
+    DgStep(#[from] dg::StepError),
+    /// A step raised the energy, broke its balance, or led to a state that is not finite.
     #[error("step {step} (from t = {t}, length {dt:e}): {unsound}")]
     Unsound {
         /// Number of the step, counted from 1.
@@ -36,6 +43,16 @@ pub enum RunError {
         /// What it did.
         unsound: Unsound,
     },
+    /// The time limit of the case was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
+}
+
+impl RunError {
+    /// Of step number `step`, which ended at `t`.
+    pub(super) fn unsound(step: usize, t: f64, dt: f64, unsound: Unsound) -> Self {
+        Self::Unsound { step, t: t - dt, dt, unsound }
+    }
 }
 
 impl From<MeshError> for RunError {
@@ -56,11 +73,17 @@ pub(crate) struct Step<'s> {
     pub(crate) simulation: &'s Simulation,
 }
 
+/// Every so many steps of [`Driver::run`], and where u(1) is not finite, the energy must be finite and no larger than at its start.
+const CHECKED: usize = 64;
+
 /// A simulation under way.
 pub(crate) struct Driver {
     simulation: Simulation,
+    /// The level before the last step that was shown.
     old: Level,
+    /// The last level that was shown.
     new: Level,
+    sampler: Sampler,
     patience: Patience,
     wall: Duration,
     is_timed: bool,
@@ -75,7 +98,8 @@ impl Driver {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
-        Ok(Self { simulation, old, new, patience, wall: Duration::ZERO, is_timed: false })
+        let sampler = Sampler::new(&simulation.problem().mesh);
+        Ok(Self { simulation, old, new, sampler, patience, wall: Duration::ZERO, is_timed: false })
     }
 
     /// Reads the clock before and after each step, which takes some 50 ns.
@@ -90,14 +114,14 @@ impl Driver {
 
     /// The present level.
     pub(crate) fn level(&mut self) -> &Level {
-        self.simulation.observe(&mut self.old);
-        &self.old
+        self.simulation.observe(&mut self.new);
+        &self.new
     }
 
     /// The simulation and its present level.
     pub(crate) fn present(&mut self) -> (&Simulation, &Level) {
-        self.simulation.observe(&mut self.old);
-        (&self.simulation, &self.old)
+        self.simulation.observe(&mut self.new);
+        (&self.simulation, &self.new)
     }
 
     /// Time that the solver has taken, if [`Driver::timed`].
@@ -124,8 +148,8 @@ impl Driver {
         Ok(outcome?)
     }
 
-    /// Does up to `steps` steps without loads and shows each to `observe`, which may end the run. It also ends at the step that raises
-    /// the energy, or makes it infinite or NaN: no exactly solved step does.
+    /// Does up to `steps` steps without loads and shows each to `observe`, which may end the run. An energy that has risen ends it,
+    /// within [`CHECKED`] steps, and so does one that is infinite or NaN: no exactly solved step raises it.
     ///
     /// * Returns what `observe` broke off with; `None` after all steps.
     ///
@@ -136,23 +160,146 @@ impl Driver {
         steps: usize,
         mut observe: impl FnMut(Step<'_>) -> ControlFlow<B>,
     ) -> Result<Option<B>, RunError> {
-        let (simulation, level) = self.present();
-        let mut law = EnergyLaw::new(simulation.energy(level).total());
+        let initial = self.simulation.energy(&self.new).total();
         for _ in 0..steps {
-            let report = self.advance(|_, _| ())?;
-            self.simulation.observe(&mut self.new);
-            let sound = law.step(self.simulation.energy_change(&self.old, &self.new), 0.0);
-            let step = Step { report, old: &self.old, new: &self.new, simulation: &self.simulation };
-            let flow = observe(step);
-            std::mem::swap(&mut self.old, &mut self.new);
-            if let Err(unsound) = sound {
-                let (step, dt) = (self.simulation.step(), self.simulation.dt());
-                return Err(RunError::Unsound { step, t: self.simulation.t() - dt, dt, unsound });
+            let report = self.shown()?;
+            let u_tip = self.new.u[self.new.u.len() - 1];
+            if !u_tip.is_finite() || self.simulation.step().is_multiple_of(CHECKED) {
+                self.check(initial)?;
             }
-            if let ControlFlow::Break(found) = flow {
+            let step = Step { report, old: &self.old, new: &self.new, simulation: &self.simulation };
+            if let ControlFlow::Break(found) = observe(step) {
                 return Ok(Some(found));
             }
         }
         Ok(None)
+    }
+
+    /// Refuses an energy that is not finite, or larger than it was.
+    fn check(&self, initial: f64) -> Result<(), RunError> {
+        let last = self.simulation.energy(&self.new).total();
+        let energy = EnergySummary { initial, last, largest_increase: last - initial, largest_balance_residual: 0.0 };
+        let (step, t, dt) = (self.simulation.step(), self.simulation.t(), self.simulation.dt());
+        energy.sound().map_err(|unsound| RunError::unsound(step, t, dt, unsound))
+    }
+
+    /// Does a step without loads, and reads the level at its end.
+    fn shown(&mut self) -> Result<StepReport, RunError> {
+        let report = self.advance(|_, _| ())?;
+        std::mem::swap(&mut self.old, &mut self.new);
+        self.simulation.observe(&mut self.new);
+        Ok(report)
+    }
+
+    /// Every so many steps there is a row of a history, or a frame.
+    fn stride(&self, t_end: f64, count: usize) -> usize {
+        let steps = (t_end / self.simulation.dt()).round() as usize;
+        steps.div_ceil(count).max(1)
+    }
+}
+
+/// Rows of a history at most: every step up to that many, beyond it every second, third, ... step.
+pub(crate) const MOST_ROWS: usize = 200_000;
+
+/// Nodes of a frame at most: twice the rows of a picture over space and time.
+const MOST_POINTS: usize = 281;
+
+/// At most [`MOST_POINTS`] of the values at the nodes, both ends among them.
+fn thinned(values: &[f64]) -> Vec<f64> {
+    let last = values.len() - 1;
+    let intervals = last.min(MOST_POINTS - 1);
+    (0..=intervals).map(|k| values[k * last / intervals]).collect()
+}
+
+impl Motion for Driver {
+    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
+        let dt = self.simulation.dt();
+        if !(self.simulation.t() + 0.5 * dt < until) {
+            return Ok(None);
+        }
+        let StepReport { iterations, .. } = self.shown()?;
+        Ok(Some(Report { dt, iterations, in_contact: self.new.contact_force != 0.0 }))
+    }
+
+    fn t(&self) -> f64 {
+        self.simulation.t()
+    }
+
+    fn steps(&self) -> usize {
+        self.simulation.step()
+    }
+
+    fn at(&mut self, _: f64) -> Sample {
+        self.sampler.sample(&self.simulation, &self.new)
+    }
+
+    fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64)) {
+        if self.simulation.step().is_multiple_of(self.stride(t_end, count)) {
+            show(self.simulation.t());
+        }
+    }
+
+    fn rows(&self) -> usize {
+        MOST_ROWS
+    }
+
+    fn points(&self) -> Vec<f64> {
+        thinned(self.simulation.problem().mesh.nodes())
+    }
+
+    fn shape(&self, _: f64) -> Vec<f64> {
+        thinned(&self.new.u)
+    }
+
+    fn on(&self, mesh: &Mesh) -> Level {
+        let nodes = self.simulation.problem().mesh.nodes();
+        let at = |y: &[f64]| {
+            let value = |&x: &f64| {
+                let i = nodes.partition_point(|&node| node <= x).clamp(1, nodes.len() - 1) - 1;
+                let s = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+                (1.0 - s) * y[i] + s * y[i + 1]
+            };
+            mesh.nodes().iter().map(value).collect()
+        };
+        let Level { u, v, phi, w, theta, .. } = &self.new;
+        Level { u: at(u), v: at(v), phi: at(phi), w: at(w), theta: at(theta), contact_force: 0.0 }
+    }
+
+    fn extremes(&self) -> [f64; 2] {
+        [self.new.u[self.new.u.len() - 1]; 2]
+    }
+
+    fn balance(&self) -> Balance {
+        self.simulation.balance(&self.old, &self.new)
+    }
+
+    fn solves(&self) -> Solves {
+        self.simulation.work().into()
+    }
+
+    fn wall(&self) -> Duration {
+        self.wall
+    }
+
+    fn is_heated(&self) -> bool {
+        self.simulation.is_heated()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::simulate::driver;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_run_without_an_end_ends_soon_after_the_energy_has_risen() {
+        // Steps that are not solved.
+        let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
+                    t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n";
+        let mut driver = driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");
+        let ended = driver.run(usize::MAX, |_| ControlFlow::<()>::Continue(()));
+        let Err(RunError::Unsound { step, t, dt, .. }) = ended else { panic!("{ended:?}") };
+        assert!(step <= 2 * CHECKED && (t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
     }
 }

@@ -1,10 +1,13 @@
-//! Scenes and problems, stepped: one driver, and what is recorded, repeated or run side by side with it.
+//! Scenes and problems, stepped: whatever moves, what looks at it, and what is recorded, repeated or run side by side.
 
-pub mod any_order;
 pub mod driver;
 pub(crate) mod ensemble;
 pub mod family;
+pub mod history;
+pub mod motion;
+pub mod object;
 pub(crate) mod rerun;
 pub mod simulate;
 pub mod step_time;
 pub mod tally;
+pub mod together;

@@ -1,54 +1,47 @@
-//! A scene, run from its initial state to its end.
+//! A scene, run from its initial state to its end, by whatever method.
 //!
-//! Every step is observed: the energy's balance, its change and the extremes are over all time levels, not over those
-//! that a report happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone;
-//! reading the clock twice a step costs some 50 ns of it.
+//! Every step is observed: the energy's balance, its change and the extremes are over the whole time, not over what a report
+//! happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone; reading the clock twice a
+//! step costs some 50 ns of it.
 //!
-//! A step that cannot be done ends the run, and so does a [limit on its time](convergence_study::run::time_limit). What was computed up to
-//! there is kept: [`Run::failure`] says why it ended.
+//! A step that cannot be done ends the run, and so do a step that breaks the law of the energy and a
+//! [limit on its time](convergence_study::run::time_limit). What was computed up to there is kept: [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
 //! use thermobeam_study::run::simulate::{Recording, Simulator};
 //!
-//! let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0";
-//! let scene = Scene::parse(text, "swing.toml")?;
-//! let run = Simulator::new(&scene)?.run(Recording::Summary, &mut |_| ());
-//! assert_eq!((run.steps, run.failure), (100, None));
-//! assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-12);
+//! let initial = "[initial]\nu_t = \"x\"\n[time]\nt_end = 1.0\n";
+//! for method in ["dt = 0.01", "scheme = \"dg\""] {
+//!     let scene = Scene::parse(&format!("{initial}{method}"), "swing.toml")?;
+//!     let run = Simulator::new(&scene)?.run(Recording::Summary, &mut |_, _| ());
+//!     assert_eq!((run.last.t, run.failure), (1.0, None));
+//!     assert!(run.energy.largest_increase < 0.0 && run.energy.largest_balance_residual < 1e-12);
+//! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-
-mod figures;
-mod history;
-mod object;
-mod together;
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use thermobeam::energy::Balance;
+use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{self, Problem, Simulation};
-use thermobeam::solve::{Level, StepReport, Work};
+use thermobeam::solve::Level;
 
-use super::tally::Tally;
+use super::driver::{Driver, RunError};
+use super::history::RunHistory;
+use super::motion::{Motion, Report, Watch, motion, run};
+use super::tally::{EnergySummary, Extremes, Iterations, Sample, Solves, Tally};
 use crate::expression::Expression;
-use crate::run::driver::{Driver, RunError, Step};
+use crate::figures::SceneMotion;
 use crate::scene::Scene;
-
-pub use super::tally::{EnergySummary, Extremes, Iterations, Sample};
-pub use figures::figures;
-pub use history::{Dissipation, Frames, MOST_ROWS, Row, RunHistory};
-pub(super) use object::Counts;
-pub use object::Object;
-pub use together::{Together, run_together};
 
 /// Where x = 1/2 lies in a mesh.
 #[derive(Debug, Clone, Copy)]
-struct Middle {
+pub(super) struct Middle {
     /// The node left of it, or at it.
     node: usize,
     /// How far on the way to the next node.
@@ -56,7 +49,7 @@ struct Middle {
 }
 
 impl Middle {
-    fn of(mesh: &Mesh) -> Self {
+    pub(super) fn of(mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
         // The first node is 0 and the last 1, so that there is always one on either side.
         let node = nodes.partition_point(|&x| x <= 0.5) - 1;
@@ -74,6 +67,8 @@ pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
+    /// So many rows at equal distances of time, without pictures; of a one-step scheme at most so many, at its levels.
+    Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
@@ -93,18 +88,123 @@ pub struct Run {
     pub last: Sample,
     /// The free end's range.
     pub extremes: Extremes,
-    /// Steps that ended with a contact force.
+    /// Steps in contact, see [`Report::in_contact`].
     pub contact_steps: usize,
     /// The energy.
     pub energy: EnergySummary,
     /// Counts of the solver's work.
-    pub work: Work,
+    pub work: Solves,
     /// Whether the temperature was computed: it is left out where nothing heats the beam.
     pub is_heated: bool,
+    /// Where contact began and ended, of a method that locates it.
+    pub contact: Option<Contact>,
     /// Why the run ended early, if it did.
     pub failure: Option<RunError>,
     /// History and frames, if they were asked for.
     pub history: Option<RunHistory>,
+}
+
+/// Contact, located to round-off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// What the free end touched at the start.
+    pub started_in: Phase,
+    /// Where contact began and ended.
+    pub events: Vec<ContactEvent>,
+}
+
+impl Run {
+    /// The sums of the steps from `first` to `last`, and what is known of the motion.
+    pub(super) fn of(
+        tally: &Tally,
+        [first, last]: [Sample; 2],
+        steps: usize,
+        wall: Duration,
+        work: Solves,
+        is_heated: bool,
+    ) -> Self {
+        Self {
+            steps,
+            iterations: tally.iterations,
+            wall,
+            first,
+            last,
+            extremes: tally.extremes,
+            contact_steps: tally.contact_steps,
+            energy: tally.energy(last.energy),
+            work,
+            is_heated,
+            contact: None,
+            failure: None,
+            history: None,
+        }
+    }
+
+    /// Why the numbers of the run cannot be used, in words.
+    pub fn complaint(&self) -> Option<String> {
+        self.failure.as_ref().map(ToString::to_string)
+    }
+
+    /// The run, if it came to its end.
+    ///
+    /// # Errors
+    /// [`RunError`] that ended it.
+    pub fn finished(self) -> Result<Self, RunError> {
+        match self.failure {
+            Some(failure) => Err(failure),
+            None => Ok(self),
+        }
+    }
+
+    /// (t, u(1, t)) of the history.
+    pub fn tip(&self) -> Vec<(f64, f64)> {
+        self.history.as_ref().map_or(vec![], RunHistory::tip)
+    }
+
+    /// Intervals of time in contact: as located, or from the rows of the history.
+    pub fn contact_phases(&self) -> Vec<(f64, f64)> {
+        match (&self.contact, &self.history) {
+            (Some(contact), _) => contact.phases(self.first.t, self.last.t),
+            (None, Some(history)) => history.contact_phases(),
+            (None, None) => vec![],
+        }
+    }
+
+    /// Names of files and their SVG documents; none where no frames were kept.
+    pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
+        let Some(history) = self.history.as_ref().filter(|history| !history.frames.times.is_empty()) else {
+            return vec![];
+        };
+        let motion = SceneMotion {
+            name: &scene.name,
+            beam: &scene.beam,
+            obstacles: scene.obstacles,
+            u_tip: history.tip(),
+            phi_tip: history.over_time(|sample| sample.phi_tip),
+            energy: history.over_time(|sample| sample.energy),
+            contact: self.contact_phases(),
+            times: &history.frames.times,
+            points: &history.frames.points,
+            frames: &history.frames.u,
+        };
+        motion.pictures()
+    }
+}
+
+impl Contact {
+    /// Intervals of time in contact, between the start and the end of a run.
+    fn phases(&self, start: f64, end: f64) -> Vec<(f64, f64)> {
+        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
+        for event in &self.events {
+            if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
+                phase.1 = event.t;
+            }
+            if event.to != Phase::Free {
+                phases.push((event.t, end));
+            }
+        }
+        phases
+    }
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -151,58 +251,57 @@ pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
 
 /// A scene, ready to run.
 pub struct Simulator {
-    driver: Driver,
-    sampler: Sampler,
-    steps: usize,
+    motion: Box<dyn Motion>,
+    t_end: f64,
 }
 
 impl Simulator {
     /// Sets the scene up at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] where the solver cannot work with the scene's numbers.
-    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let driver = driver(scene)?.timed();
-        let sampler = Sampler::new(&scene.mesh);
-        Ok(Self { driver, sampler, steps: scene.steps() })
+    /// [`RunError`] where the solver cannot work with the scene's numbers.
+    pub fn new(scene: &Scene) -> Result<Self, RunError> {
+        Ok(Self { motion: motion(scene)?, t_end: scene.t_end })
     }
 
-    /// Steps to the end; `progress` hears the number of steps done after each of them.
-    pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize)) -> Run {
-        let Self { mut driver, sampler, steps } = self;
-        let start = driver.level().clone();
-        // No step has led to the start, so that its contact force is that of the law.
-        let obstacles = driver.simulation().problem().obstacles;
-        let first = sampler.sample(driver.simulation(), &start).at_the_start(obstacles);
-        let nodes = driver.simulation().problem().mesh.nodes();
-        let mut history = (recording == Recording::History).then(|| RunHistory::new(nodes, steps, first, &start.u));
-        let mut sums = Sums::new(first.u_tip);
-        let ended = driver.run(steps, |step| {
-            let Step { report, old, new, simulation } = step;
-            let balance = simulation.balance(old, new);
-            sums.add(&report, &balance, new.u[new.u.len() - 1], new.contact_force);
-            if let Some(history) = &mut history {
-                history.add(simulation.step(), &balance, &new.u, || sampler.sample(simulation, new));
-            }
-            progress(simulation.step());
-            ControlFlow::<()>::Continue(())
-        });
-        let end = driver.level().clone();
-        let simulation = driver.simulation();
-        let last = if simulation.step() == 0 { first } else { sampler.sample(simulation, &end) };
+    /// Steps to the end; `progress` hears the number of steps done and the time after each of them.
+    pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
+        let mut told = |motion: &mut dyn Motion, _: &Report| {
+            progress(motion.steps(), motion.t());
+            Ok(ControlFlow::Continue(()))
+        };
+        self.watched(recording, &[], &mut told)
+    }
+
+    /// The same with a further watch; a step ends at each of the times `ends`, see [`run`].
+    pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
+        let Self { mut motion, t_end } = self;
+        let first = motion.at(0.0);
+        let mut tally = Tally::new(&first);
+        let mut history = match recording {
+            Recording::Summary => None,
+            Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),
+            Recording::History => Some(RunHistory::new(&*motion, t_end, None, first)),
+        };
+        let started_in = motion.contact().map(|(phase, _)| phase);
+        let failure = match &mut history {
+            Some(history) => run(&mut *motion, t_end, ends, &mut [history, &mut tally, watch]),
+            None => run(&mut *motion, t_end, ends, &mut [&mut tally, watch]),
+        }
+        .err();
+        let t = motion.t();
+        let last = motion.at(t);
         if let Some(history) = &mut history {
-            history.finish(last, &end.u);
+            history.finish(&*motion, last);
         }
-        let (work, is_heated) = (simulation.work(), simulation.is_heated());
-        Run {
-            failure: ended.err(),
-            history,
-            ..sums.run(simulation.step(), [first, last], driver.wall(), work, is_heated)
-        }
+        let events = motion.contact().map_or(vec![], |(_, events)| events.to_vec());
+        let contact = started_in.map(|started_in| Contact { started_in, events });
+        let run = Run::of(&tally, [first, last], motion.steps(), motion.wall(), motion.solves(), motion.is_heated());
+        Run { contact, failure, history, ..run }
     }
 }
 
-/// Reads samples off the levels of a simulation.
+/// Reads samples off the levels of a simulation by a one-step scheme.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sampler {
     middle: Middle,
@@ -214,13 +313,16 @@ impl Sampler {
     }
 
     pub(crate) fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
-        let theta_a = simulation.problem().beam.theta_a;
-        Sample::of(level, simulation.t(), self.middle, theta_a, simulation.energy(level).total())
+        let Problem { beam, obstacles, .. } = simulation.problem();
+        let energy = simulation.energy(level).total();
+        let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
+        // No step has led to the start, so that its contact force is that of the law.
+        if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
 }
 
 impl Sample {
-    fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
+    pub(super) fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
         Self {
             t,
@@ -237,45 +339,9 @@ impl Sample {
     }
 
     /// The same with the contact force of the law.
-    fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
+    pub(super) fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
         let contact_force = obstacles.map_or(0.0, |obstacles| obstacles.force(self.u_tip) + 0.0);
         Self { contact_force, ..self }
-    }
-}
-
-/// What is summed up over the steps of a one-step scheme.
-struct Sums {
-    tally: Tally,
-    contact_steps: usize,
-}
-
-impl Sums {
-    fn new(u_tip: f64) -> Self {
-        Self { tally: Tally::new(u_tip), contact_steps: 0 }
-    }
-
-    fn add(&mut self, report: &StepReport, balance: &Balance, u_tip: f64, contact_force: f64) {
-        self.tally.add(report.iterations, balance.change, balance.residual);
-        self.tally.include(u_tip);
-        self.contact_steps += usize::from(contact_force != 0.0);
-    }
-
-    /// The run that they are of, without failure and history.
-    fn run(self, steps: usize, [first, last]: [Sample; 2], wall: Duration, work: Work, is_heated: bool) -> Run {
-        Run {
-            steps,
-            iterations: self.tally.iterations,
-            wall,
-            first,
-            last,
-            extremes: self.tally.extremes,
-            contact_steps: self.contact_steps,
-            energy: self.tally.energy(first.energy, last.energy),
-            work,
-            is_heated,
-            failure: None,
-            history: None,
-        }
     }
 }
 

@@ -1,10 +1,14 @@
 //! What is observed of a run at one time, and summed up over its steps, by whatever scheme.
 
-use std::fmt::Display;
+use std::ops::ControlFlow;
 
 use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
+use thermobeam::energy::Balance;
 use thiserror::Error;
+
+use super::driver::RunError;
+use super::motion::{Motion, Report, Watch};
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -35,6 +39,21 @@ pub struct Iterations {
     pub total: usize,
     /// Those of the step that took most.
     pub max: usize,
+}
+
+/// Counts of the solver's work, of whatever method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Solves {
+    /// Solves of a step's linear system.
+    pub passes: usize,
+    /// Factorisations of it.
+    pub factorizations: usize,
+}
+
+impl From<thermobeam::solve::Work> for Solves {
+    fn from(work: thermobeam::solve::Work) -> Self {
+        Self { passes: work.passes, factorizations: work.factorizations }
+    }
 }
 
 /// The free end's range over all times looked at, the start included.
@@ -85,94 +104,84 @@ const EXPECTED: &str =
     "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
 impl EnergySummary {
-    /// Whether the energy is finite, and has not risen or broken its balance far beyond what rounding and tolerance explain.
-    /// Without a step only the energy counts.
+    /// Whether the energy is finite, rose, or has its balance violated, far beyond what rounding and tolerance explain.
     ///
     /// # Errors
     /// [`Unsound`], with the number.
-    pub fn sound(&self, steps: usize) -> Result<(), Unsound> {
+    pub fn sound(&self) -> Result<(), Unsound> {
         let most = UNEXPLAINED * self.initial.abs().max(self.last.abs()).max(1.0);
         match (self.largest_increase, self.largest_balance_residual) {
             _ if !self.initial.is_finite() => Err(Unsound::NotFinite(self.initial)),
             _ if !self.last.is_finite() => Err(Unsound::NotFinite(self.last)),
-            _ if steps == 0 => Ok(()),
             (rise, _) if !(rise <= most) => Err(Unsound::Rise(rise)),
             (_, residual) if !(residual <= most) => Err(Unsound::Imbalance(residual)),
             _ => Ok(()),
         }
     }
-
-    /// Why the numbers of a run cannot be used, in words: it failed, or they mean nothing.
-    pub fn complaint(&self, steps: usize, failure: Option<&impl Display>) -> Option<String> {
-        let unsound = || self.sound(steps).err().map(|unsound| unsound.to_string());
-        failure.map(ToString::to_string).or_else(unsound)
-    }
-}
-
-/// The energy of a motion without loads, step by step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct EnergyLaw {
-    initial: f64,
-    /// The energy now: that at the start and its changes.
-    last: f64,
-}
-
-impl EnergyLaw {
-    pub(crate) fn new(initial: f64) -> Self {
-        Self { initial, last: initial }
-    }
-
-    /// A step that changes the energy, and leaves a residual in its balance.
-    ///
-    /// # Errors
-    /// [`Unsound`] by the bound of [`EnergySummary::sound`].
-    pub(crate) fn step(&mut self, change: f64, residual: f64) -> Result<(), Unsound> {
-        self.last += change;
-        let Self { initial, last } = *self;
-        EnergySummary { initial, last, largest_increase: change, largest_balance_residual: residual.abs() }.sound(1)
-    }
 }
 
 /// The sums of the steps done so far.
+#[derive(Debug, Clone)]
 pub(super) struct Tally {
     pub(super) iterations: Iterations,
     pub(super) extremes: Extremes,
+    pub(super) contact_steps: usize,
+    initial: f64,
+    /// The energy now: that at the start and its changes.
+    now: f64,
     largest_increase: Option<f64>,
     largest_residual: f64,
 }
 
 impl Tally {
-    pub(super) fn new(u_tip: f64) -> Self {
+    pub(super) fn new(start: &Sample) -> Self {
         Self {
             iterations: Iterations::default(),
-            extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
+            extremes: Extremes { u_tip_min: start.u_tip, u_tip_max: start.u_tip },
+            contact_steps: 0,
+            initial: start.energy,
+            now: start.energy,
             largest_increase: None,
             largest_residual: 0.0,
         }
     }
 
-    /// A step: its iterations, the change of the energy, and the residual of its balance.
-    pub(super) fn add(&mut self, iterations: usize, change: f64, residual: f64) {
-        self.iterations.total += iterations;
-        self.iterations.max = self.iterations.max.max(iterations);
+    /// A step: what it took, its balance, and the range of u(1).
+    ///
+    /// # Errors
+    /// [`Unsound`] where it raised the energy, broke its balance, or left it infinite or NaN.
+    pub(super) fn add(&mut self, report: &Report, balance: &Balance, [low, high]: [f64; 2]) -> Result<(), Unsound> {
+        self.iterations.total += report.iterations;
+        self.iterations.max = self.iterations.max.max(report.iterations);
+        self.contact_steps += usize::from(report.in_contact);
+        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
+        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -low);
         // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
+        let (change, residual) = (balance.change, balance.residual.abs());
         self.largest_increase = Some(self.largest_increase.map_or(change, |most| max_or_nan(most, change)));
-        self.largest_residual = max_or_nan(self.largest_residual, residual.abs());
+        self.largest_residual = max_or_nan(self.largest_residual, residual);
+        self.now += change;
+        let step =
+            EnergySummary { largest_increase: change, largest_balance_residual: residual, ..self.energy(self.now) };
+        step.sound()
     }
 
-    /// A position of the free end.
-    pub(super) fn include(&mut self, u_tip: f64) {
-        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, u_tip);
-        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -u_tip);
-    }
-
-    pub(super) fn energy(&self, initial: f64, last: f64) -> EnergySummary {
+    pub(super) fn energy(&self, last: f64) -> EnergySummary {
         EnergySummary {
-            initial,
+            initial: self.initial,
             last,
             largest_increase: self.largest_increase.unwrap_or(f64::NAN),
             largest_balance_residual: self.largest_residual,
         }
+    }
+}
+
+impl Watch for Tally {
+    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
+        let (balance, extremes) = (motion.balance(), motion.extremes());
+        let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);
+        self.add(report, &balance, extremes).map_err(unsound)?;
+        Ok(ControlFlow::Continue(()))
     }
 }
 
@@ -181,30 +190,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_nan() {
-        let sound = |initial, largest_increase, largest_balance_residual, steps| {
-            EnergySummary { initial, last: 0.0, largest_increase, largest_balance_residual }.sound(steps)
+    fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_what_is_not_finite() {
+        let sound = |initial, last, largest_increase, largest_balance_residual| {
+            EnergySummary { initial, last, largest_increase, largest_balance_residual }.sound()
         };
         for rise in [-1.0, 0.0, 1e-12, 9e-4] {
-            assert_eq!(sound(0.5, rise, 9e-4, 1), Ok(()), "{rise}");
+            assert_eq!(sound(0.5, 0.0, rise, 9e-4), Ok(()), "{rise}");
         }
-        assert_eq!(sound(0.5, 2e-3, 0.0, 1), Err(Unsound::Rise(2e-3)));
-        assert_eq!(sound(100.0, 2e-3, 2e-3, 1), Ok(()));
-        assert_eq!(sound(0.5, 1e264, 0.0, 7), Err(Unsound::Rise(1e264)));
-        assert_eq!(sound(0.5, -1.0, 2e-3, 1), Err(Unsound::Imbalance(2e-3)));
-        assert!(matches!(sound(0.5, f64::NAN, 0.0, 1), Err(Unsound::Rise(rise)) if rise.is_nan()));
-        assert!(matches!(sound(0.5, 0.0, f64::NAN, 1), Err(Unsound::Imbalance(residual)) if residual.is_nan()));
-        assert_eq!(sound(0.5, f64::NAN, 0.0, 0), Ok(()), "no step was done");
-        let ends_at = |last, residual| {
-            EnergySummary { initial: 1.0, last, largest_increase: -1.0, largest_balance_residual: residual }.sound(1)
-        };
-        assert_eq!(ends_at(-1e21, 1e6), Ok(()));
-        assert_eq!(ends_at(1.0, 1e6), Err(Unsound::Imbalance(1e6)));
-        // An infinite energy would allow any rise.
-        for energy in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-            assert!(matches!(ends_at(energy, 0.0), Err(Unsound::NotFinite(_))), "{energy}");
-            assert!(matches!(sound(energy, -1.0, 0.0, 1), Err(Unsound::NotFinite(_))), "{energy}");
-            assert!(matches!(sound(energy, f64::NAN, 0.0, 0), Err(Unsound::NotFinite(_))), "{energy}");
+        assert_eq!(sound(0.5, 0.0, 2e-3, 0.0), Err(Unsound::Rise(2e-3)));
+        assert_eq!(sound(100.0, 0.0, 2e-3, 2e-3), Ok(()));
+        assert_eq!(sound(0.5, 0.0, 1e264, 0.0), Err(Unsound::Rise(1e264)));
+        assert_eq!(sound(0.5, 0.0, -1.0, 2e-3), Err(Unsound::Imbalance(2e-3)));
+        assert!(matches!(sound(0.5, 0.0, f64::NAN, 0.0), Err(Unsound::Rise(rise)) if rise.is_nan()));
+        assert!(matches!(sound(0.5, 0.0, 0.0, f64::NAN), Err(Unsound::Imbalance(residual)) if residual.is_nan()));
+        assert_eq!(sound(1.0, -1e21, -1.0, 1e6), Ok(()));
+        assert_eq!(sound(1.0, 1.0, -1.0, 1e6), Err(Unsound::Imbalance(1e6)));
+        for last in [f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(sound(1.0, last, -1.0, 0.0), Err(Unsound::NotFinite(last)));
+            assert_eq!(sound(last, 1.0, -1.0, 0.0), Err(Unsound::NotFinite(last)));
         }
+        assert!(matches!(sound(1.0, f64::NAN, -1.0, 0.0), Err(Unsound::NotFinite(_))));
     }
 }

@@ -10,9 +10,10 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::Serialize;
 
 use super::{Sweep, SweepCase, lines};
-use crate::run::any_order::{self, AnyOrderObject};
-use crate::run::simulate::{Object, Recording, Run, Simulator, Together, run_together};
-use crate::scene::{Method, Scene};
+use crate::run::object::Object;
+use crate::run::simulate::{Recording, Run, Simulator};
+use crate::run::together::{Together, run_together};
+use crate::scene::Scene;
 use convergence_study::run::time_limit;
 
 /// Cases that run side by side: one group of lanes.
@@ -40,15 +41,7 @@ struct Content<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    result: Option<Found<'a>>,
-}
-
-/// What a scene's scheme has to say about a run.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Found<'a> {
-    OneStep(Object<'a>),
-    AnyOrder(AnyOrderObject<'a>),
+    result: Option<Object<'a>>,
 }
 
 impl Line {
@@ -91,49 +84,31 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
 }
 
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
-    match scene.method {
-        Method::OneStep(_) => one_step(sweep, index, scene),
-        Method::Dg(_) => any_order(sweep, index, scene),
-    }
-}
-
-fn one_step(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     match Simulator::new(scene) {
-        Ok(simulator) => line(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_| ())),
+        Ok(simulator) => line(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_, _| ())),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     }
-}
-
-fn any_order(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
-    match any_order::run(scene, 0, &mut |_| ()) {
-        Ok(run) => ended(sweep, index, run.complaint(), Found::AnyOrder(AnyOrderObject::reproducible(scene, &run))),
-        Err(error) => Line::failed(&sweep.case(index), error.to_string()),
-    }
-}
-
-fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
-    let reason = run.energy.complaint(run.steps, run.failure.as_ref());
-    ended(sweep, index, reason, Found::OneStep(Object::reproducible(scene, run)))
 }
 
 /// The line of a run, or of the part of it that was done.
-fn ended(sweep: &Sweep, index: usize, reason: Option<String>, found: Found<'_>) -> Line {
-    let case = sweep.case(index);
+fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
+    let (case, reason) = (sweep.case(index), run.complaint());
     let status = if reason.is_none() { "done" } else { "failed" };
-    Line::of(&Content { case: index, status, parameters: &case, reason, result: Some(found) })
+    let result = Some(Object::reproducible(scene, run));
+    Line::of(&Content { case: index, status, parameters: &case, reason, result })
 }
 
-/// Cases that run side by side: at most [`LANES`], and their scenes agree.
+/// Cases that run side by side: at most [`LANES`], and their scenes agree; or one that runs alone.
 #[derive(Default)]
 struct Group {
     together: Option<Together>,
     indices: Vec<usize>,
     scenes: Vec<Scene>,
-    /// A scene of any order, or the line of a case without a scene.
-    alone: Option<Result<Scene, Line>>,
+    /// The line of a case without a scene.
+    failed: Option<Line>,
 }
 
-/// Groups cases; a scene of any order forms a group of its own, and so does a case without a scene.
+/// Groups cases; a scene that can only run alone forms a group of its own, and so does a case without a scene.
 fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for &index in indices {
@@ -149,9 +124,8 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
         };
         group.indices.push(index);
         match read {
-            Ok(scene) if scene.one_step().is_ok() => group.scenes.push(scene),
-            Ok(scene) => group.alone = Some(Ok(scene)),
-            Err(line) => group.alone = Some(Err(line)),
+            Ok(scene) => group.scenes.push(scene),
+            Err(line) => group.failed = Some(line),
         }
     }
     groups
@@ -159,13 +133,9 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
 
 /// The lines of a group: its cases side by side, or one after the other where that fails.
 fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
-    let Group { indices, scenes, alone, .. } = group;
-    let guarded =
-        |index: usize, compute: &dyn Fn() -> Line| caught(compute).unwrap_or_else(|| Line::panicked(sweep, index));
-    match alone {
-        Some(Err(line)) => return sink(line.clone()),
-        Some(Ok(scene)) => return sink(guarded(indices[0], &|| any_order(sweep, indices[0], scene))),
-        None => {}
+    let Group { indices, scenes, failed, .. } = group;
+    if let Some(line) = failed {
+        return sink(line.clone());
     }
     let together = || {
         let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
@@ -175,7 +145,9 @@ fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<
     if let Some(lines) = caught(together).flatten() {
         return lines.into_iter().try_for_each(sink);
     }
-    indices.iter().zip(scenes).try_for_each(|(&index, scene)| sink(guarded(index, &|| one_step(sweep, index, scene))))
+    indices.iter().zip(scenes).try_for_each(|(&index, scene)| {
+        sink(caught(|| simulate(sweep, index, scene)).unwrap_or_else(|| Line::panicked(sweep, index)))
+    })
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on

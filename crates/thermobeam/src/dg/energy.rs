@@ -12,7 +12,7 @@
 use super::Level;
 use super::contact_event::Phase;
 use super::space::Space;
-use crate::energy::Energy;
+use crate::energy::{Balance, Energy};
 use crate::parameters::{Beam, Obstacles};
 
 /// What a step loses, contact apart.
@@ -22,25 +22,6 @@ pub(super) struct Losses {
     pub(super) thermal: f64,
     pub(super) jumps: f64,
     pub(super) load: f64,
-}
-
-/// The balance of one step; the terms add up to `residual`, round-off for an exactly solved step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Balance {
-    /// E1 - E0, from the differences of the fields.
-    pub change: f64,
-    /// `∫ ζ (‖v_x - w‖² + ‖w_x‖²)`.
-    pub viscous: f64,
-    /// `∫ ‖θ~_x‖²`.
-    pub thermal: f64,
-    /// `½ (‖v(0+) - v0‖² + ‖w(0+) - w0‖² + ‖θ~(0+) - θ~0‖²)`.
-    pub jumps: f64,
-    /// Minus the work of the loads.
-    pub load: f64,
-    /// Work of the contact force minus the change of its energy: round-off, unless the free end grazes an obstacle.
-    pub contact: f64,
-    /// The sum of the six.
-    pub residual: f64,
 }
 
 /// What an energy is made of besides a level.
@@ -95,7 +76,7 @@ impl Scene<'_> {
             + stored;
         let contact = done - stored;
         let residual = change + viscous + thermal + jumps + load + contact;
-        Balance { change, viscous, thermal, jumps, load, contact, residual }
+        Balance { change, viscous, thermal, inertial: jumps, contact, load, residual }
     }
 
     fn tip(&self, level: &Level) -> f64 {

@@ -66,7 +66,6 @@ mod time;
 
 pub use contact_event::{ContactEvent, Phase};
 pub use element::MAX_DEGREE;
-pub use energy::Balance;
 pub use error::{SetupError, StepError, StepFailure};
 pub use load::Load;
 pub use problem::{Function, Initial, Problem, Stepping};

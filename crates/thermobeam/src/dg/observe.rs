@@ -1,9 +1,9 @@
 //! What a simulation shows: fields anywhere in the last step, the energy, and the balance.
 
-use super::energy::{Balance, Scene};
+use super::energy::Scene;
 use super::simulation::Simulation;
 use super::{Field, Level};
-use crate::energy::Energy;
+use crate::energy::{Balance, Energy};
 use crate::norms::max_or_nan;
 
 impl Simulation {

@@ -10,9 +10,10 @@ fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
     let (mut worst, mut sum, mut rise) = (0.0, 0.0, f64::NEG_INFINITY);
     while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
         let balance = simulation.balance();
-        let terms = balance.change + balance.viscous + balance.thermal + balance.jumps + balance.load + balance.contact;
+        let terms =
+            balance.change + balance.viscous + balance.thermal + balance.inertial + balance.load + balance.contact;
         assert_eq!(terms, balance.residual);
-        assert!(balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.jumps >= 0.0, "{balance:?}");
+        assert!(balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0, "{balance:?}");
         worst = larger(worst, balance.residual.abs());
         sum += balance.residual;
         rise = larger(rise, balance.change);

@@ -3,6 +3,8 @@
 use thermobeam::dg;
 use thermobeam::error::StepFailure;
 
+use crate::run::driver::RunError;
+
 /// How a run ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
@@ -35,11 +37,20 @@ impl End {
     }
 
     /// The same by the scheme of any order; `None` for failures to find a contact event, which one-step schemes do not have.
-    pub fn of_any_order(failure: &dg::StepFailure) -> Option<Self> {
+    fn of_any_order(failure: &dg::StepFailure) -> Option<Self> {
         match failure {
             dg::StepFailure::Indefinite { .. } => Some(End::Indefinite),
             dg::StepFailure::Diverged { .. } | dg::StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
             dg::StepFailure::NonFinite { .. } => Some(End::NotFinite),
+            _ => None,
+        }
+    }
+
+    /// The end of a run that a step ended; `None` for other ends.
+    pub(crate) fn of_run(failure: &RunError) -> Option<Self> {
+        match failure {
+            RunError::Step(error) => Some(Self::of(&error.failure)),
+            RunError::DgStep(error) => Self::of_any_order(&error.failure),
             _ => None,
         }
     }

@@ -55,7 +55,7 @@ pub struct Shown {
     pub tip: Vec<(f64, f64)>,
     /// Steps.
     pub steps: usize,
-    /// Largest residual of the balance over E0, and largest change of the energy in a step; NaN by the scene's own scheme.
+    /// Largest residual of the balance over E0, and largest change of the energy in a step.
     pub balance: [f64; 2],
 }
 

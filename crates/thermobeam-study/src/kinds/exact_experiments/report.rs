@@ -8,7 +8,7 @@ use super::judge::{OfScene, difference, numbers};
 use super::{ExactExperiments, Shown};
 use crate::figures::looks;
 use crate::kinds::tables::Discretisation;
-use crate::run::any_order::phase_name;
+use crate::run::object::phase_name;
 
 pub(super) fn headline(study: &ExactExperiments, scenes: &[OfScene<'_>], worst: f64) -> String {
     let agreement = format!("two discretisations agree within {worst:.1e}");
@@ -85,7 +85,7 @@ fn events(scenes: &[OfScene<'_>]) -> Table {
 fn error_over_time(scene: &OfScene<'_>) -> Vec<(f64, f64)> {
     let (Some(own), Some(exact)) = (scene.own, scene.any_order[0]) else { return vec![] };
     // The history of the exact run begins at t = 0. The reader has made sure that both have the same times.
-    own.tip.iter().zip(exact.tip.iter().skip(1)).map(|((t, u), (_, exact))| (*t, (u - exact).abs())).collect()
+    own.tip.iter().zip(&exact.tip).skip(1).map(|((t, u), (_, exact))| (*t, (u - exact).abs())).collect()
 }
 
 fn own_error(scene: &OfScene<'_>) -> f64 {

@@ -10,10 +10,9 @@ use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome
 
 use super::energy::End;
 use super::tables::Discretisation;
-use crate::run::any_order::{self, AnyOrderFailure, AnyOrderRun};
-use crate::run::driver::RunError;
-use crate::run::simulate::{Recording, Run, Simulator, run_together};
+use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::tally::{EnergySummary, Extremes, Sample};
+use crate::run::together::run_together;
 use crate::scene::{Method, Scene};
 
 /// The row of the table of kinds.
@@ -29,7 +28,7 @@ pub const ROW: KindRow = KindRow {
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
 };
 
-/// Times of a curve of the scheme of any order.
+/// Times of a curve in the figure.
 const TIMES: usize = 200;
 
 /// A study of whole scenes.
@@ -83,43 +82,19 @@ impl Shown {
         (self.end, bits(self), self.counts) == (other.end, bits(other), other.counts)
     }
 
-    fn one_step(run: &Run) -> Result<Self, CaseFailure> {
+    fn of(run: &Run) -> Result<Self, CaseFailure> {
         let end = match &run.failure {
             None => End::Answer,
-            Some(RunError::Step(error)) => End::of(&error.failure),
-            Some(other) => return Err(other.clone().into()),
+            Some(failure) => End::of_run(failure).ok_or_else(|| failure.clone())?,
         };
         let Run { last, extremes, energy, iterations, work, .. } = run;
+        let contact = run.contact.as_ref().map_or(run.contact_steps, |contact| contact.events.len());
         Ok(Self {
             end,
             numbers: numbers(last, extremes, energy),
-            counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, run.contact_steps],
+            counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
             alike_in_lanes: None,
-            tip: run
-                .history
-                .iter()
-                .flat_map(|history| &history.rows)
-                .map(|row| (row.sample.t, row.sample.u_tip))
-                .collect(),
-        })
-    }
-
-    fn any_order(run: &AnyOrderRun) -> Result<Self, CaseFailure> {
-        let end = match &run.failure {
-            None => End::Answer,
-            Some(failure @ AnyOrderFailure::Step(error)) => match End::of_any_order(&error.failure) {
-                Some(end) => end,
-                None => return Err(failure.clone().into()),
-            },
-            Some(other) => return Err(other.clone().into()),
-        };
-        let AnyOrderRun { ends: [_, last], extremes, energy, iterations, work, .. } = run;
-        Ok(Self {
-            end,
-            numbers: numbers(last, extremes, energy),
-            counts: [run.steps, iterations.total, iterations.max, work.solves, work.factorizations, run.events.len()],
-            alike_in_lanes: None,
-            tip: run.history.iter().map(|state| (state.t, state.u_tip)).collect(),
+            tip: run.tip(),
         })
     }
 }
@@ -163,14 +138,9 @@ impl Kind for Scenes {
 
     fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
         let scene = &self.scenes[*index].scene;
-        match scene.method {
-            Method::OneStep(_) => {
-                let shown = Shown::one_step(&Simulator::new(scene)?.run(Recording::History, &mut |_| ()))?;
-                let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::one_step).transpose()?;
-                Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
-            }
-            Method::Dg(_) => Shown::any_order(&any_order::run(scene, TIMES, &mut |_| ())?),
-        }
+        let shown = Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
+        let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::of).transpose()?;
+        Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
     }
 
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {

@@ -39,10 +39,11 @@ use std::sync::OnceLock;
 use thermobeam::solve::{Level, Solver};
 
 use crate::error::evaluator::{ErrorMeasure, Evaluator};
-use crate::error::reference::{FINER, Reference, fine_mesh, nodal};
+use crate::error::reference::{FINER, Reference, fine_mesh};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
 use crate::run::family::{Family, OnMesh};
+use crate::run::motion::nodal;
 use method::{Degrees, GRADED, METHODS, Measurement, Meter, Method, OneStep, REFERENCE, worst};
 pub use rival::{Rival, beside};
 pub use timed::Timed;

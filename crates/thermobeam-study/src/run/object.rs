@@ -1,12 +1,13 @@
 //! A run as a JSON object. The order of the keys is the order of the fields; names are a contract, more may be added.
 
 use serde::Serialize;
-use thermobeam::error::StepFailure;
+use thermobeam::dg::{self, ContactEvent, Phase};
+use thermobeam::error::{StepError, StepFailure};
 
-use super::{EnergySummary, Extremes, Iterations, Run, Sample};
-use crate::predict::estimate::Budget;
-use crate::run::driver::RunError;
-use crate::scene::Scene;
+use super::driver::RunError;
+use super::simulate::Run;
+use super::tally::{EnergySummary, Extremes, Iterations, Sample, Solves};
+use crate::scene::{Method, Scene};
 
 /// The object that `run --format json` prints.
 #[derive(Debug, Serialize)]
@@ -29,18 +30,29 @@ pub struct Object<'a> {
     /// Whether the temperature was computed.
     heated: bool,
     contact_steps: usize,
-    work: Counts,
+    degree: usize,
+    #[serde(flatten)]
+    lengths: Option<Lengths>,
+    work: Solves,
     #[serde(skip_serializing_if = "Option::is_none")]
-    error_budget: Option<&'a Budget>,
+    events: Option<Vec<Event>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Failure>,
 }
 
-/// Counts of the solvers, which know no JSON.
+/// Steps of dG.
 #[derive(Debug, Serialize)]
-pub(in crate::run) struct Counts {
-    pub(in crate::run) passes: usize,
-    pub(in crate::run) factorizations: usize,
+struct Lengths {
+    time_degree: usize,
+    restart_dt: f64,
+    growth: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Event {
+    t: f64,
+    from: &'static str,
+    to: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -64,19 +76,30 @@ enum Numbers {
     None {},
 }
 
+/// A contact state in a word.
+pub fn phase_name(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Free => "free",
+        Phase::Lower => "lower",
+        Phase::Upper => "upper",
+    }
+}
+
 impl<'a> Object<'a> {
     /// Everything there is to say about a run.
     pub fn new(scene: &'a Scene, run: &Run) -> Self {
         Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
     }
 
-    /// The same with an error budget.
-    pub fn with_budget(self, error_budget: Option<&'a Budget>) -> Self {
-        Self { error_budget, ..self }
-    }
-
     /// The same without the time on the clock: the same run gives the same bytes.
     pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
+        let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
+        let lengths = match scene.method {
+            Method::OneStep(_) => None,
+            Method::Dg(dg::Stepping { degree, restart_dt, growth, .. }) => {
+                Some(Lengths { time_degree: degree, restart_dt, growth })
+            }
+        };
         Self {
             scene: &scene.name,
             elements: scene.mesh.elements(),
@@ -92,28 +115,37 @@ impl<'a> Object<'a> {
             solver: scene.method.solver(),
             heated: run.is_heated,
             contact_steps: run.contact_steps,
-            work: Counts { passes: run.work.passes, factorizations: run.work.factorizations },
-            error_budget: None,
+            degree: scene.degree,
+            lengths,
+            work: run.work,
+            events: run.contact.as_ref().map(|contact| contact.events.iter().map(event).collect()),
             failure: run.failure.as_ref().map(failure),
         }
     }
 }
 
 fn failure(ended: &RunError) -> Failure {
-    let error = match ended {
-        RunError::Step(error) => error,
-        RunError::Setup(error) => {
-            return Failure { kind: "setup", step: 0, t: 0.0, message: error.to_string(), numbers: Numbers::None {} };
+    let of = |kind, step, t, message: String, numbers| Failure { kind, step, t, message, numbers };
+    match ended {
+        RunError::Setup(_) | RunError::DgSetup(_) => of("setup", 0, 0.0, ended.to_string(), Numbers::None {}),
+        RunError::Step(StepError { step, t, failure }) => {
+            let (kind, numbers) = kind(failure);
+            of(kind, *step, *t, failure.to_string(), numbers)
+        }
+        RunError::DgStep(dg::StepError { step, t, failure, .. }) => {
+            let (kind, numbers) = dg_kind(failure);
+            of(kind, *step, *t, failure.to_string(), numbers)
         }
         RunError::TimeUp(up) => {
             let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
-            return Failure { kind: "time-limit", step: up.step, t: up.t, message: up.to_string(), numbers };
+            of("time-limit", up.step, up.t, up.to_string(), numbers)
         }
-        &RunError::Unsound { step, t, .. } => {
-            return Failure { kind: "unsound", step, t, message: ended.to_string(), numbers: Numbers::None {} };
-        }
-    };
-    let (kind, numbers) = match error.failure {
+        RunError::Unsound { step, t, unsound, .. } => of("unsound", *step, *t, unsound.to_string(), Numbers::None {}),
+    }
+}
+
+fn kind(failure: &StepFailure) -> (&'static str, Numbers) {
+    match *failure {
         StepFailure::Diverged { iterations, increment, contraction } => {
             ("diverged", Numbers::Iteration { iterations, increment, contraction })
         }
@@ -126,6 +158,21 @@ fn failure(ended: &RunError) -> Failure {
         StepFailure::Indefinite { node, pivot, n_value } => {
             ("indefinite", Numbers::Indefinite { node, pivot, n_value })
         }
-    };
-    Failure { kind, step: error.step, t: error.t, message: error.failure.to_string(), numbers }
+    }
+}
+
+fn dg_kind(failure: &dg::StepFailure) -> (&'static str, Numbers) {
+    match *failure {
+        dg::StepFailure::Diverged { iterations, increment, contraction } => {
+            ("diverged", Numbers::Iteration { iterations, increment, contraction })
+        }
+        dg::StepFailure::Indefinite { node, pivot, n_value } => {
+            ("indefinite", Numbers::Indefinite { node, pivot, n_value })
+        }
+        dg::StepFailure::IterationLimit { .. } => ("iteration-limit", Numbers::None {}),
+        dg::StepFailure::NonFinite { .. } => ("non-finite", Numbers::None {}),
+        dg::StepFailure::EventsTooClose { .. } => ("events-too-close", Numbers::None {}),
+        dg::StepFailure::WrongContact { .. } => ("wrong-contact", Numbers::None {}),
+        dg::StepFailure::EventNotFound { .. } => ("event-not-found", Numbers::None {}),
+    }
 }

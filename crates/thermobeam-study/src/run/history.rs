@@ -1,21 +1,18 @@
 //! What is kept of a run for tables and pictures.
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::Sample;
-
-/// Rows of a history at most: every step up to that many, beyond it every second, third, ... step.
-pub const MOST_ROWS: usize = 200_000;
+use super::driver::RunError;
+use super::motion::{Motion, Report, Watch};
+use super::tally::Sample;
 
 /// Frames at most: twice the columns of a picture over space and time.
-const MOST_FRAMES: usize = 440;
+const FRAMES: usize = 440;
 
-/// Nodes of a frame at most: twice the rows of such a picture.
-const MOST_FRAME_NODES: usize = 281;
-
-/// Terms of the energy's balance, added up over the steps since the row before: they add up to `residual`.
+/// Terms of the energy's balance, added up over the steps that ended since the row before: they add up to `residual`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dissipation {
     /// Change of E.
@@ -46,22 +43,21 @@ impl Dissipation {
 /// A row of the history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// The level.
+    /// The state.
     pub sample: Sample,
-    /// What happened to the energy on the way to it; zeros at the start.
+    /// What happened to the energy on the way to it; zeros at the start, and where no pictures are wanted.
     pub dissipation: Dissipation,
 }
 
 /// u(x, t), thinned to what a picture can show.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frames {
     /// Times of the frames.
     pub times: Vec<f64>,
-    /// The nodes that are kept, both ends among them.
-    pub nodes: Vec<f64>,
-    /// `u[n][i]` belongs to `times[n]` and `nodes[i]`.
+    /// Points x, both ends among them.
+    pub points: Vec<f64>,
+    /// `u[n][i]` belongs to `times[n]` and `points[i]`.
     pub u: Vec<Vec<f64>>,
-    kept: Vec<usize>,
 }
 
 /// The history of a run: start and end always, in between evenly thinned.
@@ -69,52 +65,53 @@ pub struct Frames {
 pub struct RunHistory {
     /// The rows.
     pub rows: Vec<Row>,
-    /// Steps from one row to the next; the last may follow sooner.
-    pub steps_per_row: usize,
-    /// The displacement.
+    /// The displacement; empty where no pictures are wanted.
     pub frames: Frames,
-    steps_per_frame: usize,
+    t_end: f64,
+    /// Parts of the time at whose ends there are rows.
+    parts: usize,
     since_row: Dissipation,
 }
 
 impl RunHistory {
-    pub(super) fn new(nodes: &[f64], steps: usize, first: Sample, u: &[f64]) -> Self {
-        let steps_per_row = steps.div_ceil(MOST_ROWS).max(1);
-        let steps_per_frame = steps.div_ceil(MOST_FRAMES).max(1);
-        let mut rows = Vec::with_capacity(steps / steps_per_row + 2);
-        rows.push(Row { sample: first, dissipation: Dissipation::default() });
-        let mut frames = Frames::new(nodes);
-        frames.push(first.t, u);
-        Self { rows, steps_per_row, frames, steps_per_frame, since_row: Dissipation::default() }
-    }
-
-    pub(super) fn add(&mut self, step: usize, balance: &Balance, u: &[f64], sample: impl FnOnce() -> Sample) {
-        self.since_row.add(balance);
-        let (row, frame) = (step.is_multiple_of(self.steps_per_row), step.is_multiple_of(self.steps_per_frame));
-        if !row && !frame {
-            return;
+    /// * `parts`: how many rows follow the first, about; `None` for what suits the method, and frames.
+    pub(super) fn new(motion: &dyn Motion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
+        let rows = vec![Row { sample: first, dissipation: Dissipation::default() }];
+        let mut frames = Frames::default();
+        if parts.is_none() {
+            frames = Frames { points: motion.points(), times: vec![first.t], u: vec![motion.shape(first.t)] };
         }
-        let sample = sample();
-        if row {
-            self.push_row(sample);
-        }
-        if frame {
-            self.frames.push(sample.t, u);
-        }
+        let parts = parts.unwrap_or_else(|| motion.rows());
+        Self { rows, frames, t_end, parts, since_row: Dissipation::default() }
     }
 
     /// Adds the last level, unless it is there already.
-    pub(super) fn finish(&mut self, last: Sample, u: &[f64]) {
+    pub(super) fn finish(&mut self, motion: &dyn Motion, last: Sample) {
         if self.rows.last().is_none_or(|row| row.sample.t < last.t) {
             self.push_row(last);
         }
-        if self.frames.times.last().is_none_or(|&t| t < last.t) {
-            self.frames.push(last.t, u);
+        if self.frames.times.last().is_some_and(|&t| t < last.t) {
+            self.push_frame(motion, last.t);
         }
     }
 
     fn push_row(&mut self, sample: Sample) {
         self.rows.push(Row { sample, dissipation: std::mem::take(&mut self.since_row) });
+    }
+
+    fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
+        self.frames.times.push(t);
+        self.frames.u.push(motion.shape(t));
+    }
+
+    /// u(1) over time.
+    pub fn tip(&self) -> Vec<(f64, f64)> {
+        self.over_time(|sample| sample.u_tip)
+    }
+
+    /// A number over time.
+    pub(super) fn over_time(&self, value: fn(&Sample) -> f64) -> Vec<(f64, f64)> {
+        self.rows.iter().map(|row| (row.sample.t, value(&row.sample))).collect()
     }
 
     /// The history as comma-separated values, with enough digits to read back every bit.
@@ -152,16 +149,23 @@ impl RunHistory {
     }
 }
 
-impl Frames {
-    fn new(nodes: &[f64]) -> Self {
-        let last = nodes.len() - 1;
-        let intervals = last.min(MOST_FRAME_NODES - 1);
-        let kept: Vec<usize> = (0..=intervals).map(|k| k * last / intervals).collect();
-        Self { times: vec![], nodes: kept.iter().map(|&i| nodes[i]).collect(), u: vec![], kept }
-    }
-
-    fn push(&mut self, t: f64, u: &[f64]) {
-        self.times.push(t);
-        self.u.push(self.kept.iter().map(|&i| u[i]).collect());
+impl Watch for RunHistory {
+    fn see(&mut self, motion: &mut dyn Motion, _: &Report) -> Result<ControlFlow<()>, RunError> {
+        let is_drawn = !self.frames.times.is_empty();
+        if is_drawn {
+            self.since_row.add(&motion.balance());
+        }
+        let mut times = vec![];
+        motion.parts(self.t_end, self.parts, &mut |t| times.push(t));
+        for &t in &times {
+            let sample = motion.at(t);
+            self.push_row(sample);
+        }
+        if is_drawn {
+            times.clear();
+            motion.parts(self.t_end, FRAMES, &mut |t| times.push(t));
+            times.iter().for_each(|&t| self.push_frame(motion, t));
+        }
+        Ok(ControlFlow::Continue(()))
     }
 }

@@ -1,0 +1,113 @@
+//! Scenes that run side by side in lanes, twice as fast as one after the other, each with the bits that it gets alone.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use thermobeam::energy::Balance;
+use thermobeam::ensemble::Ensemble;
+use thermobeam::scheme::Scheme;
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Level, Settings, Solver};
+
+use super::driver::RunError;
+use super::ensemble::EnsembleDriver;
+use super::motion::Report;
+use super::simulate::{Middle, Run, problem};
+use super::tally::{Sample, Tally};
+use crate::scene::Scene;
+
+/// What scenes must have in common to run side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Together {
+    elements: usize,
+    steps: usize,
+    scheme: Scheme,
+    settings: Settings,
+}
+
+impl Together {
+    /// Of a scene; `None` where it can only run alone.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let Stepping { scheme, settings, .. } = scene.one_step().ok()?;
+        let common = Self { elements: scene.mesh.elements(), steps: scene.steps(), scheme, settings };
+        (settings.solver == Solver::Newton).then_some(common)
+    }
+}
+
+/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::simulate::Simulator::run) does each of
+/// them, without a history. A scene that fails does not touch the others.
+///
+/// A run's time is its share of the time that all of them took.
+///
+/// # Errors
+/// [`RunError::Setup`] of the first scene that cannot be set up, and where the scenes do not agree; [`RunError::TimeUp`].
+pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
+    let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
+    let dt: Vec<f64> = scenes.iter().map(Scene::dt).collect();
+    let mut driver = EnsembleDriver::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
+    let mut level = Level::new(common.elements + 1);
+    let lane = |(k, scene)| Lane::new(k, scene, driver.ensemble(), &mut level);
+    let mut lanes: Vec<Lane<'_>> = scenes.iter().enumerate().map(lane).collect();
+    driver.run(common.steps, |ensemble, balances| {
+        for (lane, balance) in lanes.iter_mut().zip(balances) {
+            lane.see(ensemble, balance, &mut level);
+        }
+        if lanes.iter().all(|lane| lane.ended.is_some()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    let share = driver.wall() / scenes.len() as u32;
+    lanes.iter_mut().for_each(|lane| lane.end(common.steps, None, driver.ensemble(), &mut level));
+    Ok(lanes.into_iter().filter_map(|lane| Some(Run { wall: share, ..lane.ended? })).collect())
+}
+
+/// One of the scenes.
+struct Lane<'s> {
+    k: usize,
+    scene: &'s Scene,
+    first: Sample,
+    tally: Tally,
+    /// Its run, once it has failed or come to its end.
+    ended: Option<Run>,
+}
+
+impl<'s> Lane<'s> {
+    fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
+        let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
+        Self { k, scene, first, tally: Tally::new(&first), ended: None }
+    }
+
+    /// Adds a step; the run ends where it failed, or broke the law of the energy.
+    fn see(&mut self, ensemble: &Ensemble, balance: &Balance, level: &mut Level) {
+        if self.ended.is_some() {
+            return;
+        }
+        let (k, dt, step) = (self.k, self.scene.dt(), ensemble.step());
+        match ensemble.report(k) {
+            Err(error) => self.end(step - 1, Some(error.into()), ensemble, level),
+            Ok(done) => {
+                let in_contact = ensemble.contact_force(k) != 0.0;
+                let report = Report { dt, iterations: done.iterations, in_contact };
+                if let Err(unsound) = self.tally.add(&report, balance, [ensemble.tip(k); 2]) {
+                    let failure = RunError::unsound(step, step as f64 * dt, dt, unsound);
+                    self.end(step, Some(failure), ensemble, level);
+                }
+            }
+        }
+    }
+
+    /// Ends the run after so many steps, unless it has ended.
+    fn end(&mut self, steps: usize, failure: Option<RunError>, ensemble: &Ensemble, level: &mut Level) {
+        let (k, first) = (self.k, self.first);
+        if self.ended.is_none() {
+            let last = if steps == 0 { first } else { sample(k, self.scene, ensemble, level, steps) };
+            let work = ensemble.work_of(k).into();
+            let run = Run::of(&self.tally, [first, last], steps, Duration::ZERO, work, ensemble.is_heated(k));
+            self.ended = Some(Run { failure, ..run });
+        }
+    }
+}
+
+fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step: usize) -> Sample {
+    ensemble.observe(k, level);
+    let (t, energy) = (step as f64 * scene.dt(), ensemble.energy(k, level).total());
+    Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, energy)
+}

@@ -120,7 +120,7 @@ impl Reader<'_, '_> {
             return Err(self.error(line.map(|_| (1, 0)), expected, found.as_deref().unwrap_or("an empty table")));
         }
         if let Some(row) = self.grid.rows.iter().find(|row| row.cells.len() != self.names.len()) {
-            let example = ["h", "L2", "H1"].map(str::to_owned).into_iter().chain((4..).map(|k| format!("e{k}")));
+            let example = (1..).map(|k| format!("c{k}"));
             let is_even = self.grid.rows.iter().all(|row| row.cells.len() == width);
             let command = self.command(|choice| choice.names = Some(example.take(width).collect()));
             let found = counted(row.cells.len(), "cell") + if is_even { &command } else { "" };

@@ -65,8 +65,10 @@ fn entries_of<'t>(
         }
         let is_list = count(before);
         let value = Cell { start, text: word };
-        let cut = before.rfind([',', ';', '{', '\t']).map_or(0, |cut| cut + 1);
-        let name = before[cut..].trim_matches(is_mark).trim_start_matches("- ");
+        // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
+        let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !before.contains(')'));
+        let cut = before.rfind(cuts).map_or(0, |cut| cut + 1);
+        let name = before[cut..].trim_matches(is_mark).trim_start_matches(['-', '>', ' ']);
         let name = name.rsplit(": ").next().unwrap_or(name).trim_matches(is_mark);
         if let Some(name) = above.take().filter(|_| name.is_empty()) {
             entries.push(Entry { name, line, values: vec![value], is_marked: true });

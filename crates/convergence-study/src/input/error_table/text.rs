@@ -64,7 +64,9 @@ pub(super) fn plain(text: &str) -> String {
         part.get(if k == 0 { 0 } else { end }..).unwrap_or_default().to_owned()
     };
     let text: String = text.split("\x1b[").enumerate().map(uncoloured).collect();
-    let mut text: String = text.lines().map(|line| without_stamp(line).to_owned() + "\n").collect();
+    // Jira writes `||h||L2||` above `|0.1|1.6e-3|`.
+    let single = |line: &str| if line.ends_with("||") { line.replace("||", "|") } else { line.to_owned() };
+    let mut text: String = text.lines().map(|line| single(without_stamp(line)) + "\n").collect();
     let mut from = 0;
     while let Some((open, close)) =
         text[from..].find('(').and_then(|at| Some((from + at, from + at + text[from + at..].find(')')?)))
@@ -79,8 +81,13 @@ pub(super) fn plain(text: &str) -> String {
         }
         from = open + 1;
     }
-    let is_list = text.trim_start().starts_with(['[', '(']) && !text.contains(['"', '\'', '{', '=']);
-    if is_list { unnested(&text) } else { text }
+    let begins = |marks: &[char]| text.trim_start().starts_with(marks) && !text.contains(['"', '\'', '=']);
+    match () {
+        // `{0.1: 1.6e-3, 0.05: 4e-4}`.
+        () if begins(&['{']) && !text.contains(['&', '\\']) => text.replace([',', '{', '}'], "\n").replace(':', " "),
+        () if begins(&['[', '(']) && !text.contains('{') => unnested(&text),
+        () => text,
+    }
 }
 
 /// Nested lists without names: a line for each innermost one.
@@ -264,8 +271,16 @@ impl<'t> Grid<'t> {
     fn turn(&mut self) -> bool {
         let width = self.rows[0].cells.len();
         let named = usize::from(self.rows.iter().all(|row| number(row.cells[0].text, true).is_none()));
-        let is_across = self.rows.len() > 1 && width > 2 && (named == 1 || self.rows.len() == 2);
-        if !is_across || self.rows.iter().any(|row| row.cells.len() != width) {
+        // Numbers with one ratio are those of a step.
+        let is_even = |cells: Vec<Cell<'_>>| {
+            let numbers: Vec<f64> = cells.iter().filter_map(|cell| Some(number(cell.text, true)?.value)).collect();
+            numbers.len() > 2
+                && numbers.windows(3).all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
+        };
+        let first = || self.rows.iter().filter_map(|row| row.cells.first().copied()).collect();
+        let is_turned =
+            named == 1 || self.rows.len() == 2 || (is_even(self.rows[0].cells.clone()) && !is_even(first()));
+        if self.rows.len() < 2 || width < 3 || !is_turned || self.rows.iter().any(|row| row.cells.len() != width) {
             return false;
         }
         let rows = std::mem::take(&mut self.rows);
@@ -371,13 +386,14 @@ impl<'t> Grid<'t> {
 
 /// Names of several words above columns, some of which hold rates: each word belongs to the nearest column with a name.
 fn above<'t>(line: &'t str, words: &[Cell<'t>], spans: &[[usize; 2]], dashed: &[bool]) -> Option<Vec<Cell<'t>>> {
-    let named: Vec<usize> = (0..spans.len()).filter(|k| !dashed[*k]).collect();
+    let has_rate = words.iter().any(|word| Word::of(word.text).is_rate());
+    let named: Vec<usize> = (0..spans.len()).filter(|k| has_rate || !dashed[*k]).collect();
     let mut names = vec![NONE; spans.len()];
     for word in words {
         let end = word.start + word.text.len();
         // A name stands above the rates behind its column, too.
         let distance = |k: &usize| {
-            let last = (*k + 1..spans.len()).take_while(|k| dashed[*k]).last().unwrap_or(*k);
+            let last = (*k + 1..spans.len()).take_while(|k| dashed[*k] && !has_rate).last().unwrap_or(*k);
             spans[*k][0].saturating_sub(end).max(word.start.saturating_sub(spans[last][1]))
         };
         let name = &mut names[*named.iter().min_by_key(|k| distance(k))?];

@@ -17,3 +17,18 @@ pub(crate) use crate::scene::{Scene, limits};
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
     list.windows(2).all(|pair| pair[0] < pair[1])
 }
+
+/// What the case of these data has found; `None` where it failed or was not run.
+pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Option<&'r F> {
+    ran.iter().find(|ran| ran.case.data == *data)?.ok()
+}
+
+/// Curves over time, in the file `<id>-<what>.svg`.
+pub(crate) fn over_time(id: &str, what: &str, caption: impl Into<String>, history: &plots::History) -> Figure {
+    Figure::new(id, what, caption, plots::history(history))
+}
+
+/// Names of the numbers that are NaN or infinite, for [`completion`].
+pub(crate) fn not_finite(numbers: &[(&str, f64)]) -> Vec<String> {
+    numbers.iter().filter(|(_, value)| !value.is_finite()).map(|(name, _)| (*name).to_owned()).collect()
+}

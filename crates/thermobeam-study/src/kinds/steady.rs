@@ -1,29 +1,22 @@
 //! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
 
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
+use super::prelude::*;
 use crate::run::simulate;
-use crate::scene::Scene;
-use convergence_study::input::{Field, InputError};
-use convergence_study::study::CaseFailure;
-use convergence_study::text::number::max_or_nan;
+use crate::scene::tables;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
-pub(super) fn listed_scenes(field: &Field<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
-    let allowed = "a list of at least one scene file";
-    let items = field.items(allowed)?;
-    if items.is_empty() {
-        return Err(field.refuse_as_written(allowed));
-    }
-    items.iter().map(|item| listed_scene(item, folder)).collect()
+pub(super) fn listed_scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
+    let scene = |item: &Field<'_>| listed_scene(item, folder);
+    section.list("scenes", "a list of at least one scene file", scene, |list| !list.is_empty())
 }
 
-/// Reads the scene of a file name; as in [`listed_scenes`].
+/// Reads the scene of a file name; it must have obstacles.
 pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
     let scene = Scene::read_one_step(field, folder)?;
     if scene.obstacles.is_none() {
@@ -37,6 +30,48 @@ pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<S
     Ok(scene.at(Mesh::uniform(elements)?, dt))
 }
 
+/// How beams are run that have to come to rest: on a uniform mesh, until they are slow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ToRest {
+    pub(super) elements: usize,
+    pub(super) dt: f64,
+    /// Largest velocity of a beam at rest.
+    pub(super) speed: f64,
+    /// A run that lasts longer fails.
+    pub(super) t_max: f64,
+}
+
+impl ToRest {
+    /// The keys of a table.
+    pub(super) const KEYS: [&str; 4] = ["elements", "dt", "speed", "t_max"];
+
+    /// From a table that has [`ToRest::KEYS`], and may have others.
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
+        limits::steps_until(&section.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+        let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
+        Ok(Self { elements, dt, speed: section.positive("speed")?, t_max })
+    }
+
+    /// The scene with another β, at rest.
+    ///
+    /// # Errors
+    /// As [`settle`], and where the steady states cannot be told.
+    pub(super) fn run(
+        &self,
+        scene: &Scene,
+        beta: f64,
+    ) -> Result<(Rest, Vec<Equilibrium>, Option<Nearest>), CaseFailure> {
+        let mut scene = at_resolution(scene, self.elements, self.dt)?;
+        scene.beam.beta = beta;
+        scene.name = format!("beta = {beta}");
+        let states = exact_states(&scene)?;
+        let rest = settle(&scene, self.speed, self.t_max)?;
+        let nearest = Nearest::of(&scene.mesh, &rest.level, &states);
+        Ok((rest, states, nearest))
+    }
+}
+
 /// A beam at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rest {
@@ -44,6 +79,13 @@ pub(super) struct Rest {
     pub(super) level: Level,
     /// Its time.
     pub(super) t: f64,
+}
+
+impl Rest {
+    /// u(1).
+    pub(super) fn u_tip(&self) -> f64 {
+        self.level.u[self.level.u.len() - 1]
+    }
 }
 
 /// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,
@@ -76,19 +118,30 @@ pub(super) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, Equilibriu
     equilibria(&scene.beam, scene.obstacles.as_ref())
 }
 
-/// Largest differences over the nodes between a level and a steady state, of u and of φ.
-pub(super) fn distances(mesh: &Mesh, level: &Level, state: &Equilibrium) -> (f64, f64) {
-    let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
-        let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
-        differences.fold(0.0, max_or_nan)
-    };
-    (largest(&level.u, &|x| state.u(x)), largest(&level.phi, &|x| state.phi(x)))
+/// The exact steady state nearest to the end of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The state.
+    pub state: Equilibrium,
+    /// Largest difference over all nodes, in u and φ.
+    pub distance: f64,
+    /// The same in u and in φ.
+    pub errors: [f64; 2],
 }
 
-/// The steady state next to a level, with its [`distances`].
-pub(super) fn nearest(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<(Equilibrium, (f64, f64))> {
-    let measured = states.iter().map(|state| (*state, distances(mesh, level, state)));
-    measured.min_by(|a, b| max_or_nan(a.1.0, a.1.1).total_cmp(&max_or_nan(b.1.0, b.1.1)))
+impl Nearest {
+    /// `None` where there is no state.
+    pub(super) fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
+        let measured = states.iter().map(|&state| {
+            let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
+                let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
+                differences.fold(0.0, max_or_nan)
+            };
+            let errors = [largest(&level.u, &|x| state.u(x)), largest(&level.phi, &|x| state.phi(x))];
+            Self { state, distance: max_or_nan(errors[0], errors[1]), errors }
+        });
+        measured.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    }
 }
 
 /// A contact state in words.

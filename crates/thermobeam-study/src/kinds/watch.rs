@@ -1,7 +1,9 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
-use convergence_study::text::number::{max_or_nan, short_text};
+use convergence_study::text::number::short_text;
 use thermobeam::energy::{Balance, Rounding};
+
+use super::prelude::*;
 
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
 pub(super) const SOLVED: f64 = 1e-14;
@@ -35,21 +37,12 @@ impl Worst {
             risen: max_or_nan(self.risen, other.risen),
         }
     }
-}
 
-/// The worst of a run so far; NaN stays.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Watch {
-    /// The largest size of the energy.
-    scale: f64,
-    /// Largest residual and largest rise of a step, in units of the energy's size.
-    pub(super) residual: f64,
-    pub(super) rise: f64,
-    /// The same in units of what is allowed: at most 1.
-    pub(super) open: f64,
-    pub(super) risen: f64,
-    /// Sum of all residuals, with their signs, in units of the energy.
-    pub(super) drift: f64,
+    /// The numbers with their names.
+    pub(super) fn named(&self) -> [(&'static str, f64); 4] {
+        let Self { residual, rise, open, risen } = *self;
+        [("residual", residual), ("rise", rise), ("residual over its bound", open), ("rise over its bound", risen)]
+    }
 }
 
 /// A share of what is allowed, in words.
@@ -61,10 +54,20 @@ pub(super) fn of_allowed(share: f64) -> String {
     format!("{share} of what is allowed")
 }
 
+/// What a run has shown so far; NaN stays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Watch {
+    /// The largest size of the energy.
+    scale: f64,
+    pub(super) worst: Worst,
+    /// Sum of all residuals, with their signs, in units of the energy.
+    pub(super) drift: f64,
+}
+
 impl Watch {
     /// From a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
-        Self { scale, residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0, drift: 0.0 }
+        Self { scale, worst: Worst::NONE, drift: 0.0 }
     }
 
     /// Takes in a step; `rounding` is asked for only where it matters.
@@ -72,26 +75,17 @@ impl Watch {
         self.scale = max_or_nan(self.scale, scale);
         let scale = max_or_nan(self.scale, f64::MIN_POSITIVE);
         let (residual, change) = (balance.residual.abs(), balance.change);
-        self.residual = max_or_nan(self.residual, residual / scale);
-        self.rise = max_or_nan(self.rise, change / scale);
+        let bound = CLOSED * scale;
+        let mut step =
+            Worst { residual: residual / scale, rise: change / scale, open: residual / bound, ..Worst::NONE };
         self.drift += balance.residual / scale;
-        let closed = residual <= CLOSED * scale;
-        let falls = change <= 0.0;
-        if closed {
-            self.open = max_or_nan(self.open, residual / (CLOSED * scale));
-        }
-        if !(closed && falls) {
-            let bound = rounding().total();
-            if !closed {
-                self.open = max_or_nan(self.open, residual / max_or_nan(bound, CLOSED * scale));
+        if !(residual <= bound && change <= 0.0) {
+            let rounding = rounding().total();
+            if !(residual <= bound) {
+                step.open = residual / max_or_nan(rounding, bound);
             }
-            self.risen = max_or_nan(self.risen, change / max_or_nan(bound, f64::MIN_POSITIVE));
+            step.risen = change / max_or_nan(rounding, f64::MIN_POSITIVE);
         }
-    }
-
-    /// The worst so far.
-    pub(super) fn worst(&self) -> Worst {
-        let Self { residual, rise, open, risen, .. } = *self;
-        Worst { residual, rise, open, risen }
+        self.worst = self.worst.max(step);
     }
 }

@@ -59,11 +59,11 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
         assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").contact_force = wrong), Verdict::Fail);
     }
     for wrong in [1.1, f64::NAN] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").open = wrong), Verdict::Fail);
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").risen = wrong), Verdict::Fail);
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.open = wrong), Verdict::Fail);
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.risen = wrong), Verdict::Fail);
     }
     for wrong in [f64::INFINITY, f64::NAN] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").residual = wrong), Verdict::Fail);
+        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.residual = wrong), Verdict::Fail);
     }
     lines_fail(&study, &sound, 12);
 }

@@ -1,11 +1,10 @@
 //! Branches of exact steady states over β.
 
+use convergence_study::run::time_limit::Patience;
 use thermobeam::equilibrium::{Contact, Equilibrium};
 
+use crate::kinds::prelude::*;
 use crate::kinds::steady::exact_states;
-use crate::scene::Scene;
-use convergence_study::run::time_limit::Patience;
-use convergence_study::study::CaseFailure;
 
 /// Steady states of one branch, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]

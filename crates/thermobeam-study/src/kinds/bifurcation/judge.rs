@@ -1,14 +1,14 @@
-//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches.
+//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
+//! and guarded numbers.
 
-use convergence_study::study::levels::{Claim, ErrorColumn, Levels, Refinement, completion};
-use convergence_study::study::{Axis, Check, Outcome, Ran};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::decimals;
+use thermobeam::equilibrium::Contact;
 use thermobeam::kirchhoff::BUCKLING;
 
 use super::branches::Event;
-use super::cases::BRACKET;
-use super::{BifurcationStudy, Diagram, Found, Rest, Task, report};
-use crate::scene::Scene;
+use super::{BRACKET, BifurcationStudy, CLOSE, Diagram, Found, Rest, Task};
+use crate::figures;
+use crate::kinds::prelude::*;
 
 /// A tip closer to zero than this is that of a straight beam.
 const STRAIGHT: f64 = 1e-6;
@@ -16,138 +16,210 @@ const STRAIGHT: f64 = 1e-6;
 /// How far the extrapolated buckling force of P1 elements may be from the exact one.
 const LIMIT: f64 = 1e-8;
 
-/// The results by what they are; `None` and NaN where a case failed.
-pub(super) struct Results<'r> {
-    /// One for each scene.
-    pub(super) diagrams: Vec<Option<&'r Diagram>>,
-    /// One for each mesh.
-    pub(super) forces: Vec<f64>,
-    /// For each scene, one for each β.
-    pub(super) rests: Vec<Vec<Option<&'r Rest>>>,
+/// The results of one scene; `None` where a case failed.
+struct OfScene<'r> {
+    scene: &'r Scene,
+    diagram: Option<&'r Diagram>,
+    /// Each β with the run to rest.
+    rests: Vec<(f64, Option<&'r Rest>)>,
 }
 
-impl<'r> Results<'r> {
-    fn of(study: &BifurcationStudy, ran: &'r [Ran<Task, Found>]) -> Self {
-        let found = |task: Task| ran.iter().find(|ran| ran.case.data == task).and_then(Ran::ok);
-        let diagram = |scene: usize| match found(Task::Diagram(scene)) {
+impl<'r> OfScene<'r> {
+    fn of(study: &'r BifurcationStudy, ran: &'r [Ran<Task, Found>], k: usize) -> Self {
+        let diagram = match found(ran, &Task::Diagram(k)) {
             Some(Found::Diagram(diagram)) => Some(diagram),
             _ => None,
         };
-        let force = |n: usize| match found(Task::Buckling(n)) {
-            Some(Found::Force(force)) => *force,
-            _ => f64::NAN,
+        let rest = |(place, &beta): (usize, &f64)| match found(ran, &Task::Rest(k, place)) {
+            Some(Found::Rest(rest)) => (beta, Some(rest)),
+            _ => (beta, None),
         };
-        let rest = |scene: usize, beta: usize| match found(Task::Rest(scene, beta)) {
-            Some(Found::Rest(rest)) => Some(rest),
-            _ => None,
-        };
-        let rests = |scene: usize| (0..study.betas.len()).map(|beta| rest(scene, beta)).collect();
-        Self {
-            diagrams: (0..study.scenes.len()).map(diagram).collect(),
-            forces: study.meshes.iter().map(|&n| force(n)).collect(),
-            rests: (0..study.scenes.len()).map(rests).collect(),
+        Self { scene: &study.scenes[k], diagram, rests: study.betas.iter().enumerate().map(rest).collect() }
+    }
+
+    fn theta_a(&self) -> f64 {
+        self.scene.beam.theta_a
+    }
+
+    /// The lower end of the bracket of buckling or lift-off; NaN where the case failed.
+    fn event(&self) -> f64 {
+        self.diagram.map_or(f64::NAN, |diagram| diagram.event[0])
+    }
+
+    /// β and u(1) at rest; NaN where the case failed.
+    fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.rests.iter().map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.u_tip)))
+    }
+
+    fn checks(&self, study: &BifurcationStudy) -> Vec<Check> {
+        let mut checks = vec![self.ends_are_stable(study.distance)];
+        // Completion has failed where there is no diagram.
+        if let Some(diagram) = self.diagram {
+            checks.push(self.unambiguous(diagram));
+            checks.extend(match Event::of(self.scene) {
+                Event::Buckling => [buckles(diagram), self.bent_below()],
+                Event::LiftOff => [lifts_off(diagram), self.one_state(diagram)],
+            });
         }
+        checks
+    }
+
+    fn ends_are_stable(&self, allowed: f64) -> Check {
+        let is_stable = |rest: &Rest| rest.state.is_some_and(|state| state.stable) && rest.distance <= allowed;
+        let distances = self.rests.iter().map(|(_, rest)| rest.map_or(f64::NAN, |rest| rest.distance));
+        let farthest = distances.fold(0.0, max_or_nan);
+        let off = list(self.rests.iter().filter(|(_, rest)| !rest.is_some_and(is_stable)).map(|(beta, _)| *beta));
+        let count = self.rests.len();
+        Check::that(
+            count > 0 && off == "none",
+            format!("θ_A = {}: every moving beam comes to rest on a stable branch", self.theta_a()),
+            format!("{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {off}"),
+        )
+    }
+
+    fn bent_below(&self) -> Check {
+        let is_bent = |u_tip: f64| u_tip.abs() > STRAIGHT;
+        let as_expected = |(beta, tip): (f64, f64)| if beta < -BUCKLING { is_bent(tip) } else { tip.abs() <= STRAIGHT };
+        let bent = self.tips().filter(|(_, tip)| is_bent(*tip)).map(|(beta, _)| beta).fold(f64::NEG_INFINITY, f64::max);
+        let straight = self.tips().filter(|(_, tip)| tip.abs() <= STRAIGHT).map(|(beta, _)| beta);
+        let straight = straight.fold(f64::INFINITY, f64::min);
+        Check::that(
+            bent < straight && self.tips().all(as_expected),
+            "θ_A = 0: moving beams come to rest bent below β = -0.7116 and straight above",
+            format!("bent up to β = {bent}, straight from β = {straight}"),
+        )
+    }
+
+    fn unambiguous(&self, Diagram { ambiguous, branches, .. }: &Diagram) -> Check {
+        let claim = "contact, side and number of unstable directions tell all branches apart";
+        Check::that(
+            *ambiguous == 0 && !branches.is_empty(),
+            format!("θ_A = {}: {claim}", self.theta_a()),
+            format!("{ambiguous} states could belong to two branches"),
+        )
+    }
+
+    fn one_state(&self, Diagram { counts, .. }: &Diagram) -> Check {
+        let several = list(counts.iter().filter(|(_, n)| *n != 1).map(|(beta, _)| *beta));
+        Check::that(
+            !counts.is_empty() && several == "none",
+            format!("θ_A = {}: one steady state for every β of the diagram, even beyond buckling", self.theta_a()),
+            format!("{} values of β, with another number of states: {several}", counts.len()),
+        )
+    }
+
+    /// The whole diagram, and the fork from close by where there is one.
+    fn figures(&self, id: &str) -> Vec<Figure> {
+        let Some(diagram) = self.diagram else { return vec![] };
+        let theta_a = self.theta_a();
+        let caption = format!(
+            "Steady states over β for θ_A = {theta_a}: solid where stable, dashed where not; open markers: where moving \
+             beams come to rest."
+        );
+        let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
+        let mut figures = vec![Figure::new(id, &format!("theta-a-{theta_a}"), caption, whole)];
+        if Event::of(self.scene) == Event::Buckling {
+            let fork = diagram.event[0];
+            let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
+            let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
+            figures.push(Figure::new(id, &format!("theta-a-{theta_a}-fork"), caption, close));
+        }
+        figures
+    }
+
+    fn drawing(&self, diagram: &Diagram, range: [f64; 2]) -> String {
+        let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+            points.iter().copied().filter(|(beta, _)| (range[0]..=range[1]).contains(beta)).collect()
+        };
+        let mut branches = Vec::new();
+        for (contact, label) in
+            [(Contact::Free, "free"), (Contact::Upper, "upper obstacle"), (Contact::Lower, "lower obstacle")]
+        {
+            for stable in [true, false] {
+                let found =
+                    diagram.branches.iter().filter(|branch| branch.contact == contact && branch.stable == stable);
+                // A branch that is met at one β only is a corner of the diagram, not a line.
+                let curves = found.map(|branch| shown(&branch.points)).filter(|points| points.len() > 1);
+                branches.extend(curves.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
+            }
+        }
+        let ends: Vec<(f64, f64)> = self.tips().collect();
+        figures::bifurcation(&figures::Bifurcation {
+            title: None,
+            x_label: "axial force at rest β".into(),
+            y_label: "tip displacement u(1) (dimensionless)".into(),
+            branches,
+            obstacles: figures::obstacle_lines(self.scene.obstacles),
+            states: vec![plots::Series { label: "end of a run".into(), points: shown(&ends) }],
+        })
     }
 }
 
 pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<Task, Found>]) -> Outcome {
-    let results = Results::of(study, ran);
-    let mut checks = vec![completion(ran, not_finite), discrete_limit(study, &results.forces)];
-    for ((scene, diagram), rests) in study.scenes.iter().zip(&results.diagrams).zip(&results.rests) {
-        checks.push(ends_are_stable(study, scene, rests));
-        // Completion has failed where there is no diagram.
-        let Some(diagram) = diagram else { continue };
-        checks.push(unambiguous(scene, diagram));
-        checks.extend(match Event::of(scene) {
-            Event::Buckling => vec![buckles(diagram), bent_below(study, rests)],
-            Event::LiftOff => vec![lifts_off(diagram), one_state(scene, diagram)],
-        });
-    }
-    let levels = levels(study, &results.forces);
-    report::outcome(study, &results, &levels, checks)
-}
-
-/// Names of the numbers that are not finite.
-fn not_finite(found: &Found) -> Vec<String> {
-    let numbers = match found {
-        Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
-        Found::Force(force) => vec![("force", *force)],
-        Found::Rest(Rest { u_tip, distance, .. }) => vec![("u(1)", *u_tip), ("distance", *distance)],
+    let scenes: Vec<OfScene<'_>> = (0..study.scenes.len()).map(|k| OfScene::of(study, ran, k)).collect();
+    let force = |&n: &usize| match found(ran, &Task::Buckling(n)) {
+        Some(Found::Force(force)) => (n, *force),
+        _ => (n, f64::NAN),
     };
-    numbers.iter().filter(|(_, value)| !value.is_finite()).map(|(name, _)| (*name).to_owned()).collect()
-}
-
-/// The errors of the discrete buckling force.
-fn levels(study: &BifurcationStudy, forces: &[f64]) -> Levels {
-    let refinement = |&n: &usize| Refinement {
-        label: format!("n = {n}"),
-        parameters: vec![("elements".to_owned(), n as f64)],
-        step: 1.0 / n as f64,
-    };
-    Levels {
+    let forces: Vec<(usize, f64)> = study.meshes.iter().map(force).collect();
+    let mut checks = vec![completion(ran, numbers_not_finite), discrete_limit(&forces)];
+    checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
+    let levels = Levels {
         axis: Axis::Space,
-        refinements: study.meshes.iter().map(refinement).collect(),
+        refinements: study
+            .meshes
+            .iter()
+            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64))
+            .collect(),
         columns: vec![ErrorColumn {
             name: "buckling force of P1 elements".to_owned(),
-            errors: forces.iter().map(|force| Some((force - BUCKLING).abs())).collect(),
+            errors: forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect(),
             claim: Some(Claim { order: 2.0, tolerance: study.tolerance }),
             look: 0,
         }],
+    };
+    let rates = levels.judge();
+    let events = scenes.iter().map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
+    let guarded = forces.iter().map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
+    let at: Vec<String> = scenes.iter().map(|of| format!("{:.6}", of.event())).collect();
+    let headline = format!("buckling and lift-off at β = {}", at.join(", "));
+    let (diagrams, runs) = (study.scenes.len(), study.scenes.len() * study.betas.len());
+    Outcome {
+        tables: vec![force_table(&forces), rest_table(study, &scenes)],
+        figures: scenes.iter().flat_map(|of| of.figures(&study.header.id)).collect(),
+        quantities: events.chain(guarded).chain(levels.quantities(&rates)).collect(),
+        levels: levels.errors(),
+        headline: headline.clone(),
+        ..Outcome::new(format!("{diagrams} diagrams, {runs} runs to rest; {headline}"), rates, checks)
     }
 }
 
+fn numbers_not_finite(found: &Found) -> Vec<String> {
+    not_finite(&match found {
+        Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
+        Found::Force(force) => vec![("force", *force)],
+        Found::Rest(Rest { u_tip, distance, .. }) => vec![("u(1)", *u_tip), ("distance", *distance)],
+    })
+}
+
+/// Numbers in words.
+fn list(betas: impl Iterator<Item = f64>) -> String {
+    let betas: Vec<String> = betas.map(|beta| beta.to_string()).collect();
+    if betas.is_empty() { "none".to_owned() } else { betas.join(", ") }
+}
+
 /// The discrete buckling force for vanishing mesh width, from the last two meshes.
-pub(super) fn extrapolated(study: &BifurcationStudy, forces: &[f64]) -> f64 {
-    let (&[.., coarse, fine], &[.., before, last]) = (study.meshes.as_slice(), forces) else { return f64::NAN };
+fn extrapolated(forces: &[(usize, f64)]) -> f64 {
+    let &[.., (coarse, before), (fine, last)] = forces else { return f64::NAN };
     last + (last - before) / ((fine as f64 / coarse as f64).powi(2) - 1.0)
 }
 
-fn discrete_limit(study: &BifurcationStudy, forces: &[f64]) -> Check {
-    let limit = extrapolated(study, forces);
+fn discrete_limit(forces: &[(usize, f64)]) -> Check {
+    let limit = extrapolated(forces);
     Check::that(
         (limit - BUCKLING).abs() <= LIMIT,
         "P1 elements buckle at -(π²/4)/(1 + π²/4) as the mesh is refined, to 1e-8",
         format!("extrapolated -{limit:.10} for -{BUCKLING:.10}"),
-    )
-}
-
-fn ends_are_stable(study: &BifurcationStudy, scene: &Scene, rests: &[Option<&Rest>]) -> Check {
-    let distance = |rest: &Option<&Rest>| rest.map_or(f64::NAN, |rest| rest.distance);
-    let is_stable = |rest: &Rest| rest.state.is_some_and(|state| state.stable);
-    let arrived = |rest: &Option<&Rest>| rest.is_some_and(|rest| is_stable(rest) && rest.distance <= study.distance);
-    let farthest = rests.iter().map(distance).fold(0.0, max_or_nan);
-    let off = study.betas.iter().zip(rests).filter(|(_, rest)| !arrived(rest)).map(|(beta, _)| beta.to_string());
-    let off: Vec<String> = off.collect();
-    let list = if off.is_empty() { "none".to_owned() } else { off.join(", ") };
-    Check::that(
-        !rests.is_empty() && off.is_empty(),
-        format!("θ_A = {}: every moving beam comes to rest on a stable branch", scene.beam.theta_a),
-        format!("{} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {list}", rests.len()),
-    )
-}
-
-fn bent_below(study: &BifurcationStudy, rests: &[Option<&Rest>]) -> Check {
-    let tip = |rest: &Option<&Rest>| rest.map_or(f64::NAN, |rest| rest.u_tip.abs());
-    let tips = || study.betas.iter().zip(rests).map(|(beta, rest)| (*beta, tip(rest)));
-    let as_expected = |(beta, tip): (f64, f64)| if beta < -BUCKLING { tip > STRAIGHT } else { tip <= STRAIGHT };
-    let bent = tips().filter(|(_, tip)| *tip > STRAIGHT).map(|(beta, _)| beta).fold(f64::NEG_INFINITY, f64::max);
-    let straight = tips().filter(|(_, tip)| *tip <= STRAIGHT).map(|(beta, _)| beta).fold(f64::INFINITY, f64::min);
-    Check::that(
-        bent < straight && tips().all(as_expected),
-        "θ_A = 0: moving beams come to rest bent below β = -0.7116 and straight above",
-        format!("bent up to β = {bent}, straight from β = {straight}"),
-    )
-}
-
-fn unambiguous(scene: &Scene, diagram: &Diagram) -> Check {
-    let Diagram { ambiguous, branches, .. } = diagram;
-    Check::that(
-        *ambiguous == 0 && !branches.is_empty(),
-        format!(
-            "θ_A = {}: contact, side and number of unstable directions tell all branches apart",
-            scene.beam.theta_a
-        ),
-        format!("{ambiguous} states could belong to two branches"),
     )
 }
 
@@ -164,19 +236,28 @@ fn buckles(diagram: &Diagram) -> Check {
 
 fn lifts_off(diagram: &Diagram) -> Check {
     let [low, high] = diagram.event;
-    Check::that(
-        high - low <= BRACKET,
-        "the heated beam leaves the upper obstacle at one β, and is free above",
-        format!("between {low:.9} and {high:.9}"),
-    )
+    let claim = "the heated beam leaves the upper obstacle at one β, and is free above";
+    Check::that(high - low <= BRACKET, claim, format!("between {low:.9} and {high:.9}"))
 }
 
-fn one_state(scene: &Scene, diagram: &Diagram) -> Check {
-    let counts = &diagram.counts;
-    let several: Vec<String> = counts.iter().filter(|(_, n)| *n != 1).map(|(beta, _)| beta.to_string()).collect();
-    let list = if several.is_empty() { "none".to_owned() } else { several.join(", ") };
-    let claim =
-        format!("θ_A = {}: one steady state for every β of the diagram, even beyond buckling", scene.beam.theta_a);
-    let evidence = format!("{} values of β, with another number of states: {list}", counts.len());
-    Check::that(!counts.is_empty() && several.is_empty(), claim, evidence)
+fn force_table(forces: &[(usize, f64)]) -> Table {
+    let row = |name: String, force: f64| vec![name, format!("-{force:.10}"), format!("{:.3e}", force - BUCKLING)];
+    let rows = forces.iter().map(|(n, force)| row(n.to_string(), *force));
+    let last = row("extrapolated".to_owned(), extrapolated(forces));
+    let head = ["elements", "β", "above -(π²/4)/(1 + π²/4)"];
+    Table::new("Buckling point of P1 elements", head, rows.chain([last]))
+}
+
+fn rest_table(study: &BifurcationStudy, scenes: &[OfScene<'_>]) -> Table {
+    let readings = |k: usize, of: &OfScene<'_>| {
+        let rest = of.rests[k].1;
+        let exact = rest.and_then(|rest| rest.state).map_or(f64::NAN, |state| state.u_tip);
+        [decimals(rest.map_or(f64::NAN, |rest| rest.u_tip), 8), decimals(exact, 8)]
+    };
+    let row = |(k, beta): (usize, &f64)| {
+        std::iter::once(beta.to_string()).chain(scenes.iter().flat_map(|of| readings(k, of))).collect()
+    };
+    let of_scene = |of: &OfScene<'_>| [format!("u(1) at rest, θ_A = {}", of.theta_a()), "exact".to_owned()];
+    let head = std::iter::once("β".to_owned()).chain(scenes.iter().flat_map(of_scene));
+    Table::new("Where moving beams come to rest", head, study.betas.iter().enumerate().map(row))
 }

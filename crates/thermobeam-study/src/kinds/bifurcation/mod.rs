@@ -6,17 +6,17 @@
 
 mod branches;
 mod buckling;
-mod cases;
-mod file;
 mod judge;
-mod report;
 
-use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
+use convergence_study::judge::verdict::Judge;
+use thermobeam::equilibrium::Equilibrium;
+use thermobeam::mesh::Mesh;
 
-use crate::scene::Scene;
-
+use super::prelude::*;
+use super::steady::{ToRest, listed_scenes};
+use crate::scene::tables;
+use branches::Event;
 pub use branches::{Branch, Diagram};
-pub use cases::{Found, Rest, Task};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -30,6 +30,12 @@ pub const ROW: KindRow = KindRow {
 
 /// Half the width of the picture of a fork.
 const CLOSE: f64 = 0.025;
+
+/// Width to which an event is bracketed.
+const BRACKET: f64 = 1e-9;
+
+/// Points of the picture of a fork.
+const FORK_POINTS: usize = 80;
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +51,70 @@ pub struct BifurcationStudy {
     tolerance: f64,
     /// β at which beams move and come to rest.
     betas: Vec<f64>,
-    elements: usize,
-    dt: f64,
-    speed: f64,
-    t_max: f64,
+    rest: ToRest,
     /// How far from an exact steady state they may be.
     distance: f64,
+}
+
+/// What a case computes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Task {
+    /// The branches of a scene, by its place in the list.
+    Diagram(usize),
+    /// The buckling force of so many elements.
+    Buckling(usize),
+    /// A moving beam until it rests: scene and β, by their places in the lists.
+    Rest(usize, usize),
+}
+
+/// What a case finds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// The branches.
+    Diagram(Diagram),
+    /// The buckling force of P1 elements, positive.
+    Force(f64),
+    /// Where a moving beam came to rest.
+    Rest(Rest),
+}
+
+/// A beam that came to rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rest {
+    /// u(1).
+    pub u_tip: f64,
+    /// The exact steady state nearest to it; `None` if there is none.
+    pub state: Option<Equilibrium>,
+    /// Largest difference to that state over all nodes, in u and φ; NaN without one.
+    pub distance: f64,
+}
+
+impl FromFile for BifurcationStudy {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "diagram", "buckling", "rest"])?;
+        let diagram = root.table("diagram", &["scenes", "beta", "points"])?;
+        let fits = |ends: &[f64]| ends.len() == 2 && increases(ends);
+        let ends = diagram.list("beta", "a list of two numbers, ascending", Field::number, fits)?;
+        let points = diagram.count("points", 2..=100_000)?;
+        let beta = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / (points - 1) as f64);
+        let buckling = root.table("buckling", &["elements", "tolerance"])?;
+        let allowed = "a list of at least three numbers of elements, ascending";
+        let meshes = buckling.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))?;
+        let allowed = "a number > 0 and < 0.5";
+        let is_tolerance = |tolerance| Judge::new(tolerance).is_ok();
+        let rest = root.table("rest", &[&["beta", "distance"], &ToRest::KEYS[..]].concat())?;
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
+        Ok(Self {
+            header,
+            scenes: listed_scenes(&diagram, folder)?,
+            grid: (0..points).map(beta).collect(),
+            meshes,
+            tolerance: buckling.require("tolerance", allowed)?.number_where(allowed, is_tolerance)?,
+            betas: rest.list("beta", "a list of numbers, ascending", Field::number, fits)?,
+            rest: ToRest::read(&rest)?,
+            distance: rest.positive("distance")?,
+        })
+    }
 }
 
 impl Kind for BifurcationStudy {
@@ -61,15 +125,56 @@ impl Kind for BifurcationStudy {
         &self.header
     }
 
+    /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
     fn cases(&self) -> Vec<Case<Task>> {
-        cases::cases(self)
+        // Some 50 microseconds for each β: as long as 3000 elements of a step.
+        let diagram = |(k, scene): (usize, &Scene)| Case {
+            label: format!("branches, θ_A = {}", scene.beam.theta_a),
+            cost: 3e3 * self.grid.len() as f64,
+            data: Task::Diagram(k),
+        };
+        let force =
+            |&n: &usize| Case { label: format!("buckling force, n = {n}"), cost: n as f64, data: Task::Buckling(n) };
+        let rest = |scene: usize, beta: usize| Case {
+            label: format!("to rest, θ_A = {}, β = {}", self.scenes[scene].beam.theta_a, self.betas[beta]),
+            cost: 200.0 / self.rest.dt * self.rest.elements as f64,
+            data: Task::Rest(scene, beta),
+        };
+        let rests = (0..self.scenes.len()).flat_map(|scene| (0..self.betas.len()).map(move |beta| rest(scene, beta)));
+        self.scenes.iter().enumerate().map(diagram).chain(self.meshes.iter().map(force)).chain(rests).collect()
     }
 
     fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
-        cases::run(self, *task)
+        Ok(match *task {
+            Task::Diagram(scene) => Found::Diagram(self.diagram(&self.scenes[scene])?),
+            Task::Buckling(n) => Found::Force(buckling::discrete_buckling_force(&Mesh::uniform(n)?)?),
+            Task::Rest(scene, beta) => {
+                let (rest, _, nearest) = self.rest.run(&self.scenes[scene], self.betas[beta])?;
+                Found::Rest(Rest {
+                    u_tip: rest.u_tip(),
+                    state: nearest.map(|nearest| nearest.state),
+                    distance: nearest.map_or(f64::NAN, |nearest| nearest.distance),
+                })
+            }
+        })
     }
 
     fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
         judge::judge(self, ran)
+    }
+}
+
+impl BifurcationStudy {
+    fn diagram(&self, scene: &Scene) -> Result<Diagram, CaseFailure> {
+        let coarse = branches::sample(scene, &self.grid, 0)?;
+        let event = branches::bracket(scene, &coarse, BRACKET)?;
+        let mut grid = self.grid.clone();
+        if Event::of(scene) == Event::Buckling && !event[0].is_nan() {
+            // More points around a fork for the picture of it.
+            let close = |k: usize| event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0);
+            grid.extend((0..=FORK_POINTS).map(close));
+            grid.sort_by(f64::total_cmp);
+        }
+        Ok(branches::trace(&branches::sample(scene, &grid, branches::HALVINGS)?, event))
     }
 }

@@ -21,18 +21,16 @@
 //! the rounding errors of the step.
 
 mod beams;
-mod end;
-mod file;
 pub mod random;
 pub mod runs;
 
-use std::path::Path;
+use convergence_study::study::Study;
+use thermobeam::dg;
+use thermobeam::error::StepFailure;
 
-use convergence_study::input::{InputError, Section};
-use convergence_study::study::{Header, KindRow, Study, reader};
-
+use super::prelude::*;
 pub use super::watch::Worst;
-pub use end::End;
+use crate::run::driver::RunError;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -47,18 +45,92 @@ pub const ROW: KindRow = KindRow {
               very step in which it happens. Run the scene named alone.",
 };
 
-/// The tables of which a study file has one.
-const TABLES: [&str; 3] = ["energy", "case", "random"];
-
 /// Reads a study of scenes, of cases or of random scenes, whichever table the file has.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    root.allow(&[&["study"], &TABLES[..]].concat())?;
+    let tables = ["energy", "case", "random"];
+    root.allow(&[&["study"], &tables[..]].concat())?;
     let allowed = "one of the tables [energy], [[case]] and [random]";
-    let mut present = TABLES.into_iter().filter(|table| root.get(table).is_some());
+    let mut present = tables.into_iter().filter(|table| root.get(table).is_some());
     match (present.next(), present.next()) {
         (None, _) => Err(root.missing("energy", allowed)),
         (Some(_), Some(second)) => Err(root.refuse(second, "a second table of scenes", allowed)),
         (Some("random"), None) => reader::<random::RandomScenes>(header, root, folder),
         (Some(_), None) => reader::<runs::Runs>(header, root, folder),
+    }
+}
+
+/// The tables `[[case]]`, each with its name, which no other has.
+pub(in crate::kinds) fn named_cases<C>(
+    root: &Section<'_>,
+    read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
+) -> Result<Vec<C>, InputError> {
+    let allowed = "a list of at least one case, each [[case]]";
+    let list = root.require("case", allowed)?;
+    let (mut names, mut cases): (Vec<String>, Vec<C>) = (vec![], vec![]);
+    for item in list.items(allowed)? {
+        let section = item.section()?;
+        let name = section.require("name", "a text")?.text()?.to_owned();
+        cases.push(read(&section, name.clone())?);
+        if names.contains(&name) {
+            return Err(item.refuse(format!("a second \"{name}\""), "a name that no other case has"));
+        }
+        names.push(name);
+    }
+    if cases.is_empty() { Err(list.refuse_as_written(allowed)) } else { Ok(cases) }
+}
+
+/// How a run ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// After its last step.
+    Answer,
+    /// At a step whose operator is not definite.
+    Indefinite,
+    /// At a step whose iteration diverges or needs too many iterations.
+    IterationLimit,
+    /// At a step with numbers that are not finite.
+    NotFinite,
+}
+
+impl End {
+    /// All ends, with their names in study files and reports.
+    pub const ALL: [(&str, End); 4] = [
+        ("answer", End::Answer),
+        ("indefinite", End::Indefinite),
+        ("iteration-limit", End::IterationLimit),
+        ("not-finite", End::NotFinite),
+    ];
+
+    /// The end of a run at a step that failed.
+    pub fn of(failure: &StepFailure) -> Self {
+        match failure {
+            StepFailure::Indefinite { .. } => End::Indefinite,
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => End::IterationLimit,
+            StepFailure::NonFinite { .. } => End::NotFinite,
+        }
+    }
+
+    /// The same by the scheme of any order; `None` for failures to find a contact event, which one-step schemes do not have.
+    fn of_any_order(failure: &dg::StepFailure) -> Option<Self> {
+        match failure {
+            dg::StepFailure::Indefinite { .. } => Some(End::Indefinite),
+            dg::StepFailure::Diverged { .. } | dg::StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
+            dg::StepFailure::NonFinite { .. } => Some(End::NotFinite),
+            _ => None,
+        }
+    }
+
+    /// The end of a run that a step ended; `None` for other ends.
+    pub(crate) fn of_run(failure: &RunError) -> Option<Self> {
+        match failure {
+            RunError::Step(error) => Some(Self::of(&error.failure)),
+            RunError::DgStep(error) => Self::of_any_order(&error.failure),
+            _ => None,
+        }
+    }
+
+    /// Its name in study files and reports.
+    pub fn name(self) -> &'static str {
+        Self::ALL[self as usize].0
     }
 }

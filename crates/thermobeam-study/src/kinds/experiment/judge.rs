@@ -1,14 +1,13 @@
 //! The sentences of Section 5, each a check with its numbers.
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::levels::completion;
-use convergence_study::study::{Check, Outcome, Ran};
 use thermobeam::equilibrium::Contact;
+use thermobeam::kirchhoff::BUCKLING;
 
 use super::run::straight_energy;
-use super::{Experiment, Experiments, Found, Group, Rest, Run, Task, Until, report, rest};
+use super::{Experiment, Experiments, Found, Group, Nearest, Rest, Run, Task, Until, report};
+use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
-use crate::scene::Scene;
 
 /// The first contacts count as "at the beginning" within this share of the figures' span.
 const BEGINNING: f64 = 0.1;
@@ -24,6 +23,18 @@ const REMAINS: f64 = 50.0;
 /// Largest change of the energy in a step: the round-off of an energy of order 1 to 10.
 const ROUND_OFF: f64 = 1e-14;
 
+/// Where the paper's text puts the beginning of several steady states.
+const AS_PRINTED: f64 = -0.5;
+
+/// A tip closer to zero than this is that of a straight beam: bent tips start at some 0.01, the lower obstacle.
+const STRAIGHT: f64 = 1e-6;
+
+/// Relative change of a number that depends smoothly on the data: far above round-off, far below a change of the method.
+const SMOOTH: f64 = 1e-6;
+
+/// The same where many bounces lie between the data and the number: each magnifies a perturbation.
+const AFTER_BOUNCES: f64 = 1e-4;
+
 /// The experiments of a group that completed.
 pub(super) struct Runs<'r> {
     pub(super) runs: Vec<(&'r Experiment, &'r Run)>,
@@ -34,7 +45,7 @@ pub(super) struct Runs<'r> {
 impl<'r> Runs<'r> {
     /// The experiments that belong to the group.
     pub(super) fn of(study: &'r Experiments, ran: &'r [Ran<Task, Found>], belongs: impl Fn(Group) -> bool) -> Self {
-        let run = |task: Task| match ran.iter().find(|ran| ran.case.data == task).and_then(Ran::ok) {
+        let run = |task: Task| match found(ran, &task) {
             Some(Found::Run(run)) => Some(&**run),
             _ => None,
         };
@@ -55,48 +66,68 @@ impl<'r> Runs<'r> {
     }
 }
 
-pub(super) fn judge(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
-    let rests = rests(study, ran);
-    let mut checks = vec![completion(ran, not_finite)];
-    checks.extend(claims(study, ran));
-    checks.extend(rest::judge(&rests, rests.len() == study.betas.len()));
-    report::outcome(study, ran, &rests, checks)
+/// Results with their β, in ascending order of it.
+pub(super) type Rests<'r> = [(f64, &'r Rest)];
+
+impl Run {
+    /// * `name`: the experiment's; `bent`: whether the end is not zero, whose digits would be those of the last of the motion.
+    pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
+        let of = |reading: Reading, guard: &str, tolerance: f64| reading.guarded(format!("{name}: {guard}"), tolerance);
+        let ends = |reading: Reading, guard: &str| if bent { of(reading, guard, SMOOTH) } else { reading };
+        let exact = self.nearest.map(|nearest| nearest.state.u_tip);
+        vec![
+            of(Reading::new("first contact above", self.first_upper).fixed(4), "first_upper", SMOOTH),
+            of(Reading::new("below", self.first_lower).fixed(4), "first_lower", AFTER_BOUNCES),
+            of(Reading::new("frequency of u(1)", self.frequency).fixed(4), "frequency", AFTER_BOUNCES),
+            of(Reading::new("range of φ(1)", self.phi_amplitude).fixed(4), "phi_amplitude", AFTER_BOUNCES),
+            Reading::new("steady by t", self.t_steady).fixed(0),
+            ends(Reading::new("E at the end", self.energy).fixed(8), "energy"),
+            Reading::new("u(1)", self.u_tip).scientific(3),
+            Reading::new("φ(1)", self.phi_tip).scientific(3),
+            ends(Reading::new("u(1) of the exact state", exact), "exact_u_tip"),
+            Reading::new("contact force", self.contact_force),
+            Reading::new("largest field", self.largest_field),
+            Reading::new("distance to a steady state", distance(self.nearest)),
+            Reading::new("largest change of the energy", self.largest_increase),
+        ]
+    }
 }
 
-/// The runs to rest that completed, each with its β.
-fn rests<'r>(study: &Experiments, ran: &'r [Ran<Task, Found>]) -> Vec<(f64, &'r Rest)> {
-    let rest = |ran: &'r Ran<Task, Found>| match (ran.case.data, ran.ok()) {
-        (Task::Rest(k), Some(Found::Rest(rest))) => Some((study.betas[k], rest)),
+fn distance(nearest: Option<Nearest>) -> f64 {
+    nearest.map_or(f64::NAN, |nearest| nearest.distance)
+}
+
+impl Rest {
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let distance = Reading::new("distance to the nearest", distance(self.nearest));
+        vec![
+            Reading::text("steady states", self.states.to_string()),
+            Reading::text("stable", self.stable.to_string()),
+            Reading::new("u(1) at rest", self.u_tip).scientific(6),
+            distance.shown(|distance| if self.nearest.is_some() { format!("{distance:.1e}") } else { "-".to_owned() }),
+            Reading::new("at rest by t", self.t_rest).fixed(0),
+        ]
+    }
+}
+
+pub(super) fn judge(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
+    // The runs to rest that completed, each with its β.
+    let rest = |(k, &beta): (usize, &f64)| match found(ran, &Task::Rest(k)) {
+        Some(Found::Rest(rest)) => Some((beta, rest)),
         _ => None,
     };
-    ran.iter().filter_map(rest).collect()
-}
-
-/// Names of the numbers that are not finite.
-fn not_finite(found: &Found) -> Vec<String> {
-    let distance = |nearest: Option<super::Nearest>| nearest.map_or(f64::NAN, |nearest| nearest.distance);
-    let numbers = match found {
-        Found::Run(run) => vec![
-            ("time of the steady state", run.t_steady),
-            ("energy", run.energy),
-            ("u(1)", run.u_tip),
-            ("φ(1)", run.phi_tip),
-            ("contact force", run.contact_force),
-            ("largest field", run.largest_field),
-            ("distance to a steady state", distance(run.nearest)),
-            ("first contact above", run.first_upper.unwrap_or(0.0)),
-            ("first contact below", run.first_lower.unwrap_or(0.0)),
-            ("frequency", run.frequency.unwrap_or(0.0)),
-            ("range of φ(1)", run.phi_amplitude),
-            ("largest change of the energy", run.largest_increase),
-        ],
-        Found::Rest(rest) => vec![
-            ("u(1)", rest.u_tip),
-            ("time of rest", rest.t_rest),
-            ("distance to a steady state", distance(rest.nearest)),
-        ],
-    };
-    numbers.iter().filter(|(_, value)| !value.is_finite()).map(|(name, _)| (*name).to_owned()).collect()
+    let rests: Vec<(f64, &Rest)> = study.betas.iter().enumerate().filter_map(rest).collect();
+    let mut checks = vec![completion(ran, |found| {
+        readings::not_finite(&match found {
+            Found::Run(run) => run.readings("", true),
+            Found::Rest(rest) => rest.readings(),
+        })
+    })];
+    checks.extend(claims(study, ran));
+    checks.extend(counts(&rests, rests.len() == study.betas.len()));
+    let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
+    let headline = format!("{passed} of {} statements about the experiments hold", checks.len());
+    report::outcome(study, ran, &rests, headline, checks)
 }
 
 /// All checks of the text, but for the number of steady states.
@@ -222,8 +253,48 @@ fn at_rest(run: &Run) -> String {
     )
 }
 
-/// How many of the checks passed, in a sentence.
-pub(super) fn summary(checks: &[Check]) -> String {
-    let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
-    format!("{passed} of {} statements about the experiments hold", checks.len())
+/// The paper's last sentence: how many steady states there are below β = -1/2, and in which a moving beam comes to rest.
+///
+/// * `complete`: whether there is a result for every β; no claim holds without.
+fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
+    let claim = |range: [f64; 2], holds: fn(&Rest) -> bool, text: &str, more: &str| {
+        let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
+        let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
+        let evidence = |(beta, rest): &&(f64, &Rest)| {
+            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.states, rest.u_tip)
+        };
+        let each: Vec<String> = within.iter().map(evidence).collect();
+        let evidence = if each.is_empty() { "no β in this range".to_owned() } else { each.join("; ") };
+        Check::that(holds, text, evidence + more)
+    };
+    [
+        claim(
+            [AS_PRINTED, f64::INFINITY],
+            is_alone_and_straight,
+            "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it",
+            "",
+        ),
+        claim(
+            [-BUCKLING, AS_PRINTED],
+            is_alone_and_straight,
+            "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 there is only \
+             one, the straight beam",
+            &format!("; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}", -BUCKLING),
+        ),
+        claim(
+            [f64::NEG_INFINITY, -BUCKLING],
+            is_one_of_several_and_bent,
+            "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent",
+            "",
+        ),
+    ]
+}
+
+fn is_alone_and_straight(rest: &Rest) -> bool {
+    rest.states == 1 && rest.u_tip.abs() <= STRAIGHT
+}
+
+fn is_one_of_several_and_bent(rest: &Rest) -> bool {
+    let several = rest.states >= 3 && rest.stable >= 2;
+    several && rest.u_tip.abs() > STRAIGHT && rest.nearest.is_some_and(|nearest| nearest.state.stable)
 }

@@ -25,27 +25,19 @@
 //! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so that the straight beam is the only one.
 //! The study shows it twice: in the list of all exact steady states, and by where moving beams come to rest.
 
-mod cases;
-mod file;
 mod judge;
-mod motion;
 mod report;
-mod rest;
 mod run;
 
-use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
-use thermobeam::equilibrium::{Contact, Equilibrium};
-use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
+use thermobeam::equilibrium::Contact;
 
-use super::steady;
-use crate::scene::Scene;
-use convergence_study::text::number::max_or_nan;
+use super::prelude::*;
+use super::steady::{ToRest, at_resolution, listed_scene};
+use crate::scene::tables;
+use convergence_study::input::POSITIVE;
 
-pub use cases::{Found, Task};
-pub use motion::Frame;
-pub use rest::Rest;
-pub use run::{Point, Run};
+pub use super::steady::Nearest;
+pub use run::{Frame, Point, Run};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -58,7 +50,7 @@ pub const ROW: KindRow = KindRow {
 
 /// Which of the section's experiments, and so what is claimed of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Group {
+enum Group {
     /// θ_A = 0, (5.4): the beam becomes straight.
     First,
     /// θ_A = 20, (5.5): the beam comes to rest in this state of contact.
@@ -69,36 +61,22 @@ pub enum Group {
 
 /// One of the experiments.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Experiment {
-    /// Its part in the section.
-    pub group: Group,
+struct Experiment {
+    group: Group,
     /// The scene, at the study's resolution.
-    pub scene: Scene,
+    scene: Scene,
 }
 
 /// When a run ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Until {
+struct Until {
     /// A run that lasts longer fails.
-    pub t_max: f64,
+    t_max: f64,
     /// Span over which the energy's fall is measured: longer than an oscillation, because at its turning points the beam
     /// stands still.
-    pub window: f64,
+    window: f64,
     /// Fall of the energy per unit of time below which the state is steady.
-    pub rate: f64,
-}
-
-/// How beams are run that only have to come to rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ToRest {
-    /// Elements of a uniform mesh.
-    pub elements: usize,
-    /// Time step.
-    pub dt: f64,
-    /// Largest velocity of a beam at rest.
-    pub speed: f64,
-    /// A run that lasts longer fails.
-    pub t_max: f64,
+    rate: f64,
 }
 
 /// The study.
@@ -111,20 +89,90 @@ pub struct Experiments {
     rest: ToRest,
 }
 
-/// The exact steady state nearest to the end of a run.
+/// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
-    /// The state.
-    pub state: Equilibrium,
-    /// Largest difference over all nodes, in u and φ.
-    pub distance: f64,
+pub enum Task {
+    /// An experiment, by its place in the list.
+    Run(usize),
+    /// A moving beam until it rests, at the β of this place in the list.
+    Rest(usize),
 }
 
-impl Nearest {
-    fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
-        let (state, (in_u, in_phi)) = steady::nearest(mesh, level, states)?;
-        Some(Self { state, distance: max_or_nan(in_u, in_phi) })
+/// What a case finds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// Of an experiment.
+    Run(Box<Run>),
+    /// Of a run to rest.
+    Rest(Rest),
+}
+
+/// The exact steady states at one β, and where a moving beam comes to rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rest {
+    /// Number of exact steady states.
+    pub states: usize,
+    /// Number of those that are stable.
+    pub stable: usize,
+    /// u(1) at rest.
+    pub u_tip: f64,
+    /// When the beam has come to rest.
+    pub t_rest: f64,
+    /// The nearest exact steady state; `None` if there is none.
+    pub nearest: Option<Nearest>,
+}
+
+impl FromFile for Experiments {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "experiments", "run", "steady"])?;
+        let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
+        let until =
+            Until { t_max: run.positive("t_max")?, window: run.positive("window")?, rate: run.positive("rate")? };
+        let mut experiments = experiments(root, folder)?;
+        let t_max = run.require("t_max", POSITIVE)?;
+        for experiment in &mut experiments {
+            refine(&run, &mut experiment.scene)?;
+            limits::steps_until(&t_max, until.t_max, experiment.scene.dt(), limits::STEPS)?;
+        }
+        let steady = root.table("steady", &[&["beta"], &ToRest::KEYS[..]].concat())?;
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
+        let betas = steady.list("beta", "a list of numbers, ascending", Field::number, fits)?;
+        Ok(Self { header, experiments, until, betas, rest: ToRest::read(&steady)? })
     }
+}
+
+/// The table `[experiments]`: the scenes of the three groups.
+fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, InputError> {
+    let section = root.table("experiments", &["first", "second", "rests", "third"])?;
+    // At least two scenes in ascending order of β, because what is claimed of them is an order.
+    let ascending = |key: &str| {
+        let fits =
+            |scenes: &[Scene]| scenes.len() >= 2 && scenes.windows(2).all(|pair| pair[0].beam.beta < pair[1].beam.beta);
+        let allowed = "a list of at least two scene files, beta ascending";
+        section.list(key, allowed, |item| listed_scene(item, folder), fits)
+    };
+    let (first, second) = (ascending("first")?, ascending("second")?);
+    // What each beam of the second group is said to rest on.
+    let choices = [("upper", Contact::Upper), ("lower", Contact::Lower), ("free", Contact::Free)];
+    let allowed = "a list of \"upper\", \"lower\" or \"free\", one for each scene of second";
+    let rests = section.list("rests", allowed, |item| item.choice(&choices), |list| list.len() == second.len())?;
+    let third = listed_scene(&section.require("third", "a scene file")?, folder)?;
+    let one = |(group, scene): (Group, Scene)| Experiment { group, scene };
+    let first = first.into_iter().map(|scene| (Group::First, scene));
+    let second = rests.into_iter().map(Group::Second).zip(second);
+    Ok(first.chain(second).chain([(Group::Third, third)]).map(one).collect())
+}
+
+/// Another mesh and time step, where `[run]` has them.
+fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
+    let field = run.get("elements");
+    let elements = field.as_ref().map_or(Ok(scene.mesh.elements()), tables::elements)?;
+    let dt = run.get("dt").map_or(Ok(scene.dt()), |field| field.positive())?;
+    if field.is_some() || run.get("dt").is_some() {
+        *scene =
+            at_resolution(scene, elements, dt).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
+    }
+    Ok(())
 }
 
 impl Kind for Experiments {
@@ -135,12 +183,35 @@ impl Kind for Experiments {
         &self.header
     }
 
+    /// The seven experiments, then a moving beam until it rests for each β.
     fn cases(&self) -> Vec<Case<Task>> {
-        cases::cases(self)
+        let run = |(k, Experiment { scene, .. }): (usize, &Experiment)| Case {
+            label: scene.name.clone(),
+            // Steady states come at t = 50 to 100.
+            cost: 80.0 / scene.dt() * scene.mesh.elements() as f64,
+            data: Task::Run(k),
+        };
+        let rest = |(k, beta): (usize, &f64)| Case {
+            label: format!("to rest, beta = {beta}"),
+            cost: 200.0 / self.rest.dt * self.rest.elements as f64,
+            data: Task::Rest(k),
+        };
+        let runs = self.experiments.iter().enumerate().map(run);
+        runs.chain(self.betas.iter().enumerate().map(rest)).collect()
     }
 
     fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
-        cases::run(self, *task)
+        match *task {
+            Task::Run(k) => Ok(Found::Run(Box::new(run::run(&self.experiments[k].scene, &self.until)?))),
+            Task::Rest(k) => {
+                // The third experiment is the last.
+                let third =
+                    self.experiments.last().ok_or_else(|| CaseFailure { reason: "no experiment".to_owned() })?;
+                let (rest, states, nearest) = self.rest.run(&third.scene, self.betas[k])?;
+                let stable = states.iter().filter(|state| state.stable).count();
+                Ok(Found::Rest(Rest { states: states.len(), stable, u_tip: rest.u_tip(), t_rest: rest.t, nearest }))
+            }
+        }
     }
 
     fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {

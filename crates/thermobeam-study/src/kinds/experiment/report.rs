@@ -1,27 +1,38 @@
 //! Tables, figures and guarded numbers.
 
-use convergence_study::plots::{Axis, Guide, History, Series, history};
-use convergence_study::study::{Check, Figure, Outcome, Quantity, Ran, Table};
+use super::judge::{Rests, Runs};
+use super::run::{SPAN, straight_energy};
+use super::{Experiment, Experiments, Found, Frame, Group, Point, Run, Task};
+use crate::figures;
+use crate::kinds::prelude::*;
 
-use super::judge::{Runs, summary};
-use super::rest::Rests;
-use super::run::straight_energy;
-use super::{Experiment, Experiments, Found, Group, Point, Run, Task, motion, rest};
+/// Seconds that one run of the animation takes: slower than the beam, so that the impacts can be followed.
+const SECONDS: f64 = 16.0;
 
-/// Relative change of a number that depends smoothly on the data: far above round-off, far below a change of the method.
-const SMOOTH: f64 = 1e-6;
-
-/// The same where many bounces lie between the data and the number: each magnifies a perturbation.
-const AFTER_BOUNCES: f64 = 1e-4;
-
-pub(super) fn outcome(study: &Experiments, ran: &[Ran<Task, Found>], rests: &Rests<'_>, checks: Vec<Check>) -> Outcome {
-    let all = Runs::of(study, ran, |_| true).runs;
+pub(super) fn outcome(
+    study: &Experiments,
+    ran: &[Ran<Task, Found>],
+    rests: &Rests<'_>,
+    headline: String,
+    checks: Vec<Check>,
+) -> Outcome {
+    let row = |(experiment, run): &(&Experiment, &Run)| {
+        let Scene { name, beam, .. } = &experiment.scene;
+        let bent = experiment.group != Group::First;
+        (vec![beam.theta_a.to_string(), beam.beta.to_string()], run.readings(name, bent))
+    };
+    let runs: Vec<_> = Runs::of(study, ran, |_| true).runs.iter().map(row).collect();
+    let rests: Vec<_> = rests.iter().map(|(beta, rest)| (vec![beta.to_string()], rest.readings())).collect();
+    let title = "Steady states without heating, and where the moving beam comes to rest";
     Outcome {
-        tables: vec![table(&all), rest::table(rests)],
+        tables: vec![
+            readings::table("The seven experiments", &["θ_A", "β"], &runs),
+            readings::table(title, &["β"], &rests),
+        ],
         figures: figures(study, ran),
-        quantities: quantities(&all),
-        headline: summary(&checks),
-        ..Outcome::new(summary(&checks), vec![], checks)
+        quantities: readings::guarded(runs.iter().flat_map(|(_, readings)| readings)),
+        headline: headline.clone(),
+        ..Outcome::new(headline, vec![], checks)
     }
 }
 
@@ -32,75 +43,16 @@ pub(super) fn time(t: Option<f64>) -> String {
     t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
 }
 
-fn table(runs: &Each<'_>) -> Table {
-    let head = [
-        "θ_A",
-        "β",
-        "first contact above",
-        "below",
-        "frequency of u(1)",
-        "range of φ(1)",
-        "steady by t",
-        "E at the end",
-        "u(1)",
-        "φ(1)",
-    ];
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
-    let row = |(experiment, run): &(&Experiment, &Run)| {
-        vec![
-            format!("{}", experiment.scene.beam.theta_a),
-            format!("{}", experiment.scene.beam.beta),
-            number(run.first_upper),
-            number(run.first_lower),
-            number(run.frequency),
-            format!("{:.4}", run.phi_amplitude),
-            format!("{:.0}", run.t_steady),
-            format!("{:.8}", run.energy),
-            format!("{:.3e}", run.u_tip),
-            format!("{:.3e}", run.phi_tip),
-        ]
-    };
-    Table {
-        title: "The seven experiments".into(),
-        head: head.map(String::from).to_vec(),
-        rows: runs.iter().map(row).collect(),
-    }
-}
-
-fn quantities(runs: &Each<'_>) -> Vec<Quantity> {
-    let mut quantities = Vec::new();
-    for (experiment, run) in runs {
-        let mut guard = |name: &str, value: Option<f64>, tolerance: f64| {
-            let name = format!("{}: {name}", experiment.scene.name);
-            quantities.push(Quantity { name, value: value.unwrap_or(f64::NAN), tolerance });
-        };
-        guard("first_upper", run.first_upper, SMOOTH);
-        guard("first_lower", run.first_lower, AFTER_BOUNCES);
-        guard("frequency", run.frequency, AFTER_BOUNCES);
-        guard("phi_amplitude", Some(run.phi_amplitude), AFTER_BOUNCES);
-        // Where the end is zero its digits are those of the last of the motion.
-        if experiment.group != Group::First {
-            guard("energy", Some(run.energy), SMOOTH);
-            guard("exact_u_tip", run.nearest.map(|nearest| nearest.state.u_tip), SMOOTH);
-        }
-    }
-    quantities
-}
-
 fn figures(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Figure> {
     let first = Runs::of(study, ran, |group| group == Group::First).runs;
     let second = Runs::of(study, ran, |group| matches!(group, Group::Second(_))).runs;
     let third = Runs::of(study, ran, |group| group == Group::Third).runs;
-    let figure = |what: &str, caption: &str, svg: String| Figure {
-        file: format!("{}-{what}.svg", study.header.id),
-        caption: caption.into(),
-        svg,
-    };
+    let id = &study.header.id;
+    let figure = |what: &str, caption: &str, history: plots::History| over_time(id, what, caption, &history);
     // The middle one moves without axial force at rest.
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
-        let caption =
-            format!("The experiment at {}, θ_A = 0, in motion up to t = {}.", beta_label(experiment), motion::SPAN);
-        figure("beam", &caption, motion::draw(&experiment.scene, &run.frames))
+        let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
+        Figure::new(id, "beam", caption, animated(&experiment.scene, &run.frames))
     });
     let drawn = vec![
         figure(
@@ -142,12 +94,12 @@ fn beta_label(experiment: &Experiment) -> String {
 }
 
 /// One curve for each run, over the figures' span or until the runs are steady.
-fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> Vec<Series> {
+fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> Vec<plots::Series> {
     let curve = |(experiment, run): &(&Experiment, &Run)| {
         let scene = &experiment.scene;
         let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt() } else { f64::INFINITY };
         let shown = run.points.iter().filter(|point| point.t <= end);
-        Series {
+        plots::Series {
             label: beta_label(experiment),
             points: shown.map(|point| (point.t, value(experiment, point))).collect(),
         }
@@ -155,68 +107,69 @@ fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f6
     runs.iter().map(curve).collect()
 }
 
-fn looks(runs: &Each<'_>) -> Vec<usize> {
-    crate::figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name))
+fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
+    figures::obstacle_lines(runs.first().and_then(|(experiment, _)| experiment.scene.obstacles))
 }
 
-fn obstacles(runs: &Each<'_>) -> Vec<Guide> {
-    let obstacles = runs.first().and_then(|(e, _)| e.scene.obstacles);
-    obstacles
-        .map_or(vec![], |o| vec![Guide { label: "g₁".into(), value: o.g1 }, Guide { label: "g₂".into(), value: o.g2 }])
+/// Curves over the figures' span or until the runs are steady, each with the look of its scene.
+fn curves(runs: &Each<'_>, label: &str, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> plots::History {
+    plots::History {
+        y: plots::Axis::linear(label),
+        series: series(runs, span, value),
+        looks: figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name)),
+        ..plots::History::default()
+    }
 }
 
-fn energy(runs: &Each<'_>, span: Span) -> String {
+fn energy(runs: &Each<'_>, span: Span) -> plots::History {
     let limit = |(e, _): &(&Experiment, &Run)| {
         let value = straight_energy(&e.scene);
-        Guide { label: format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(), value }
+        let label = format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
+        plots::Guide { label, value }
     };
-    history(&History {
-        y: Axis::linear("energy E (dimensionless)"),
-        series: series(runs, span, |_, point| point.energy),
-        looks: looks(runs),
-        guides: runs.iter().map(limit).collect(),
-        ..History::default()
-    })
+    let guides = runs.iter().map(limit).collect();
+    plots::History { guides, ..curves(runs, "energy E (dimensionless)", span, |_, point| point.energy) }
 }
 
-fn decay(runs: &Each<'_>) -> String {
-    let series = series(runs, Span::UntilSteady, |experiment, point| point.energy - straight_energy(&experiment.scene));
-    history(&History {
-        y: Axis::log("E − β²/(4ρ) (dimensionless)"), series, looks: looks(runs), ..History::default()
-    })
+fn decay(runs: &Each<'_>) -> plots::History {
+    let above = |experiment: &Experiment, point: &Point| point.energy - straight_energy(&experiment.scene);
+    let y = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
+    plots::History { y, ..curves(runs, "", Span::UntilSteady, above) }
 }
 
-fn displacement(runs: &Each<'_>) -> String {
-    history(&History {
-        y: Axis::linear("tip displacement u(1, t) (dimensionless)"),
-        series: series(runs, Span::Figure, |_, point| point.u_tip),
-        looks: looks(runs),
-        guides: obstacles(runs),
-        ..History::default()
-    })
+fn displacement(runs: &Each<'_>) -> plots::History {
+    let label = "tip displacement u(1, t) (dimensionless)";
+    plots::History { guides: obstacles(runs), ..curves(runs, label, Span::Figure, |_, point| point.u_tip) }
 }
 
-fn rotation(runs: &Each<'_>) -> String {
-    history(&History {
-        y: Axis::linear("tip rotation φ(1, t) (dimensionless)"),
-        series: series(runs, Span::Figure, |_, point| point.phi_tip),
-        looks: looks(runs),
-        ..History::default()
-    })
+fn rotation(runs: &Each<'_>) -> plots::History {
+    curves(runs, "tip rotation φ(1, t) (dimensionless)", Span::Figure, |_, point| point.phi_tip)
 }
 
-fn tip(runs: &Each<'_>) -> String {
+fn tip(runs: &Each<'_>) -> plots::History {
     let curve = |label: &str, value: fn(&Point) -> f64| {
         let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
-        Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
+        plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
     };
-    history(&History {
-        y: Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
+    plots::History {
+        y: plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
         series: vec![
             curve("displacement u(1, t)", |point| point.u_tip),
             curve("rotation φ(1, t)", |point| point.phi_tip),
         ],
         guides: obstacles(runs),
-        ..History::default()
+        ..plots::History::default()
+    }
+}
+
+/// The beam hitting its obstacles.
+fn animated(scene: &Scene, frames: &[Frame]) -> String {
+    figures::animation(&figures::Animation {
+        title: Some("The beam between its obstacles".to_owned()),
+        frames: frames.iter().map(|frame| frame.u.clone()).collect(),
+        times: frames.iter().map(|frame| frame.t).collect(),
+        nodes: scene.mesh.nodes().to_vec(),
+        obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
+        seconds: SECONDS,
     })
 }

@@ -2,20 +2,23 @@
 
 use std::ops::ControlFlow;
 
-use convergence_study::study::CaseFailure;
-use convergence_study::text::number::max_or_nan;
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
-use super::motion::{Frame, Shapes};
 use super::{Nearest, Until};
+use crate::kinds::prelude::*;
 use crate::kinds::steady::exact_states;
 use crate::run::driver::{Driver, Step};
 use crate::run::simulate::driver;
-use crate::scene::Scene;
 
 /// Points of a curve in a figure, about: more than a figure has columns.
 const POINTS: usize = 4000;
+
+/// The time that an animation shows: both obstacles are hit several times.
+pub(super) const SPAN: f64 = 6.0;
+
+/// Parts into which that time is divided, with a frame at each end; what lies between two frames is interpolated.
+const PARTS: usize = 100;
 
 /// What an experiment shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +70,15 @@ pub struct Point {
     pub energy: f64,
 }
 
+/// The shape of the beam at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// The time.
+    pub t: f64,
+    /// u at each node.
+    pub u: Vec<f64>,
+}
+
 /// Runs a scene until its energy stands still.
 ///
 /// # Errors
@@ -93,27 +105,6 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Run, CaseFailure> {
     log.finish(driver.simulation(), &end)
 }
 
-/// First and last upward crossing of zero by u(1), and their number.
-#[derive(Default)]
-struct Crossings {
-    first: f64,
-    last: f64,
-    count: usize,
-}
-
-impl Crossings {
-    fn add(&mut self, t: f64) {
-        if self.count == 0 {
-            self.first = t;
-        }
-        (self.last, self.count) = (t, self.count + 1);
-    }
-
-    fn frequency(&self) -> Option<f64> {
-        (self.count >= 2).then(|| (self.count as f64 - 1.0) / (self.last - self.first))
-    }
-}
-
 /// What a run has shown so far.
 struct Log<'a> {
     scene: &'a Scene,
@@ -121,12 +112,13 @@ struct Log<'a> {
     phi: [f64; 2],
     first_upper: Option<f64>,
     first_lower: Option<f64>,
-    crossings: Crossings,
+    /// First and last upward crossing of zero by u(1), and their number.
+    crossings: ([f64; 2], usize),
     largest_increase: f64,
     /// Steps between two points of a curve.
     stride: usize,
     points: Vec<Point>,
-    shapes: Shapes,
+    frames: Vec<Frame>,
 }
 
 impl<'a> Log<'a> {
@@ -136,15 +128,15 @@ impl<'a> Log<'a> {
             phi: [f64::INFINITY, f64::NEG_INFINITY],
             first_upper: None,
             first_lower: None,
-            crossings: Crossings::default(),
+            crossings: ([f64::NAN; 2], 0),
             largest_increase: f64::NEG_INFINITY,
             stride: ((scene.t_end / scene.dt()).round() as usize / POINTS).max(1),
             points: vec![],
-            shapes: Shapes::new(scene.dt()),
+            frames: vec![],
         };
         let (simulation, level) = driver.present();
         log.add_point(simulation, level);
-        log.shapes.add(0, 0.0, level);
+        log.add_frame(0, 0.0, level);
         log
     }
 
@@ -156,7 +148,7 @@ impl<'a> Log<'a> {
         if t <= self.scene.t_end + 0.5 * self.scene.dt() {
             self.add_motion(t, [old, new]);
         }
-        self.shapes.add(step, t, new);
+        self.add_frame(step, t, new);
         // Beyond the figures' span only slow, smooth motion is left.
         let thinning = if t <= self.scene.t_end { 1 } else { 10 };
         if step.is_multiple_of(thinning * self.stride) {
@@ -178,7 +170,8 @@ impl<'a> Log<'a> {
             }
         }
         if before < 0.0 && now >= 0.0 {
-            self.crossings.add(passes(0.0));
+            let (([first, _], count), t) = (self.crossings, passes(0.0));
+            self.crossings = ([if count == 0 { t } else { first }, t], count + 1);
         }
         let phi = new.phi[tip];
         self.phi = [-max_or_nan(-self.phi[0], -phi), max_or_nan(self.phi[1], phi)];
@@ -190,9 +183,18 @@ impl<'a> Log<'a> {
         self.points.push(Point { t: simulation.t(), u_tip: level.u[tip], phi_tip: level.phi[tip], energy });
     }
 
+    /// Keeps the level after so many steps, if it is one of the frames.
+    fn add_frame(&mut self, step: usize, t: f64, level: &Level) {
+        let steps = (SPAN / self.scene.dt()).round() as usize;
+        if step <= steps && step.is_multiple_of((steps / PARTS).max(1)) {
+            self.frames.push(Frame { t, u: level.u.clone() });
+        }
+    }
+
     fn finish(self, simulation: &Simulation, end: &Level) -> Result<Run, CaseFailure> {
         let states = exact_states(self.scene)?;
         let tip = end.u.len() - 1;
+        let ([first, last], crossings) = self.crossings;
         let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
         Ok(Run {
             t_steady: simulation.t(),
@@ -205,12 +207,12 @@ impl<'a> Log<'a> {
             nearest: Nearest::of(&self.scene.mesh, end, &states),
             first_upper: self.first_upper,
             first_lower: self.first_lower,
-            crossings: self.crossings.count,
-            frequency: self.crossings.frequency(),
+            crossings,
+            frequency: (crossings >= 2).then(|| (crossings as f64 - 1.0) / (last - first)),
             phi_amplitude: self.phi[1] - self.phi[0],
             largest_increase: self.largest_increase,
             points: self.points,
-            frames: self.shapes.frames,
+            frames: self.frames,
         })
     }
 }

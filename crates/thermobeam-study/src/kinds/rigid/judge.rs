@@ -1,14 +1,14 @@
-//! Orders in ε, claims about both solvers, and what the baseline guards.
+//! Orders in ε, claims about both solvers, tables, figures, and what the baseline guards.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::RateVerdict;
-use convergence_study::study::levels::completion;
-use convergence_study::study::{Check, Outcome, Quantity, Ran};
-use convergence_study::text::number::{max_or_nan, rate_text};
+use convergence_study::text::number::rate_text;
 use thermobeam::parameters::Obstacles;
 
 use super::theory::peak_penetration;
-use super::{Bouncing, FixedPointRun, Found, Impact, Rest, RigidStudy, RunOf, Task, report};
+use super::{Bouncing, FixedPointRun, Found, Impact, Rest, RigidStudy, RunOf, Task};
+use crate::figures::{Contraction, contraction, obstacle_lines};
+use crate::kinds::prelude::*;
 
 /// Contraction above which a time step averages over the whole impact, which makes the penetration of order 1.
 const AVERAGED: f64 = 5.0;
@@ -19,139 +19,171 @@ const STIFF: f64 = 1e-3;
 /// Contraction from which on the fixed point may need more iterations than allowed.
 const SLOW: f64 = 0.8;
 
-/// Names of the rates.
-pub(super) const LARGEST: &str = "largest penetration, fixed h and dt";
-const DISTANCE: &str = "distance to the rigid limit, fixed h and dt";
-const RESTING: &str = "penetration at rest";
-const IMPACT: &str = "peak penetration of an impact, resolved";
+/// A rate, and the name of its curve.
+const LARGEST: &str = "largest penetration, fixed h and dt";
 
 /// The results of one compliance; `None` where the case failed.
-#[derive(Default)]
-pub(super) struct Compliance<'r> {
-    pub(super) epsilon: f64,
-    pub(super) bouncing: Option<&'r Bouncing>,
-    pub(super) fixed_point: Option<&'r FixedPointRun>,
-    pub(super) rest: Option<&'r Rest>,
-    pub(super) impact: Option<&'r Impact>,
+struct Compliance<'r> {
+    epsilon: f64,
+    bouncing: Option<&'r Bouncing>,
+    fixed_point: Option<&'r FixedPointRun>,
+    rest: Option<&'r Rest>,
+    impact: Option<&'r Impact>,
+    /// Largest distance over time between the free end of the bouncing beam and that with rigid obstacles.
+    distance: f64,
 }
 
-/// All results, by compliance in descending order.
-pub(super) struct Results<'r> {
-    pub(super) limit: Option<&'r Bouncing>,
-    pub(super) by_compliance: Vec<Compliance<'r>>,
-}
-
-impl<'r> Results<'r> {
-    fn new(study: &RigidStudy, ran: &'r [Ran<Task, Found>]) -> Self {
-        let compliance = |&epsilon: &f64| Compliance { epsilon, ..Compliance::default() };
-        let mut results = Self { limit: None, by_compliance: study.epsilons.iter().map(compliance).collect() };
-        for Ran { case, found } in ran {
-            let Task { epsilon, run } = case.data;
-            let of_compliance = results.by_compliance.iter_mut().find(|compliance| compliance.epsilon == epsilon);
-            match (found, of_compliance) {
-                (Ok(Found::Bouncing(found)), _) if run == RunOf::RigidLimit => results.limit = Some(found),
-                (Ok(Found::Bouncing(found)), Some(place)) => place.bouncing = Some(found),
-                (Ok(Found::FixedPoint(found)), Some(place)) => place.fixed_point = Some(found),
-                (Ok(Found::Rest(found)), Some(place)) => place.rest = Some(found),
-                (Ok(Found::Impact(found)), Some(place)) => place.impact = Some(found),
-                _ => {}
-            }
-        }
-        results
-    }
-
-    /// Largest distance over time between the free end of a bouncing beam and that with rigid obstacles.
-    pub(super) fn distance_to_limit(&self, of: &Compliance<'_>) -> f64 {
-        match (of.bouncing, self.limit) {
+impl<'r> Compliance<'r> {
+    fn new(epsilon: f64, ran: &'r [Ran<Task, Found>], limit: Option<&Bouncing>) -> Self {
+        let of = |run: RunOf| found(ran, &Task { epsilon, run });
+        let bouncing = of(RunOf::Bouncing).and_then(Found::bouncing);
+        let distance = match (bouncing, limit) {
             (Some(Bouncing { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => {
                 tip.iter().zip(&limit.tip).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, max_or_nan)
             }
             _ => f64::NAN,
+        };
+        let (mut fixed_point, mut rest, mut impact) = (None, None, None);
+        for run in [RunOf::FixedPoint, RunOf::Rest, RunOf::Impact] {
+            match of(run) {
+                Some(Found::FixedPoint(found)) => fixed_point = Some(found),
+                Some(Found::Rest(found)) => rest = Some(found),
+                Some(Found::Impact(found)) => impact = Some(found),
+                _ => {}
+            }
         }
+        Self { epsilon, bouncing, fixed_point, rest, impact, distance }
     }
-}
 
-impl Compliance<'_> {
-    pub(super) fn largest_penetration(&self) -> f64 {
+    fn largest_penetration(&self) -> f64 {
         self.bouncing.map_or(f64::NAN, |found| found.penetration)
     }
 
-    pub(super) fn resting_penetration(&self) -> f64 {
+    fn resting_penetration(&self) -> f64 {
         self.rest.map_or(f64::NAN, |found| found.penetration)
     }
 
-    pub(super) fn peak_penetration(&self) -> f64 {
+    fn peak_penetration(&self) -> f64 {
         self.impact.map_or(f64::NAN, |found| found.penetration)
     }
 
-    pub(super) fn alpha(&self) -> f64 {
+    fn alpha(&self) -> f64 {
         self.fixed_point.map_or(f64::NAN, |found| found.alpha)
+    }
+
+    /// Penetrations and forces.
+    fn forces(&self) -> Vec<Reading> {
+        let guarded = |head: &str, value: f64, name: &str| {
+            Reading::new(head, value).scientific(4).guarded(format!("{name}, ε = {:.1e}", self.epsilon), 1e-6)
+        };
+        let force = |head: &str, value: Option<f64>| Reading::new(head, value.unwrap_or(f64::NAN)).scientific(4);
+        vec![
+            guarded("bouncing: largest penetration", self.largest_penetration(), "largest penetration"),
+            force("largest force", self.bouncing.map(|found| found.force)),
+            force("distance to the rigid limit", Some(self.distance)),
+            guarded("at rest: penetration", self.resting_penetration(), "penetration at rest"),
+            force("force", self.rest.map(|found| found.force)),
+            guarded("impact, resolved: peak penetration", self.peak_penetration(), "peak penetration"),
+            force("peak force", self.impact.map(|found| found.force)),
+        ]
+    }
+
+    fn solvers(&self) -> Vec<Reading> {
+        let (newton, fixed_point) = (self.bouncing, self.fixed_point);
+        let ended = |run: &FixedPointRun| run.failed_at.map_or("converges".into(), |t| format!("fails at t = {t:.3}"));
+        vec![
+            Reading::new("Newton's iterations", newton.map(|found| found.mean_iterations)).fixed(3),
+            Reading::new("most in a step", newton.map(|found| found.most_iterations as f64)).fixed(0),
+            Reading::new("fixed point's iterations", fixed_point.map(|found| found.mean_iterations)).fixed(2),
+            Reading::new("α", fixed_point.map(|found| found.alpha)).fixed(4),
+            Reading::new("contraction", fixed_point.and_then(|found| found.contraction)).fixed(4),
+            Reading::text("fixed point", fixed_point.map_or("-".to_owned(), ended)),
+        ]
+    }
+}
+
+impl Found {
+    fn bouncing(&self) -> Option<&Bouncing> {
+        if let Found::Bouncing(found) = self { Some(found) } else { None }
+    }
+
+    fn not_finite(&self) -> Vec<String> {
+        let numbers = match self {
+            Found::Bouncing(Bouncing { force, penetration, mean_iterations, tip, .. }) => {
+                let largest = tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
+                vec![
+                    ("force", *force),
+                    ("penetration", *penetration),
+                    ("iterations", *mean_iterations),
+                    ("tip", largest),
+                ]
+            }
+            Found::FixedPoint(FixedPointRun { alpha, contraction, mean_iterations, failed_at }) => vec![
+                ("alpha", *alpha),
+                ("contraction", contraction.unwrap_or(0.0)),
+                ("iterations", *mean_iterations),
+                ("time of failure", failed_at.unwrap_or(0.0)),
+            ],
+            Found::Rest(Rest { force, penetration }) => vec![("force", *force), ("penetration", *penetration)],
+            Found::Impact(Impact { velocity, force, penetration }) => {
+                vec![("velocity", *velocity), ("force", *force), ("penetration", *penetration)]
+            }
+        };
+        not_finite(&numbers)
     }
 }
 
 pub(super) fn judge(study: &RigidStudy, ran: &[Ran<Task, Found>]) -> Outcome {
-    let results = Results::new(study, ran);
-    let rates = rates(study, &results);
+    let limit = found(ran, &Task { epsilon: study.limit, run: RunOf::RigidLimit }).and_then(Found::bouncing);
+    let all: Vec<Compliance<'_>> = study.epsilons.iter().map(|&epsilon| Compliance::new(epsilon, ran, limit)).collect();
+    let rates = rates(study, &all);
     let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();
     let checks = vec![
-        completion(ran, not_finite),
-        peak_as_predicted(study, &results),
-        newton_does_not_depend_on_epsilon(study, &results),
-        fixed_point_fails_at_one(&results),
-        contraction_as_predicted(&results),
+        completion(ran, Found::not_finite),
+        peak_as_predicted(study, all.last()),
+        newton_does_not_depend_on_epsilon(study, &all, limit),
+        fixed_point_fails_at_one(&all),
+        contraction_as_predicted(&all),
     ];
+    let rows = |readings: fn(&Compliance<'_>) -> Vec<Reading>| -> Vec<(Vec<String>, Vec<Reading>)> {
+        all.iter().map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of))).collect()
+    };
+    let forces = rows(|of| of.forces());
+    let title = "Penetrations and forces as the obstacles become rigid";
     Outcome {
-        tables: report::tables(&results),
-        figures: report::figures(study, &results),
-        quantities: quantities(&results),
+        tables: vec![
+            readings::table(title, &["ε"], &forces),
+            readings::table("Solvers of the bouncing beam", &["ε"], &rows(|of| of.solvers())),
+        ],
+        figures: figures(study, &all, limit),
+        quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
         ..Outcome::new(format!("orders in ε: {}", observed.join("; ")), rates, checks)
     }
 }
 
-fn not_finite(found: &Found) -> Vec<String> {
-    let numbers = match found {
-        Found::Bouncing(Bouncing { force, penetration, mean_iterations, tip, .. }) => {
-            let largest = tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
-            vec![("force", *force), ("penetration", *penetration), ("iterations", *mean_iterations), ("tip", largest)]
-        }
-        Found::FixedPoint(FixedPointRun { alpha, contraction, mean_iterations, failed_at }) => vec![
-            ("alpha", *alpha),
-            ("contraction", contraction.unwrap_or(0.0)),
-            ("iterations", *mean_iterations),
-            ("time of failure", failed_at.unwrap_or(0.0)),
-        ],
-        Found::Rest(Rest { force, penetration }) => vec![("force", *force), ("penetration", *penetration)],
-        Found::Impact(Impact { velocity, force, penetration }) => {
-            vec![("velocity", *velocity), ("force", *force), ("penetration", *penetration)]
-        }
-    };
-    numbers.into_iter().filter(|(_, value)| !value.is_finite()).map(|(name, _)| name.to_owned()).collect()
-}
-
 /// The four orders in ε.
-fn rates(study: &RigidStudy, results: &Results<'_>) -> Vec<(String, RateVerdict)> {
+fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
     // The predicted α tells whether dt resolves the impact; NaN, where a case failed, must not drop a level.
     let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
     let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
     // Penetrations are ε times a force: they have digits, not a floor.
     let judge = study.judge.clone().with_floor(0.0).unwrap_or_else(|_| study.judge.clone());
-    let rate =
-        |name: &str, order, belongs: &dyn Fn(&Compliance<'_>) -> bool, error: &dyn Fn(&Compliance<'_>) -> f64| {
-            let levels = results.by_compliance.iter().filter(|of| belongs(of));
-            let levels: Vec<Level> = levels.map(|of| Level { step: of.epsilon, error: error(of) }).collect();
-            (name.to_owned(), judge.judge(&levels, order))
-        };
+    let rate = |name: &str, order, belongs: &dyn Fn(&Compliance<'_>) -> bool, error: fn(&Compliance<'_>) -> f64| {
+        let level = |of: &Compliance<'_>| Level { step: of.epsilon, error: error(of) };
+        let levels: Vec<Level> = all.iter().filter(|of| belongs(of)).map(level).collect();
+        (name.to_owned(), judge.judge(&levels, order))
+    };
     vec![
-        rate(LARGEST, 1.0, &averaged, &|of| of.largest_penetration()),
-        rate(DISTANCE, 1.0, &averaged, &|of| results.distance_to_limit(of)),
-        rate(RESTING, 1.0, &stiff, &|of| of.resting_penetration()),
-        rate(IMPACT, 2.0 / 3.0, &stiff, &|of| of.peak_penetration()),
+        rate(LARGEST, 1.0, &averaged, |of| of.largest_penetration()),
+        rate("distance to the rigid limit, fixed h and dt", 1.0, &averaged, |of| of.distance),
+        rate("penetration at rest", 1.0, &stiff, |of| of.resting_penetration()),
+        rate("peak penetration of an impact, resolved", 2.0 / 3.0, &stiff, |of| of.peak_penetration()),
     ]
 }
 
-fn peak_as_predicted(study: &RigidStudy, results: &Results<'_>) -> Check {
+fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check {
     let exact = peak_penetration();
-    let (epsilon, impact) = results.by_compliance.last().map_or((f64::NAN, None), |of| (of.epsilon, of.impact));
+    let (epsilon, impact) = last.map_or((f64::NAN, None), |of| (of.epsilon, of.impact));
     let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(study.impact.beam.zeta);
     let measured = impact.map_or(f64::NAN, |found| found.penetration / (found.velocity * time));
     Check::that(
@@ -161,12 +193,11 @@ fn peak_as_predicted(study: &RigidStudy, results: &Results<'_>) -> Check {
     )
 }
 
-fn newton_does_not_depend_on_epsilon(study: &RigidStudy, results: &Results<'_>) -> Check {
-    let bouncing: Vec<&Bouncing> =
-        results.by_compliance.iter().filter_map(|of| of.bouncing).chain(results.limit).collect();
-    let complete = bouncing.len() == study.epsilons.len() + 1;
-    let (Some(softest), Some(limit)) = (bouncing.first(), results.limit) else {
-        return Check::that(false, NEWTON, "no bouncing beam was run to its end");
+fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> Check {
+    let claim = "Newton's iterations do not grow as the obstacles become rigid";
+    let bouncing: Vec<&Bouncing> = all.iter().filter_map(|of| of.bouncing).chain(limit).collect();
+    let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
+        return Check::that(false, claim, "no bouncing beam was run to its end");
     };
     let holds = |found: &&Bouncing| {
         found.mean_iterations <= 1.1 * softest.mean_iterations && found.most_iterations <= softest.most_iterations + 2
@@ -179,13 +210,11 @@ fn newton_does_not_depend_on_epsilon(study: &RigidStudy, results: &Results<'_>) 
         study.limit,
         most.unwrap_or(0)
     );
-    Check::that(complete && bouncing.iter().all(holds), NEWTON, evidence)
+    Check::that(bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds), claim, evidence)
 }
 
-const NEWTON: &str = "Newton's iterations do not grow as the obstacles become rigid";
-
-fn fixed_point_fails_at_one(results: &Results<'_>) -> Check {
-    let runs = || results.by_compliance.iter().filter_map(|of| Some((of.epsilon, of.fixed_point?)));
+fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
+    let runs = || all.iter().filter_map(|of| Some((of.epsilon, of.fixed_point?)));
     let as_predicted = |(_, run): (f64, &FixedPointRun)| match run.alpha {
         alpha if alpha < SLOW => run.failed_at.is_none(),
         alpha if alpha > 1.0 => run.failed_at.is_some(),
@@ -204,9 +233,8 @@ fn fixed_point_fails_at_one(results: &Results<'_>) -> Check {
     )
 }
 
-fn contraction_as_predicted(results: &Results<'_>) -> Check {
-    let runs = results.by_compliance.iter().filter_map(|of| of.fixed_point);
-    let runs = runs.filter(|run| (0.01..SLOW).contains(&run.alpha));
+fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
+    let runs = all.iter().filter_map(|of| of.fixed_point).filter(|run| (0.01..SLOW).contains(&run.alpha));
     let ratios: Vec<f64> = runs.map(|run| run.contraction.unwrap_or(f64::NAN) / run.alpha).collect();
     let worst = ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, max_or_nan);
     Check::that(
@@ -216,19 +244,67 @@ fn contraction_as_predicted(results: &Results<'_>) -> Check {
     )
 }
 
-fn quantities(results: &Results<'_>) -> Vec<Quantity> {
-    let guard = |name: &str, number: fn(&Compliance<'_>) -> f64| {
-        let quantity = |of: &Compliance<'_>| Quantity {
-            name: format!("{name}, ε = {:.1e}", of.epsilon),
-            value: number(of),
-            tolerance: 1e-6,
-        };
-        results.by_compliance.iter().map(quantity).collect::<Vec<_>>()
-    };
-    [
-        guard("largest penetration", |of| of.largest_penetration()),
-        guard("penetration at rest", |of| of.resting_penetration()),
-        guard("peak penetration", |of| of.peak_penetration()),
+fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> Vec<Figure> {
+    let id = &study.header.id;
+    vec![
+        Figure::new(
+            id,
+            "penetration",
+            "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; order \
+             2/3 where it is resolved.",
+            penetrations(all),
+        ),
+        over_time(id, "tip", "Displacement of the free end as the obstacles become rigid.", &tip(study, all, limit)),
+        Figure::new(
+            id,
+            "contraction",
+            "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
+            contractions(all),
+        ),
     ]
-    .concat()
+}
+
+/// The distance to the rigid limit is left out: on this scale it coincides with the largest penetration.
+fn penetrations(all: &[Compliance<'_>]) -> String {
+    let over_epsilon = |label: &str, number: fn(&Compliance<'_>) -> f64| plots::ErrorSeries {
+        label: label.into(),
+        points: all.iter().map(|of| (of.epsilon, number(of))).collect(),
+        ..plots::ErrorSeries::default()
+    };
+    let resolved = all.first().map(|of| of.alpha() * of.epsilon);
+    plots::convergence(&plots::Convergence {
+        x_label: "compliance of the obstacles ε".into(),
+        y_label: "penetration (dimensionless)".into(),
+        series: vec![
+            over_epsilon(LARGEST, |of| of.largest_penetration()),
+            over_epsilon("peak of a resolved impact", |of| of.peak_penetration()),
+            over_epsilon("at rest", |of| of.resting_penetration()),
+        ],
+        beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
+        slopes: vec![1.0, 2.0 / 3.0],
+        ..plots::Convergence::default()
+    })
+}
+
+/// The first decades, so that the curves stay distinct.
+fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> plots::History {
+    let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
+    let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);
+    let series = |label: &str, of: &Bouncing| plots::Series { label: label.to_owned(), points: of.tip.clone() };
+    let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
+    plots::History {
+        y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
+        series: all.iter().filter_map(curve).chain(limit.map(|limit| series("rigid", limit))).collect(),
+        guides: obstacle_lines(study.moving.obstacles),
+        ..plots::History::default()
+    }
+}
+
+fn contractions(all: &[Compliance<'_>]) -> String {
+    let series = |label: &str, converges: bool| {
+        let runs = all.iter().filter_map(|of| of.fixed_point).filter(|run| run.failed_at.is_none() == converges);
+        let points = runs.map(|run| (run.alpha, run.contraction.unwrap_or(f64::NAN))).collect();
+        plots::Series { label: label.into(), points }
+    };
+    contraction(&Contraction { title: None, series: vec![series("converges", true), series("fails", false)] })
 }

@@ -21,16 +21,23 @@
 //! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails exactly where the time
 //! step no longer resolves the impact. Newton's iterations do not depend on ε.
 
-mod cases;
-mod file;
 mod judge;
-mod report;
 mod theory;
 
-use convergence_study::judge::verdict::Judge;
-use convergence_study::study::{Case, CaseFailure, Header, Kind, KindRow, Outcome, Ran, reader};
+use std::ops::ControlFlow;
 
-use crate::scene::Scene;
+use convergence_study::judge::verdict::Judge;
+use thermobeam::contraction::contact_contraction;
+use thermobeam::error::{StepError, StepFailure};
+use thermobeam::parameters::Obstacles;
+use thermobeam::simulation::Stepping;
+use thermobeam::solve::{Settings, Solver};
+
+use super::prelude::*;
+use super::steady::{at_resolution, listed_scene, settle};
+use crate::run::driver::{RunError, Step};
+use crate::run::simulate::driver;
+use crate::scene::{Method, tables};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -152,6 +159,66 @@ pub struct Impact {
     pub penetration: f64,
 }
 
+impl FromFile for RigidStudy {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
+        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
+        let allowed = "a number > 0 and < 0.5";
+        let tolerance = obstacles.require("tolerance", allowed)?;
+        let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written(allowed))?;
+        let moving = root.table("moving", &["scene", "elements", "dt", "t_end", "max_iterations"])?;
+        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
+        let impact = root.table("impact", &["scene", "steps"])?;
+        let t_end = moving.positive("t_end")?;
+        let allowed = "a list of at least three positive numbers, descending";
+        let fits = |list: &[f64]| {
+            list.len() >= 3
+                && list.windows(2).all(|pair| pair[0] > pair[1])
+                && list.iter().all(|epsilon| *epsilon > 0.0)
+        };
+        Ok(Self {
+            header,
+            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
+            limit: obstacles.positive("limit")?,
+            judge,
+            moving: scene(&moving, folder, Some(t_end))?,
+            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
+            resting: scene(&rest, folder, None)?,
+            speed: rest.positive("speed")?,
+            t_max: rest.positive("t_max")?,
+            impact: impact_scene(&impact, folder)?,
+            steps: impact.count("steps", 1..=1_000_000)?,
+        })
+    }
+}
+
+/// The scene of a table, at the table's resolution.
+fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Scene, InputError> {
+    let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
+    let field = section.require("elements", "a whole number >= 1")?;
+    let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
+    let dt = section.require("dt", "a number")?;
+    // The moving beam's tip is kept at every step.
+    limits::steps_until(&dt, scene.t_end, section.positive("dt")?, limits::RECORDED_STEPS)?;
+    if section.get("t_max").is_some() {
+        limits::steps_until(&dt, section.positive("t_max")?, section.positive("dt")?, limits::STEPS)?;
+    }
+    at_resolution(&scene, tables::elements(&field)?, section.positive("dt")?)
+        .map_err(|error| field.refuse(error.to_string(), "a mesh"))
+}
+
+/// The scene of the impact, whose free end must start on the upper obstacle and move into it.
+fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
+    let field = section.require("scene", "a scene file")?;
+    let scene = listed_scene(&field, folder)?;
+    let at_tip = |function: &Option<crate::expression::Expression>| function.as_ref().map_or(0.0, |f| f.eval(1.0));
+    let on_the_obstacle = scene.obstacles.is_some_and(|o| at_tip(&scene.initial.u) == o.g2);
+    if on_the_obstacle && at_tip(&scene.initial.u_t) > 0.0 {
+        return Ok(scene);
+    }
+    Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
+}
+
 impl Kind for RigidStudy {
     type Data = Task;
     type Found = Found;
@@ -160,15 +227,119 @@ impl Kind for RigidStudy {
         &self.header
     }
 
+    /// The rigid limit, then each compliance in four scenes.
     fn cases(&self) -> Vec<Case<Task>> {
-        cases::cases(self)
+        let case = |run: RunOf, epsilon: f64| {
+            let (name, scene, steps) = match run {
+                RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", &self.moving, self.moving.steps() as f64),
+                RunOf::FixedPoint => ("fixed point", &self.moving, 4.0 * self.moving.steps() as f64),
+                RunOf::Rest => ("at rest", &self.resting, 200.0 / self.resting.dt()),
+                RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
+            };
+            let cost = steps * scene.mesh.elements() as f64;
+            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: Task { epsilon, run } }
+        };
+        let runs = [RunOf::Bouncing, RunOf::FixedPoint, RunOf::Rest, RunOf::Impact];
+        let all = runs.iter().flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
+        std::iter::once(case(RunOf::RigidLimit, self.limit)).chain(all).collect()
     }
 
-    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
-        cases::run(self, *task)
+    fn run(&self, &Task { epsilon, run }: &Task) -> Result<Found, CaseFailure> {
+        let with_compliance = |scene: &Scene| {
+            let obstacles = scene.obstacles.map(|obstacles| Obstacles { epsilon, ..obstacles });
+            Scene { obstacles, ..scene.clone() }
+        };
+        Ok(match run {
+            RunOf::RigidLimit | RunOf::Bouncing => Found::Bouncing(bouncing(&with_compliance(&self.moving), epsilon)?),
+            RunOf::FixedPoint => Found::FixedPoint(fixed_point(&with_compliance(&self.moving), self.max_iterations)?),
+            RunOf::Rest => {
+                let rest = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
+                let force = rest.level.contact_force.abs();
+                Found::Rest(Rest { force, penetration: epsilon * force })
+            }
+            RunOf::Impact => {
+                let scene = with_compliance(&self.impact);
+                let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(scene.beam.zeta);
+                // The peak is at 1.65 t*.
+                let method = scene.method.with_dt(time / self.steps as f64);
+                Found::Impact(impact(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)?)
+            }
+        })
     }
 
     fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
         judge::judge(self, ran)
     }
+}
+
+fn bouncing(scene: &Scene, epsilon: f64) -> Result<Bouncing, CaseFailure> {
+    let mut driver = driver(scene)?;
+    let end = scene.mesh.elements();
+    let mut tip = vec![(0.0, driver.level().u[end])];
+    let (mut force, mut iterations, mut most_iterations) = (0.0, 0, 0);
+    driver.run::<()>(scene.steps(), |Step { report, new, simulation, .. }| {
+        iterations += report.iterations;
+        most_iterations = most_iterations.max(report.iterations);
+        force = max_or_nan(force, new.contact_force.abs());
+        tip.push((simulation.t(), new.u[end]));
+        ControlFlow::Continue(())
+    })?;
+    let mean_iterations = iterations as f64 / scene.steps() as f64;
+    Ok(Bouncing { force, penetration: epsilon * force, mean_iterations, most_iterations, tip })
+}
+
+fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<FixedPointRun, CaseFailure> {
+    let stepping = scene.one_step()?;
+    let settings = Settings { solver: Solver::FixedPoint, max_iterations, ..stepping.settings };
+    let method = Method::OneStep(Stepping { settings, ..stepping });
+    let mut driver = driver(&Scene { method, ..scene.clone() })?;
+    let (mut contraction, mut iterations) = (None, 0);
+    let ended = driver.run::<()>(scene.steps(), |Step { report, old, new, .. }| {
+        iterations += report.iterations;
+        // While the tip comes or goes the law is not linear, and two increments tell nothing.
+        let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
+        if let Some(found) = report.contraction.filter(|_| in_contact) {
+            contraction = Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
+        }
+        ControlFlow::Continue(())
+    });
+    let failed_at = match ended {
+        Ok(_) => None,
+        Err(RunError::Step(error)) => {
+            contraction = contraction_of(&error);
+            Some(error.t)
+        }
+        Err(other) => return Err(other.into()),
+    };
+    let mean_iterations = iterations as f64 / driver.simulation().step().max(1) as f64;
+    Ok(FixedPointRun { alpha: alpha(scene, &stepping), contraction, mean_iterations, failed_at })
+}
+
+/// The factor for the mean axial force β of a beam that is hardly bent; infinite where the operator is not definite.
+fn alpha(scene: &Scene, by: &Stepping) -> f64 {
+    let lengths: Vec<f64> = scene.mesh.lengths().collect();
+    let beta = scene.beam.beta;
+    let factor = |obstacles| contact_contraction(&scene.beam, &obstacles, &lengths, &by.scheme, by.dt, beta);
+    scene.obstacles.map_or(f64::NAN, factor)
+}
+
+/// `None` where the iterates overflowed.
+fn contraction_of(error: &StepError) -> Option<f64> {
+    match error.failure {
+        StepFailure::Diverged { contraction, .. } | StepFailure::IterationLimit { contraction, .. } => {
+            Some(contraction).filter(|contraction| contraction.is_finite())
+        }
+        _ => None,
+    }
+}
+
+fn impact(scene: &Scene, epsilon: f64) -> Result<Impact, CaseFailure> {
+    let mut driver = driver(scene)?;
+    let velocity = driver.level().v[scene.mesh.elements()];
+    let mut force = 0.0;
+    driver.run::<()>(scene.steps(), |Step { new, .. }| {
+        force = max_or_nan(force, new.contact_force);
+        ControlFlow::Continue(())
+    })?;
+    Ok(Impact { velocity, force, penetration: epsilon * force })
 }

@@ -77,7 +77,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Ve
             "balance",
             Axis::log("largest residual / energy"),
             EXACT,
-            |point| Some(point.newton?.residual),
+            |point| Some(point.newton?.worst.residual),
             vec![maps.predicted()],
             format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
         ),

@@ -33,7 +33,7 @@ impl Map {
             Some((crossing.dt / line.predicted.unwrap_or(f64::NAN) - 1.0).abs())
         };
         let worst = 100.0 * lines.iter().filter_map(|(_, line)| ratio(line)).fold(0.0, max_or_nan);
-        let residual = largest(rows, |newton| newton.residual);
+        let residual = largest(rows, |newton| newton.worst.residual);
         let summary = format!(
             "{} points: the fixed point converges at {converged}, Newton's method at {completes}; boundary within {worst:.2} % of alpha = 1 where gamma <= {ALONE}; residual at most {residual:.1e} of the energy",
             self.points * self.points,
@@ -194,11 +194,11 @@ fn energy(rows: &Rows<'_>) -> [Check; 2] {
         Check::that(every_row && share <= 1.0, claim, evidence)
     };
     [
-        check("the energy never rises beyond rounding errors", |newton| newton.rise, |newton| newton.risen),
+        check("the energy never rises beyond rounding errors", |newton| newton.worst.rise, |newton| newton.worst.risen),
         check(
             "the balance closes to 1e-12 of the energy, or to what rounding errors explain",
-            |newton| newton.residual,
-            |newton| newton.open,
+            |newton| newton.worst.residual,
+            |newton| newton.worst.open,
         ),
     ]
 }

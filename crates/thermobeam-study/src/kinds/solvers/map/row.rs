@@ -10,7 +10,7 @@ use thermobeam::solve::{Level, Settings};
 
 use super::super::step::{FixedPointStep, factors};
 use super::{Map, axial_force};
-use crate::kinds::watch::{SOLVED, Watch};
+use crate::kinds::watch::{SOLVED, Watch, Worst};
 use crate::run::ensemble::EnsembleDriver;
 
 /// Iterations after which the fixed point is given up on the map.
@@ -42,21 +42,15 @@ pub struct Point {
     pub newton: Option<NewtonSteps>,
 }
 
-/// Steps by Newton's method; energies in units of the energy's size, largest over the steps.
+/// Steps by Newton's method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonSteps {
     /// Iterations of the step that took most.
     pub iterations: usize,
     /// The contact force after the first step.
     pub contact_force: f64,
-    /// Residual of the energy balance.
-    pub residual: f64,
-    /// Rise of the energy.
-    pub rise: f64,
-    /// The residual as a share of what is allowed.
-    pub open: f64,
-    /// The rise as a share of what is allowed.
-    pub risen: f64,
+    /// Rise of the energy and residual of its balance.
+    pub worst: Worst,
 }
 
 impl Row {
@@ -82,8 +76,9 @@ impl Point {
         require(!self.gamma.is_nan(), "gamma");
         let contraction = self.fixed_point.contraction.filter(|_| self.fixed_point.converged);
         require(contraction.is_none_or(f64::is_finite), "the contraction");
-        if let Some(NewtonSteps { contact_force, residual, rise, open, risen, .. }) = self.newton {
-            require([contact_force, residual, rise, open, risen].iter().all(|x| x.is_finite()), "force or energy");
+        if let Some(NewtonSteps { contact_force, worst, .. }) = self.newton {
+            let finite = worst.named().iter().all(|(_, value)| value.is_finite()) && contact_force.is_finite();
+            require(finite, "force or energy");
         }
         names
     }
@@ -122,9 +117,8 @@ impl Lane {
     }
 
     fn steps(&self) -> Option<NewtonSteps> {
-        let Watch { residual, rise, open, risen, .. } = self.watch;
-        let iterations = self.iterations;
-        self.contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, residual, rise, open, risen })
+        let (iterations, worst) = (self.iterations, self.watch.worst);
+        self.contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst })
     }
 }
 

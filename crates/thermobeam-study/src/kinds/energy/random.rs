@@ -1,0 +1,389 @@
+//! Random scenes by the thousand: every coefficient over its whole range, strongly graded meshes, rough data, steps up to 10.
+//!
+//! Newton's method runs eight scenes in lanes.
+//!
+//! A step may be refused for one reason only: its operator is not definite. With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, B the
+//! buckling force, it is definite where `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every
+//! scene with `β > -B (1 + 2 ζ/dt)` must end with its answer.
+//!
+//! ```toml
+//! [random]
+//! batches = 64       # of 256 scenes, with 1 to 32 elements; the scheme changes from batch to batch
+//! steps = 20
+//! seed = 1
+//! ```
+
+use convergence_study::run::time_limit::Patience;
+use thermobeam::ensemble::Ensemble;
+use thermobeam::kirchhoff::BUCKLING;
+use thermobeam::mesh::MeshError;
+use thermobeam::parameters::Beam;
+use thermobeam::scheme::{SCHEMES, Scheme};
+use thermobeam::simulation::Problem;
+use thermobeam::solve::{Level, Settings};
+
+use super::{End, Worst, beams};
+use crate::kinds::prelude::*;
+use crate::kinds::watch::{CLOSED, SOLVED, Watch, of_allowed};
+
+/// Scenes in the lanes of one solver, all with the same number of elements.
+const LANES: usize = 8;
+/// Groups of lanes in a batch: one for each number of elements, from 1 on.
+const GROUPS: usize = 32;
+/// Scenes in a batch.
+const BATCH: usize = LANES * GROUPS;
+/// Exceptions of a batch that are kept.
+const KEPT: usize = 4;
+/// Exceptions listed.
+const LISTED: usize = 12;
+/// Share of the scenes that may be exceptions.
+const RARE: f64 = 2e-3;
+/// Cells of the map along either axis.
+const CELLS: usize = 14;
+/// Powers of ten that the map spans: time steps, shortest elements.
+const DT: [f64; 2] = [-6.0, 1.0];
+const SHORTEST: [f64; 2] = [-4.0, 0.0];
+/// The residual drawn in place of zero, which a logarithmic scale does not have.
+const ZERO: f64 = 1e-18;
+
+/// A study of random scenes.
+#[derive(Debug, Clone)]
+pub struct RandomScenes {
+    header: Header,
+    batches: usize,
+    steps: usize,
+    seed: u64,
+}
+
+/// What a batch finds, or several together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batch {
+    /// How its scenes end.
+    pub ends: Ends,
+    /// Scenes refused though their operators are definite.
+    pub refused: usize,
+    /// Steps of all scenes.
+    pub steps: usize,
+    /// Levels accepted by the solver with a number that is not finite.
+    pub not_finite_levels: usize,
+    /// Largest rise and residual of a step.
+    pub worst: Worst,
+    /// Scenes with a residual above 1e-12 of the energy.
+    pub exceptions: usize,
+    /// Those of them with the largest residuals: number of the scene in the study, and residual in units of the energy.
+    pub largest: Vec<(usize, f64)>,
+    /// Each scene with its largest residual.
+    pub scenes: Vec<Scene>,
+}
+
+/// Numbers of scenes by their ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Ends {
+    /// With their answers.
+    pub answers: usize,
+    /// At an indefinite operator.
+    pub indefinite: usize,
+    /// At the limit of iterations.
+    pub iteration_limit: usize,
+    /// At a number that is not finite.
+    pub not_finite: usize,
+}
+
+/// What the rounding errors of a scene depend on most, and its largest residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scene {
+    /// Time step.
+    pub dt: f64,
+    /// Length of the shortest element.
+    pub shortest: f64,
+    /// Largest residual of a step, in units of the energy.
+    pub residual: f64,
+}
+
+impl Ends {
+    fn count(&mut self, end: End) {
+        *match end {
+            End::Answer => &mut self.answers,
+            End::Indefinite => &mut self.indefinite,
+            End::IterationLimit => &mut self.iteration_limit,
+            End::NotFinite => &mut self.not_finite,
+        } += 1;
+    }
+
+    fn all(&self) -> [(End, usize); 4] {
+        let Self { answers, indefinite, iteration_limit, not_finite } = *self;
+        [
+            (End::Answer, answers),
+            (End::Indefinite, indefinite),
+            (End::IterationLimit, iteration_limit),
+            (End::NotFinite, not_finite),
+        ]
+    }
+}
+
+impl FromFile for RandomScenes {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        let section = root.table("random", &["batches", "steps", "seed"])?;
+        Ok(Self {
+            header,
+            batches: section.count("batches", 1..=100_000)?,
+            steps: section.count("steps", 1..=limits::STEPS)?,
+            seed: section.count("seed", 0..=u32::MAX as usize)? as u64,
+        })
+    }
+}
+
+impl Kind for RandomScenes {
+    /// Number of the batch.
+    type Data = usize;
+    type Found = Batch;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        // 16 elements on average, and an observed step costs some 100 ns an element.
+        let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
+        let label = |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
+        (0..self.batches).map(|batch| Case { label: label(batch), cost, data: batch }).collect()
+    }
+
+    /// The scenes in lanes, each to its end.
+    fn run(&self, &number: &usize) -> Result<Batch, CaseFailure> {
+        let mut batch = Batch::NONE;
+        for group in 0..GROUPS {
+            self.run_group(number, group, &mut batch)?;
+        }
+        batch.exceptions = batch.largest.len();
+        batch.largest.sort_by(|a, b| b.1.total_cmp(&a.1));
+        batch.largest.truncate(KEPT);
+        Ok(batch)
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
+        let total = ran.iter().filter_map(Ran::ok).fold(Batch::NONE, Batch::with);
+        let scenes = self.batches * BATCH;
+        let Batch { ends, steps, exceptions, worst, .. } = &total;
+        let mut checks = vec![completion(ran, |batch| not_finite(&batch.worst.named()))];
+        checks.extend(total.claims(scenes));
+        let others = ends.iteration_limit + ends.not_finite;
+        let solved = format!("{} solved, {} refused (operator not definite)", ends.answers, ends.indefinite);
+        let largest = format!("{:.1e} of the energy", worst.residual);
+        let summary = format!(
+            "{scenes} scenes, {steps} steps: {solved}, {others} other failures; residual at most {largest}, {exceptions} \
+             above {CLOSED:.0e}"
+        );
+        let others = if others > 0 { format!(", {others} other failures") } else { String::new() };
+        let count = |(end, count): (End, usize)| vec![end.name().to_owned(), count.to_string()];
+        let counts = Table::new("How the scenes ended", ["end", "scenes"], ends.all().map(count));
+        // A scene at the limit of definiteness may fall to either side on another machine.
+        let quantities = vec![Quantity::new("answers", ends.answers as f64, 1e-3)];
+        Outcome {
+            headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
+            tables: vec![counts, self.exceptions(&total)],
+            figures: vec![residuals(&self.header.id, &total.scenes)],
+            quantities,
+            ..Outcome::new(summary, vec![], checks)
+        }
+    }
+}
+
+impl RandomScenes {
+    fn scheme(&self, batch: usize) -> Scheme {
+        SCHEMES[batch % SCHEMES.len()]
+    }
+
+    /// Problem and time step of a scene.
+    fn problem(&self, scene: usize) -> Result<(Problem, f64), MeshError> {
+        let elements = scene % BATCH / LANES + 1;
+        // Far from the seeds of other studies, which are small.
+        beams::wild(elements, (self.seed << 32) + scene as u64)
+    }
+
+    /// Scenes with `group + 1` elements each, to their ends.
+    fn run_group(&self, number: usize, group: usize, batch: &mut Batch) -> Result<(), CaseFailure> {
+        let first = number * BATCH + group * LANES;
+        let scenes: Vec<(Problem, f64)> =
+            (first..first + LANES).map(|scene| self.problem(scene)).collect::<Result<_, _>>()?;
+        let dt: [f64; LANES] = std::array::from_fn(|k| scenes[k].1);
+        let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+        let problems = scenes.iter().map(|(problem, _)| problem.clone()).collect();
+        let mut ensemble = Ensemble::new(problems, &dt, self.scheme(number), settings)?;
+        let mut old: Vec<Level> = vec![Level::new(group + 2); LANES];
+        (0..LANES).for_each(|k| ensemble.observe(k, &mut old[k]));
+        let mut watches: Vec<Watch> = (0..LANES).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
+        let mut ends = [End::Answer; LANES];
+        let (mut new, mut balances) = (Level::new(group + 2), vec![]);
+        let mut patience = Patience::new(LANES * (group + 1));
+        for step in 0..self.steps {
+            patience.check(step, || step as f64 * dt[0])?;
+            ensemble.advance();
+            ensemble.balances(&mut balances);
+            for k in 0..LANES {
+                if ends[k] != End::Answer {
+                    continue;
+                }
+                if let Err(error) = ensemble.report(k) {
+                    ends[k] = End::of(&error.failure);
+                    batch.refused += usize::from(is_definite(&scenes[k].0.beam, dt[k]));
+                    continue;
+                }
+                ensemble.observe(k, &mut new);
+                let scale = ensemble.energy_scale(k, &new);
+                watches[k].step(&balances[k], scale, || ensemble.rounding(k, &old[k], &new));
+                batch.steps += 1;
+                batch.not_finite_levels += usize::from(!is_finite(&new));
+                std::mem::swap(&mut old[k], &mut new);
+            }
+        }
+        for k in 0..LANES {
+            batch.ends.count(ends[k]);
+            let (worst, shortest) = (watches[k].worst, shortest(&scenes[k].0));
+            batch.worst = batch.worst.max(worst);
+            if !(worst.residual <= CLOSED) {
+                batch.largest.push((first + k, worst.residual));
+            }
+            batch.scenes.push(Scene { dt: dt[k], shortest, residual: worst.residual });
+        }
+        Ok(())
+    }
+
+    /// The largest residuals, each with what rounding errors grow with: dt, the axial stiffness, and short elements.
+    fn exceptions(&self, total: &Batch) -> Table {
+        let mut all = total.largest.clone();
+        all.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let row = |&(scene, residual): &(usize, f64)| {
+            let (problem, dt) = self.problem(scene).ok()?;
+            Some(vec![
+                scene.to_string(),
+                self.scheme(scene / BATCH).name.to_owned(),
+                problem.mesh.elements().to_string(),
+                format!("{:.1e}", shortest(&problem)),
+                format!("{dt:.2e}"),
+                format!("{:.1e}", problem.beam.beta),
+                format!("{:.1e}", problem.beam.rho),
+                problem.obstacles.map_or("none".to_owned(), |obstacles| format!("{:.1e}", obstacles.epsilon)),
+                format!("{residual:.1e}"),
+            ])
+        };
+        let head = ["scene", "scheme", "elements", "shortest", "dt", "beta", "rho", "epsilon", "residual"];
+        let title = "Largest residuals above 1e-12: long steps (Δu as large as u) over short elements (u/h cancels)";
+        Table::new(title, head, all.iter().take(LISTED).filter_map(row))
+    }
+}
+
+fn shortest(problem: &Problem) -> f64 {
+    problem.mesh.lengths().fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the operator of every step is definite, whatever the axial force turns out to be.
+fn is_definite(beam: &Beam, dt: f64) -> bool {
+    beam.beta > -BUCKLING * (1.0 + 2.0 * beam.zeta / dt)
+}
+
+fn is_finite(level: &Level) -> bool {
+    let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
+    level.contact_force.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
+}
+
+impl Batch {
+    /// Of no scene.
+    const NONE: Self = Self {
+        ends: Ends { answers: 0, indefinite: 0, iteration_limit: 0, not_finite: 0 },
+        refused: 0,
+        steps: 0,
+        not_finite_levels: 0,
+        worst: Worst::NONE,
+        exceptions: 0,
+        largest: vec![],
+        scenes: vec![],
+    };
+
+    /// Both together.
+    fn with(mut self, other: &Self) -> Self {
+        self.ends.answers += other.ends.answers;
+        self.ends.indefinite += other.ends.indefinite;
+        self.ends.iteration_limit += other.ends.iteration_limit;
+        self.ends.not_finite += other.ends.not_finite;
+        self.refused += other.refused;
+        self.steps += other.steps;
+        self.not_finite_levels += other.not_finite_levels;
+        self.worst = self.worst.max(other.worst);
+        self.exceptions += other.exceptions;
+        self.largest.extend(&other.largest);
+        self.scenes.extend(&other.scenes);
+        self
+    }
+
+    /// What is claimed of all scenes together.
+    fn claims(&self, scenes: usize) -> [Check; 5] {
+        let Self { ends, refused, not_finite_levels, exceptions, worst, .. } = self;
+        let ended: usize = ends.all().iter().map(|(_, count)| count).sum();
+        let others = ends.iteration_limit + ends.not_finite;
+        [
+            Check::that(
+                ended == scenes && *not_finite_levels == 0,
+                "every scene is solved with finite numbers, or refused with a stated reason",
+                format!("{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"),
+            ),
+            Check::that(
+                *refused == 0 && others == 0,
+                "a step is refused for an indefinite operator only, and never where β > -B (1 + 2ζ/dt)",
+                format!("{refused} definite operators refused, {others} other failures"),
+            ),
+            Check::that(
+                worst.risen <= 1.0,
+                "the energy never rises by more than the bound on rounding errors",
+                format!("largest rise {:.1e} of the energy, {}", worst.rise, of_allowed(worst.risen)),
+            ),
+            Check::that(
+                worst.open <= 1.0,
+                "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
+                format!("largest residual {:.1e} of the energy, {}", worst.residual, of_allowed(worst.open)),
+            ),
+            Check::that(
+                *exceptions as f64 <= RARE * scenes as f64,
+                "at most 2 scenes in 1000 have a residual above 1e-12 of the energy",
+                format!("{exceptions} of {scenes} scenes"),
+            ),
+        ]
+    }
+}
+
+/// The largest residual in each cell of (dt, shortest element).
+fn residuals(id: &str, scenes: &[Scene]) -> Figure {
+    // NaN where there is no scene.
+    let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
+    for scene in scenes {
+        let (Some(column), Some(row)) = (index(DT, scene.dt), index(SHORTEST, scene.shortest)) else { continue };
+        let cell = &mut values[row][column];
+        let residual = max_or_nan(scene.residual, ZERO);
+        *cell = if cell.is_nan() { residual } else { max_or_nan(*cell, residual) };
+    }
+    let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();
+    let cells = plots::Surface {
+        title: None,
+        x: plots::Axis::log("time step dt"),
+        y: plots::Axis::log("shortest element (dimensionless)"),
+        z: plots::Axis::log("largest residual / energy"),
+        x_values: centres(DT),
+        y_values: centres(SHORTEST),
+        values,
+    };
+    let map = plots::ParameterMap { cells, marked, marked_label: "no scene".to_owned(), boundaries: vec![] };
+    let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
+                   grows with the step and with short elements.";
+    Figure::new(id, "residuals", caption, plots::parameter_map(&map))
+}
+
+/// The cell of a value along an axis.
+fn index([low, high]: [f64; 2], value: f64) -> Option<usize> {
+    let at = (value.log10() - low) / (high - low) * CELLS as f64;
+    (at >= 0.0).then(|| (at as usize).min(CELLS - 1))
+}
+
+fn centres([low, high]: [f64; 2]) -> Vec<f64> {
+    let centre = |k: usize| 10f64.powf(low + (high - low) * (k as f64 + 0.5) / CELLS as f64);
+    (0..CELLS).map(centre).collect()
+}

@@ -1,0 +1,448 @@
+//! Scenes run one by one: `[energy]`, scene files and random beams by several schemes; or `[[case]]`, scenes with claims of
+//! their own.
+//!
+//! ```toml
+//! [energy]
+//! scenes = ["scenes/paper-1-beta-0.toml"]       # files beside this one
+//! schemes = ["euler-crank-nicolson", "midpoint"]
+//! elements = 50                                 # of the mesh, graded or uniform as below
+//! map = "s"                                     # optional
+//! dt = 1e-3
+//! steps = 1000
+//! random = 16                                   # beams with random coefficients and random smooth data
+//! seed = 1
+//! tolerance = 1e-12                             # of rise and residual, in units of the energy
+//! ```
+//!
+//! ```toml
+//! [[case]]
+//! name = "long-steps"
+//! claim = "..."                # in words
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
+//! drift = 1e-10                # optional: bound of the sum of all residuals, in units of the energy
+//! # and the tables of a scene
+//! [case.time]
+//! dt = 10.0
+//! t_end = 1000.0
+//! ```
+
+use std::ops::ControlFlow;
+
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::text::number::plain_text;
+use thermobeam::energy::Energy;
+use thermobeam::mesh::Mesh;
+use thermobeam::scheme::SCHEMES;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Settings, Solver};
+
+use super::{End, Worst, beams, named_cases};
+use crate::figures::looks;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{mapped_mesh, mesh_map};
+use crate::kinds::watch::{SOLVED, Watch, of_allowed};
+use crate::run::driver::{Driver, RunError, Step};
+use crate::run::simulate;
+use crate::scene::{self, tables};
+
+/// Samples of a run, about.
+const SAMPLES: usize = 400;
+
+/// The size of the energy is computed every so many steps.
+const SCALED: usize = 8;
+
+/// A study of this kind.
+#[derive(Debug, Clone)]
+pub struct Runs {
+    header: Header,
+    runs: Vec<Run>,
+    /// Whether the figures show energy and residual over time; else they show the sum of the residuals over the steps.
+    histories: bool,
+}
+
+/// A run, and what is claimed of it.
+#[derive(Debug, Clone)]
+struct Run {
+    name: String,
+    origin: Origin,
+    stepping: Stepping,
+    steps: usize,
+    /// In words.
+    claim: String,
+    end: End,
+    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the bound on the rounding errors
+    /// of the step.
+    share: Option<f64>,
+    /// Bound of the sum of all residuals, in units of the energy.
+    drift: Option<f64>,
+    is_drawn: bool,
+}
+
+/// Where the problem of a run comes from.
+#[derive(Debug, Clone)]
+enum Origin {
+    Scene(Box<Scene>),
+    /// A beam with random coefficients and smooth random data.
+    Smooth {
+        mesh: Mesh,
+        seed: u64,
+    },
+}
+
+/// What a run finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// How it ended.
+    pub end: End,
+    /// Steps done.
+    pub steps: usize,
+    /// Steps that ended in contact.
+    pub contact_steps: usize,
+    /// Most iterations in a step.
+    pub most_iterations: usize,
+    /// Size of the energy at t = 0: its terms without their signs.
+    pub initial_energy: f64,
+    /// Largest rise and residual of a step.
+    pub worst: Worst,
+    /// Sum of all residuals with their signs, in units of the energy.
+    pub drift: f64,
+    /// Samples for the figures.
+    pub samples: Vec<Sample>,
+}
+
+/// A run after so many steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Number of the step.
+    pub step: usize,
+    /// Its time.
+    pub t: f64,
+    /// The energy.
+    pub energy: f64,
+    /// Largest residual of a step since the sample before, in units of the initial energy.
+    pub residual: f64,
+    /// Sum of all residuals so far, in units of the energy.
+    pub drift: f64,
+}
+
+impl FromFile for Runs {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let energy = root.section("energy")?;
+        let runs = energy.as_ref().map_or_else(|| cases(root), |section| listed(section, folder))?;
+        Ok(Self { header, runs, histories: energy.is_some() })
+    }
+}
+
+/// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
+fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<Run>, InputError> {
+    section.allow(&["scenes", "schemes", "elements", "map", "dt", "steps", "random", "seed", "tolerance"])?;
+    let names = SCHEMES.map(|scheme| (scheme.name, scheme));
+    let scheme = |item: &Field<'_>| item.choice(&names);
+    let schemes = section.list("schemes", "a list of at least one scheme", scheme, |list| !list.is_empty())?;
+    let count = |key: &str| section.get(key).map_or(Ok(0), |field| field.count(0..=usize::MAX));
+    let random = count("random")?;
+    if let Some(field) = section.get("random") {
+        limits::cases(&field, &[random, schemes.len()])?;
+    }
+    let seed = count("seed")? as u64;
+    let field = section.require("elements", "a number of elements")?;
+    let elements = tables::elements(&field)?;
+    let map = mesh_map(section, &[elements], None)?;
+    let mesh = tables::checked_mesh(mapped_mesh(elements, map.as_ref(), None), &field)?;
+    let (dt, tolerance) = (section.positive("dt")?, section.positive("tolerance")?);
+    let steps = section.count("steps", 1..=limits::STEPS)?;
+    let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
+    let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
+    let scenes = scenes.into_iter().map(|scene| (scene.name.clone(), Origin::Scene(Box::new(scene))));
+    let smooth = |k: u64| Origin::Smooth { mesh: mesh.clone(), seed: seed.wrapping_add(k) };
+    let origins = scenes.chain((0..random as u64).map(|k| (format!("random-{k}"), smooth(k))));
+    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let by_scheme = |(name, origin): (String, Origin)| {
+        schemes.iter().enumerate().map(move |(k, &scheme)| Run {
+            name: format!("{name}, {}", scheme.name),
+            // Random beams and further schemes would crowd the figures.
+            is_drawn: k == 0 && matches!(origin, Origin::Scene(_)),
+            origin: origin.clone(),
+            stepping: Stepping { scheme, settings, dt, loaded: false },
+            steps,
+            claim: "the energy falls and its balance closes".to_owned(),
+            end: End::Answer,
+            share: Some(tolerance),
+            drift: None,
+        })
+    };
+    Ok(origins.flat_map(by_scheme).collect())
+}
+
+/// The runs of `[[case]]`.
+fn cases(root: &Section<'_>) -> Result<Vec<Run>, InputError> {
+    let mut runs = named_cases(root, case)?;
+    let bounded = runs.iter().any(|run| run.drift.is_some());
+    // The drift of cases that claim a bound; of all where none does.
+    runs.iter_mut().for_each(|run| run.is_drawn = run.drift.is_some() || !bounded);
+    Ok(runs)
+}
+
+fn case(section: &Section<'_>, name: String) -> Result<Run, InputError> {
+    section.allow(&[&["name", "claim", "ends", "drift"], &scene::TABLES[..]].concat())?;
+    let scene = Scene::from_tables(section, name.clone())?;
+    let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
+    let newton = stepping.settings.solver == Solver::Newton;
+    // The balance holds for the exact solution of a step only.
+    let settings = if newton { Settings { tolerance: SOLVED, ..stepping.settings } } else { stepping.settings };
+    Ok(Run {
+        name,
+        claim: section.require("claim", "a text")?.text()?.to_owned(),
+        end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
+        drift: section.get("drift").map(|field| field.positive()).transpose()?,
+        share: None,
+        stepping: Stepping { settings, ..stepping },
+        steps: scene.steps(),
+        is_drawn: false,
+        origin: Origin::Scene(Box::new(scene)),
+    })
+}
+
+impl Kind for Runs {
+    /// Number of the run.
+    type Data = usize;
+    type Found = Found;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        // Observing a step costs three times its solution, and a step some 100 ns beside its elements.
+        let cost = |run: &Run| run.steps as f64 * (4.0 * run.elements() as f64 + 4.0);
+        let case = |(data, run): (usize, &Run)| Case { label: run.name.clone(), cost: cost(run), data };
+        self.runs.iter().enumerate().map(case).collect()
+    }
+
+    fn run(&self, index: &usize) -> Result<Found, CaseFailure> {
+        self.runs[*index].run()
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
+        let found: Vec<(&Run, &Found)> =
+            ran.iter().filter_map(|ran| Some((&self.runs[ran.case.data], ran.ok()?))).collect();
+        let mut checks = vec![completion(ran, Found::not_finite)];
+        checks.extend(found.iter().map(|(run, found)| run.check(found)));
+        let holding = checks.iter().skip(1).filter(|check| check.verdict == Verdict::Pass).count();
+        let steps: usize = found.iter().map(|(_, found)| found.steps).sum();
+        let Worst { residual, rise, .. } = found.iter().fold(Worst::NONE, |worst, (_, found)| worst.max(found.worst));
+        let share = of_allowed(found.iter().map(|(run, found)| run.share_of(found)).fold(0.0, max_or_nan));
+        let headline = format!("largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}");
+        let summary = format!("{holding} of {} runs hold, {steps} steps: {headline}; at most {share}", self.runs.len());
+        let rows: Vec<_> = found.iter().map(|(run, found)| (vec![run.name.clone()], run.readings(found))).collect();
+        let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
+        Outcome {
+            headline,
+            tables: vec![readings::table(title, &["run"], &rows)],
+            figures: self.figures(&found),
+            quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
+            ..Outcome::new(summary, vec![], checks)
+        }
+    }
+}
+
+impl Run {
+    fn elements(&self) -> usize {
+        match &self.origin {
+            Origin::Scene(scene) => scene.mesh.elements(),
+            Origin::Smooth { mesh, .. } => mesh.elements(),
+        }
+    }
+
+    fn problem(&self) -> Problem {
+        match &self.origin {
+            Origin::Scene(scene) => simulate::problem(scene),
+            Origin::Smooth { mesh, seed } => beams::smooth(mesh, *seed),
+        }
+    }
+
+    /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
+    fn run(&self) -> Result<Found, CaseFailure> {
+        let mut driver = Driver::new(self.problem(), self.stepping)?;
+        let mut log = Log::new(&mut driver, self.steps);
+        let ended = driver.run(self.steps, |step| {
+            log.add(&step);
+            ControlFlow::<()>::Continue(())
+        });
+        log.found.end = match ended {
+            Ok(_) => End::Answer,
+            Err(RunError::Step(error)) => End::of(&error.failure),
+            Err(error) => return Err(error.into()),
+        };
+        Ok(Found { worst: log.watch.worst, drift: log.watch.drift, ..log.found })
+    }
+
+    /// Largest rise or residual of a run in units of its bound.
+    fn share_of(&self, Found { worst, .. }: &Found) -> f64 {
+        match self.share {
+            Some(tolerance) => max_or_nan(worst.residual, worst.rise) / tolerance,
+            None => max_or_nan(worst.open, worst.risen),
+        }
+    }
+
+    /// The end that is claimed, and the bounds of every step before; a run without a step has nothing to bound.
+    fn check(&self, found: &Found) -> Check {
+        let Found { end, steps, worst, drift, .. } = found;
+        let ended = *end == self.end && (*end != End::Answer || *steps == self.steps);
+        let share = self.share_of(found);
+        let drifted = self.drift.is_none_or(|bound| drift.abs() <= bound);
+        let mut evidence = format!("{} after {steps} steps", end.name());
+        if *steps > 0 {
+            let (rise, residual, allowed) = (worst.rise, worst.residual, of_allowed(share));
+            evidence += &format!("; rise {rise:.1e}, residual {residual:.1e} of the energy ({allowed})");
+            evidence += &format!("; sum of all residuals {:.1e}", drift.abs());
+        }
+        let holds = ended && (*steps == 0 || share <= 1.0) && drifted;
+        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+    }
+
+    fn readings(&self, found: &Found) -> Vec<Reading> {
+        let of_steps = |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value)).scientific(1);
+        vec![
+            Reading::text("elements", self.elements().to_string()),
+            Reading::text("dt", plain_text(self.stepping.dt)),
+            Reading::text("steps", found.steps.to_string()),
+            Reading::text("in contact", found.contact_steps.to_string()),
+            Reading::text("end", found.end.name()),
+            Reading::text("most iterations", found.most_iterations.to_string()),
+            Reading::new("initial energy", found.initial_energy).scientific(4),
+            of_steps("rise", found.worst.rise),
+            of_steps("residual", found.worst.residual),
+            of_steps("sum of residuals", found.drift.abs()),
+        ]
+    }
+
+    /// The name without that of its scheme.
+    fn scene(&self) -> &str {
+        self.name.split(',').next().unwrap_or_default()
+    }
+}
+
+impl Found {
+    /// A run without a step has no rise.
+    fn not_finite(&self) -> Vec<String> {
+        let numbers = [("initial energy", self.initial_energy), ("sum of residuals", self.drift)];
+        let named = self.worst.named().into_iter().filter(|(name, _)| self.steps > 0 || *name != "rise");
+        not_finite(&numbers.into_iter().chain(named).collect::<Vec<_>>())
+    }
+}
+
+/// What a run has shown so far.
+struct Log {
+    watch: Watch,
+    /// Steps of the whole run.
+    last: usize,
+    /// Steps from one sample to the next; the last step is one in any case.
+    every: usize,
+    /// Largest residual since the last sample, in units of the initial energy.
+    peak: f64,
+    found: Found,
+}
+
+impl Log {
+    fn new(driver: &mut Driver, last: usize) -> Self {
+        let (simulation, level) = driver.present();
+        let watch = Watch::new(simulation.energy_scale(level));
+        let energy = simulation.energy(level);
+        let start = Sample { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
+        let found = Found {
+            end: End::Answer,
+            steps: 0,
+            contact_steps: 0,
+            most_iterations: 0,
+            initial_energy: size(&energy),
+            worst: watch.worst,
+            drift: 0.0,
+            samples: vec![start],
+        };
+        Self { watch, last, every: last.div_ceil(SAMPLES), peak: 0.0, found }
+    }
+
+    fn add(&mut self, step: &Step<'_>) {
+        let Step { report, old, new, simulation } = *step;
+        let Found { steps, contact_steps, most_iterations, initial_energy, samples, .. } = &mut self.found;
+        *steps = simulation.step();
+        *contact_steps += usize::from(new.contact_force != 0.0);
+        *most_iterations = report.iterations.max(*most_iterations);
+        // The scale only grows, so that leaving a level out makes the bounds stricter.
+        let scale = if *steps % SCALED == 1 { simulation.energy_scale(new) } else { 0.0 };
+        let balance = simulation.balance(old, new);
+        self.watch.step(&balance, scale, || simulation.rounding(old, new));
+        self.peak = max_or_nan(self.peak, balance.residual.abs() / *initial_energy);
+        if *steps % self.every == 0 || *steps == self.last {
+            let energy = simulation.energy(new).total();
+            let (t, residual, drift) = (simulation.t(), self.peak, self.watch.drift);
+            samples.push(Sample { step: *steps, t, energy, residual, drift });
+            self.peak = 0.0;
+        }
+    }
+}
+
+/// The size of an energy: its terms without their signs.
+fn size(energy: &Energy) -> f64 {
+    let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
+    kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs()
+}
+
+impl Runs {
+    fn figures(&self, found: &[(&Run, &Found)]) -> Vec<Figure> {
+        let drawn: Vec<&(&Run, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
+        let series = |point: &dyn Fn(&Found, &Sample) -> (f64, f64)| -> Vec<plots::Series> {
+            let curve = |(run, found): &&(&Run, &Found)| plots::Series {
+                label: run.scene().to_owned(),
+                points: found.samples.iter().map(|sample| point(found, sample)).collect(),
+            };
+            drawn.iter().map(curve).collect()
+        };
+        // A line for each bound that the runs drawn must keep.
+        let allowed = |bound: fn(&Run) -> Option<f64>| -> Vec<plots::Guide> {
+            let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| bound(run)).collect();
+            bounds.sort_by(f64::total_cmp);
+            bounds.dedup();
+            bounds.into_iter().map(|value| plots::Guide { label: "allowed".to_owned(), value }).collect()
+        };
+        let id = &self.header.id;
+        if !self.histories {
+            let drift = plots::History {
+                x_label: "steps".to_owned(),
+                y: plots::Axis::log("|sum of residuals| / energy"),
+                series: not_zero(series(&|_, sample| (sample.step as f64, sample.drift.abs()))),
+                guides: allowed(|run| run.drift),
+                ..plots::History::default()
+            };
+            let caption = "Sum of the signed residuals of the energy balance up to each step.";
+            return vec![over_time(id, "drift", caption, &drift)];
+        }
+        let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
+        let energy = plots::History {
+            y: plots::Axis::linear("energy E / initial energy"),
+            series: series(&|found, sample| (sample.t, sample.energy / found.initial_energy)),
+            looks: looks.clone(),
+            ..plots::History::default()
+        };
+        let balance = plots::History {
+            y: plots::Axis::log("residual / initial energy"),
+            series: not_zero(series(&|_, sample| (sample.t, sample.residual))),
+            looks,
+            guides: allowed(|run| run.share),
+            ..plots::History::default()
+        };
+        let caption =
+            "Residual of the energy balance, the largest of each group of steps, in units of the initial energy.";
+        vec![
+            over_time(id, "energy", "The energy, in units of its initial size: it never rises.", &energy),
+            over_time(id, "balance", caption, &balance),
+        ]
+    }
+}
+
+/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.
+fn not_zero(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
+    series.iter_mut().for_each(|series| series.points.retain(|(_, value)| *value != 0.0));
+    series
+}

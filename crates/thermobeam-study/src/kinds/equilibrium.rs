@@ -1,0 +1,347 @@
+//! Where long runs end, against exact steady states, which no source term keeps in place.
+//!
+//! A beam at rest solves the discrete static problem to round-off, whatever the time step was: what is left is the error
+//! of P1 elements, O(h²) at the nodes in u and in φ. By elements of high degree and dG(q) next to nothing is left. Four things
+//! are judged: that, where the file asks for it, the rate at every scene that ends bent, the
+//! error on the finest mesh, and that a beam whose steady state is straight ends straight, but for the motion left.
+
+use convergence_study::judge::richardson;
+use convergence_study::judge::verdict::Judge;
+use convergence_study::text::number::decimals;
+use thermobeam::equilibrium::Contact;
+use thermobeam::mesh::Mesh;
+use thermobeam::solve::Level;
+
+use super::prelude::*;
+use super::steady::{Nearest, Rest, at_resolution, exact_states, listed_scenes, name_of, settle};
+use super::tables::{DISCRETISATION_KEYS, Discretisation};
+use crate::error::reference::Reference;
+use crate::scene::tables;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "equilibrium",
+    read: reader::<EndStates>,
+    why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
+    judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
+             state; a run of any order ends in it.",
+    failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
+};
+
+/// Order of the elements in u and φ.
+const ORDER: f64 = 2.0;
+
+/// What is left of the tip's error when it is extrapolated from two meshes: the next term of the expansion, and the motion.
+const EXTRAPOLATED: f64 = 1e-2;
+
+/// Beyond so many times the velocity at rest an error is known: below, it is motion.
+const MOTION: f64 = 10.0;
+
+/// Relative changes that the baseline tolerates in the tips of discrete and of exact states.
+const TIP_TOLERANCES: [f64; 2] = [1e-8, 1e-9];
+
+/// About when beams come to rest.
+const REST: f64 = 200.0;
+
+/// Elements on which a run of any order is compared with the exact state.
+const COMPARED: usize = 64;
+
+/// A study of the steady states in which long runs end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndStates {
+    header: Header,
+    scenes: Vec<Scene>,
+    /// At least three numbers of elements, ascending.
+    elements: Vec<usize>,
+    dt: f64,
+    /// The largest velocity of a beam at rest.
+    speed: f64,
+    t_max: f64,
+    /// How far the observed rate may be from the order 2.
+    tolerance: f64,
+    /// The error allowed on the finest mesh.
+    error: f64,
+    /// The scenes by the scheme of any order as well: how, until when, and the error allowed.
+    any_order: Option<(Discretisation, f64, f64)>,
+}
+
+/// A scene on one mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OnMesh {
+    /// Its place in the list of scenes.
+    pub scene: usize,
+    /// Linear elements; `None` for the run of any order.
+    pub elements: Option<usize>,
+}
+
+/// A number of the displacement and one of the rotation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fields {
+    /// Of u.
+    pub u: f64,
+    /// Of φ.
+    pub phi: f64,
+}
+
+/// A beam at rest, and the exact stable state next to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct End {
+    /// When it came to rest.
+    pub t: f64,
+    /// u(1) and φ(1).
+    pub tip: Fields,
+    /// u(1) and φ(1) of the exact state.
+    pub exact_tip: Fields,
+    /// The contact of the exact state.
+    pub contact: Contact,
+    /// Largest errors at the nodes.
+    pub error: Fields,
+}
+
+impl FromFile for EndStates {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "run", "any-order", "expect"])?;
+        let run = root.table("run", &["scenes", "elements", "dt", "speed", "t_max"])?;
+        let expect = root.table("expect", &["tolerance", "error"])?;
+        let (dt, t_max) = (run.positive("dt")?, run.positive("t_max")?);
+        limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+        let allowed = "a list of at least three numbers of elements, ascending";
+        let elements = run.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))?;
+        let allowed = "a number > 0 and < 0.5";
+        let is_tolerance = |tolerance| Judge::new(tolerance).is_ok();
+        let any_order = |section: Section<'_>| {
+            section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
+            let t_end = section.positive("t_end")?;
+            Ok((Discretisation::read(&section, t_end)?, t_end, section.positive("error")?))
+        };
+        Ok(Self {
+            header,
+            scenes: listed_scenes(&run, folder)?,
+            elements,
+            dt,
+            speed: run.positive("speed")?,
+            t_max,
+            tolerance: expect.require("tolerance", allowed)?.number_where(allowed, is_tolerance)?,
+            error: expect.positive("error")?,
+            any_order: root.section("any-order")?.map(any_order).transpose()?,
+        })
+    }
+}
+
+impl Kind for EndStates {
+    type Data = OnMesh;
+    type Found = End;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<OnMesh>> {
+        let case = |(scene, elements): (usize, Option<usize>)| {
+            let (how, cost) = match (elements, &self.any_order) {
+                (None, Some((how, t_end, _))) => (how.label(), how.cost(*t_end)),
+                (elements, _) => {
+                    let n = elements.unwrap_or(0);
+                    (format!("n = {n}"), REST / self.dt * n as f64)
+                }
+            };
+            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: OnMesh { scene, elements } }
+        };
+        let scenes = || 0..self.scenes.len();
+        let linear = scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));
+        let any_order = scenes().filter(|_| self.any_order.is_some()).map(|scene| (scene, None));
+        linear.chain(any_order).map(case).collect()
+    }
+
+    fn run(&self, &OnMesh { scene, elements }: &OnMesh) -> Result<End, CaseFailure> {
+        let scene = &self.scenes[scene];
+        let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
+        if let Some(elements) = elements {
+            let scene = at_resolution(scene, elements, self.dt)?;
+            let Rest { t, level } = settle(&scene, self.speed, self.t_max)?;
+            return end(&scene, &scene.mesh, t, &level);
+        }
+        let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
+        let found = Reference::compute(scene, how, Mesh::uniform(COMPARED)?, *t_end, 1, 0)?;
+        end(scene, &found.mesh, *t_end, found.levels.last().ok_or_else(|| absent("the run has no end"))?)
+    }
+
+    fn judge(&self, ran: &[Ran<OnMesh, End>]) -> Outcome {
+        let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
+        let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
+        // What lies below the floor is known to the last of the motion only.
+        let floor = MOTION * self.speed;
+        let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
+        let mut checks = vec![completion(ran, |end| {
+            let End { t, tip, exact_tip, error, .. } = end;
+            let fields = [("tip", tip), ("exact tip", exact_tip), ("error", error)];
+            let broken = fields.iter().filter(|(_, Fields { u, phi })| !(u.is_finite() && phi.is_finite()));
+            let names = broken.map(|(name, _)| format!("{name} of u or φ"));
+            names.chain(not_finite(&[("time of rest", *t)])).collect()
+        })];
+        checks.extend(scenes.iter().map(Ends::check));
+        checks.extend(scenes.iter().filter_map(Ends::check_any_order));
+        let figure = bent.figure(
+            format!("{}-errors.svg", self.header.id),
+            None,
+            "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.".to_owned(),
+            &rates,
+        );
+        let tips = scenes.iter().filter(|ends| !ends.is_straight()).flat_map(Ends::tips);
+        let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
+        Outcome {
+            levels: self.levels(scenes.iter()).errors(),
+            tables: vec![self.table(&scenes)],
+            figures: vec![figure],
+            quantities: tips.chain(bent.quantities(&rates)).collect(),
+            headline: format!("largest error at the finest mesh {worst:.1e}, of {} ends", scenes.len()),
+            ..Outcome::new(
+                format!("{} long runs end at most {worst:.1e} from an exact steady state", scenes.len()),
+                rates,
+                checks,
+            )
+        }
+    }
+}
+
+/// The end of a run, and the stable state next to it.
+fn end(scene: &Scene, mesh: &Mesh, t: f64, level: &Level) -> Result<End, CaseFailure> {
+    let stable: Vec<_> = exact_states(scene)?.into_iter().filter(|state| state.stable).collect();
+    let none = || CaseFailure { reason: "there is no stable steady state".to_owned() };
+    let Nearest { state, errors: [u, phi], .. } = Nearest::of(mesh, level, &stable).ok_or_else(none)?;
+    Ok(End {
+        t,
+        tip: Fields { u: level.u[mesh.elements()], phi: level.phi[mesh.elements()] },
+        exact_tip: Fields { u: state.u_tip, phi: state.phi_tip },
+        contact: state.contact,
+        error: Fields { u, phi },
+    })
+}
+
+impl EndStates {
+    /// Largest errors at the nodes over the mean mesh width.
+    fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
+        let columns = scenes.enumerate().flat_map(|(k, ends)| {
+            let column = |look: usize, field: &str, error: fn(&Fields) -> f64| ErrorColumn {
+                name: format!("{}: {field}", ends.scene.name),
+                errors: ends.ends.iter().map(|end| end.map(|end| error(&end.error))).collect(),
+                claim: Some(Claim { order: ORDER, tolerance: self.tolerance }),
+                look,
+            };
+            [column(2 * k, "u", |fields| fields.u), column(2 * k + 1, "φ", |fields| fields.phi)]
+        });
+        let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
+        Levels {
+            axis: Axis::Space,
+            refinements: self.elements.iter().map(refinement).collect(),
+            columns: columns.collect(),
+        }
+    }
+
+    fn table(&self, scenes: &[Ends<'_>]) -> Table {
+        let row = |ends: &Ends<'_>| {
+            let numbers = [
+                ends.number(|end| end.tip.u),
+                ends.extrapolated(|end| end.tip.u),
+                ends.number(|end| end.exact_tip.u),
+                ends.extrapolated(|end| end.tip.phi),
+                ends.number(|end| end.exact_tip.phi),
+            ];
+            let mut row =
+                vec![ends.scene.name.clone(), ends.finest().map_or("?", |end| name_of(end.contact)).to_owned()];
+            row.extend(numbers.map(|number| decimals(number, 10)));
+            row.push(format!("{:.0}", ends.number(|end| end.t)));
+            row
+        };
+        let head = ["scene", "at rest", "u(1)", "extrapolated", "exact", "φ(1) extrapolated", "exact", "at rest by t"];
+        let elements = self.elements.last().unwrap_or(&0);
+        let title = format!("Ends of long runs ({elements} elements, and extrapolated) and exact steady states");
+        Table::new(title, head, scenes.iter().map(row))
+    }
+}
+
+/// The ends of one scene, one for each mesh; `None` where the run failed.
+struct Ends<'a> {
+    study: &'a EndStates,
+    scene: &'a Scene,
+    ends: Vec<Option<&'a End>>,
+    any_order: Option<&'a End>,
+}
+
+impl<'a> Ends<'a> {
+    fn of(study: &'a EndStates, ran: &'a [Ran<OnMesh, End>], scene: usize) -> Self {
+        let end = |elements: Option<usize>| found(ran, &OnMesh { scene, elements });
+        let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
+        Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
+    }
+
+    fn finest(&self) -> Option<&End> {
+        self.ends.last().copied().flatten()
+    }
+
+    /// A number of the finest end; NaN where that run failed.
+    fn number(&self, of: impl Fn(&End) -> f64) -> f64 {
+        self.finest().map_or(f64::NAN, of)
+    }
+
+    /// The larger error on the finest mesh.
+    fn error(&self) -> f64 {
+        self.number(|end| max_or_nan(end.error.u, end.error.phi))
+    }
+
+    /// Whether the beam ends straight, where the mesh makes no error.
+    fn is_straight(&self) -> bool {
+        self.finest().is_some_and(|end| end.exact_tip == Fields { u: 0.0, phi: 0.0 })
+    }
+
+    /// The value that the two finest meshes give for vanishing mesh width.
+    fn extrapolated(&self, of: impl Fn(&End) -> f64) -> f64 {
+        let (&[.., coarse, fine], &[.., Some(before), Some(last)]) = (&self.study.elements[..], &self.ends[..]) else {
+            return f64::NAN;
+        };
+        of(last) + richardson::correction(of(before), of(last), fine as f64 / coarse as f64, ORDER)
+    }
+
+    fn check(&self) -> Check {
+        let allowed = self.study.error;
+        let (u, exact) = (self.extrapolated(|end| end.tip.u), self.number(|end| end.exact_tip.u));
+        // The beam may buckle to either side, but the errors are comparable only where all meshes agree on one.
+        let contact = self.finest().map(|end| end.contact);
+        let same_side = self.ends.iter().all(|end| end.is_some() && end.map(|end| end.contact) == contact);
+        Check::that(
+            self.error() <= allowed && (u - exact).abs() <= EXTRAPOLATED * allowed && same_side,
+            format!("{} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name),
+            format!(
+                "largest error at {} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
+                self.study.elements.last().unwrap_or(&0),
+                self.number(|end| end.error.u),
+                self.number(|end| end.error.phi),
+                decimals(u, 10),
+                decimals(exact, 10)
+            ),
+        )
+    }
+
+    /// The run of any order ends in the exact state, whichever stable one that is.
+    fn check_any_order(&self) -> Option<Check> {
+        let (how, _, allowed) = self.study.any_order.as_ref()?;
+        let Fields { u, phi } = self.any_order.map_or(Fields { u: f64::NAN, phi: f64::NAN }, |end| end.error);
+        Some(Check::that(
+            max_or_nan(u, phi) <= *allowed,
+            format!("{} by {} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name, how.label()),
+            format!("largest error: u {u:.1e}, φ {phi:.1e}"),
+        ))
+    }
+
+    /// Tips on the finest mesh and of the exact state.
+    fn tips(&self) -> [Quantity; 4] {
+        let [discrete, exact] = TIP_TOLERANCES;
+        [
+            ("u_tip", discrete, self.number(|end| end.tip.u)),
+            ("phi_tip", discrete, self.number(|end| end.tip.phi)),
+            ("exact_u_tip", exact, self.number(|end| end.exact_tip.u)),
+            ("exact_phi_tip", exact, self.number(|end| end.exact_tip.phi)),
+        ]
+        .map(|(name, tolerance, value)| Quantity::new(format!("{}: {name}", self.scene.name), value, tolerance))
+    }
+}

@@ -1,0 +1,402 @@
+//! The experiments of Section 5 by the scheme of any order: values to ten digits, and the error of the paper's own scheme.
+//!
+//! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree. What they agree on is
+//! then the reference for the scene's own scheme at its own resolution, over the whole time.
+//!
+//! ```toml
+//! [experiments]
+//! scenes = ["scenes/paper-1-beta-0.toml"]   # one-step scenes; their own scheme is what is compared
+//! times = [1.0, 10.0]
+//! agreement = 1e-10                         # of the two discretisations, in every number
+//! compare = true                            # run the scenes' own schemes as well
+//!
+//! [[discretisations]]                       # two of them
+//! elements = 1
+//! degree = 20
+//! time_degree = 3
+//! dt = 0.02
+//! restart_dt = 5e-4
+//! growth = 1.5
+//! ```
+
+use std::ops::ControlFlow;
+
+use thermobeam::dg::ContactEvent;
+
+use super::prelude::*;
+use super::tables::{Discretisation, discretisations};
+use crate::figures::looks;
+use crate::run::motion::{Motion, Report};
+use crate::run::object::phase_name;
+use crate::run::simulate::{Recording, Simulator};
+use crate::run::tally::Sample;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "exact-experiments",
+    read: reader::<ExactExperiments>,
+    why: "Elements of high degree and dG(q), with contact located to round-off, converge so fast that some hundred steps give ten \
+          digits. Two discretisations that share neither mesh nor degrees nor steps make different errors.",
+    judged: "Both must agree at each time listed within the tolerance, in the state of the free end and the energy, and on every \
+             contact event. The energy must fall, its balance close to round-off.",
+    failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
+};
+
+/// Times at which the free end is compared over the whole time.
+const TIP_TIMES: usize = 1000;
+
+/// Residual of the balance that is round-off, over the initial energy.
+const CLOSED: f64 = 1e-12;
+
+/// Relative change of a published number that the baseline tolerates.
+const TOLERANCE: f64 = 1e-8;
+
+/// By what a scene is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// By the discretisation of this number.
+    AnyOrder(usize),
+    /// By the scene's own scheme, mesh and steps.
+    Own,
+}
+
+/// One run of one scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Run {
+    /// Number of the scene.
+    pub scene: usize,
+    /// How it is run.
+    pub method: Method,
+}
+
+/// What a run shows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shown {
+    /// States at the times listed.
+    pub states: Vec<Sample>,
+    /// Contact events; none by the scene's own scheme, which does not locate them.
+    pub events: Vec<ContactEvent>,
+    /// `(t, u(1, t))` at equally spaced times.
+    pub tip: Vec<(f64, f64)>,
+    /// Steps.
+    pub steps: usize,
+    /// Largest residual of the balance over E0, and largest change of the energy in a step.
+    pub balance: [f64; 2],
+}
+
+/// A study of experiments.
+pub struct ExactExperiments {
+    header: Header,
+    scenes: Vec<Scene>,
+    times: Vec<f64>,
+    discretisations: [Discretisation; 2],
+    agreement: f64,
+    /// Whether the scenes' own schemes are run and compared.
+    compare: bool,
+}
+
+impl FromFile for ExactExperiments {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "experiments", "discretisations"])?;
+        let section = root.require("experiments", "a table with scenes, times and agreement")?.section()?;
+        section.allow(&["scenes", "times", "agreement", "compare"])?;
+        let scene = |item: &Field<'_>| Scene::read_one_step(item, folder);
+        let allowed = "a list of at least one scene file";
+        let scenes = section.list("scenes", allowed, scene, |list| !list.is_empty())?;
+        let end = scenes.iter().map(|scene| scene.t_end).fold(f64::INFINITY, f64::min);
+        let allowed = format!("a list of increasing times > 0, the last at most {end:?}, where the first scene ends");
+        let fits = |times: &[f64]| {
+            increases(times) && times.first().is_some_and(|t| *t > 0.0) && times.last().is_some_and(|t| *t <= end)
+        };
+        let times = section.list("times", &allowed, Field::number, fits)?;
+        let agreement = section.positive("agreement")?;
+        let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
+        if compare {
+            comparable(&section, &scenes, &times)?;
+        }
+        let t_end = times.last().copied().unwrap_or_default();
+        let discretisations = discretisations(root, "discretisations", None, t_end)?;
+        Ok(Self { header, scenes, times, discretisations, agreement, compare })
+    }
+}
+
+/// Refuses scenes of which the times of comparison are no time levels: a difference in time would pass for an error.
+fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
+    for scene in scenes {
+        let steps = |t: &f64| t / scene.dt();
+        let is_level = |t: &f64| (steps(t) - steps(t).round()).abs() <= 1e-9 * steps(t);
+        let last = times.last().map_or(0, |t| steps(t).round() as usize);
+        if !(times.iter().all(is_level) && last.is_multiple_of(TIP_TIMES)) {
+            let found = format!("{}, whose dt is {:?}", scene.name, scene.dt());
+            let expected = format!(
+                "scenes whose time levels include all `times`, the last after a multiple of {TIP_TIMES} steps, where compare = true"
+            );
+            return Err(section.refuse("scenes", found, expected));
+        }
+    }
+    Ok(())
+}
+
+impl Kind for ExactExperiments {
+    type Data = Run;
+    type Found = Shown;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<Run>> {
+        let mut cases = vec![];
+        for (scene, of) in self.scenes.iter().enumerate() {
+            for (k, how) in self.discretisations.iter().enumerate() {
+                let (label, cost) = (format!("{}, {}", of.name, how.label()), how.cost(of.t_end));
+                cases.push(Case { label, cost, data: Run { scene, method: Method::AnyOrder(k) } });
+            }
+            if self.compare {
+                let label = format!("{}, {}", of.name, of.method.name());
+                let cost = of.mesh.elements() as f64 * of.steps() as f64;
+                cases.push(Case { label, cost, data: Run { scene, method: Method::Own } });
+            }
+        }
+        cases
+    }
+
+    fn run(&self, run: &Run) -> Result<Shown, CaseFailure> {
+        let scene = &self.scenes[run.scene];
+        let t_end = self.times.last().copied().unwrap_or(scene.t_end);
+        match run.method {
+            Method::AnyOrder(k) => self.shown(&self.discretisations[k].of(scene, t_end)?),
+            Method::Own => self.shown(&Scene { t_end, ..scene.clone() }),
+        }
+    }
+
+    fn judge(&self, ran: &[Ran<Run, Shown>]) -> Outcome {
+        let scenes: Vec<OfScene<'_>> = (0..self.scenes.len()).map(|scene| OfScene::of(self, ran, scene)).collect();
+        let mut checks = vec![completion(ran, |shown: &Shown| {
+            let named = shown.states.iter().flat_map(numbers);
+            let tip = shown.tip.iter().map(|(_, u)| *u).reduce(|a, b| if a.is_finite() { b } else { a });
+            not_finite(&named.chain([("u(1, t)", tip.unwrap_or(f64::NAN))]).collect::<Vec<_>>())
+        })];
+        checks.extend(scenes.iter().flat_map(|scene| scene.checks(self.agreement)));
+        let worst = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
+        let agreement = format!("two discretisations agree within {worst:.1e}");
+        let own = scenes.iter().map(OfScene::own_error).fold(0.0, max_or_nan);
+        let own = format!("; the scenes' own schemes at their resolution are off by up to {own:.1e} in u(1, t)");
+        let mut tables = vec![values(&scenes), events(&scenes)];
+        if self.compare {
+            tables.push(errors(&scenes));
+        }
+        tables.push(self.how(&scenes));
+        Outcome {
+            headline: format!("{agreement}{}", if self.compare { &own } else { "" }),
+            tables,
+            figures: self.figures(&scenes),
+            quantities: scenes.iter().flat_map(OfScene::quantities).collect(),
+            ..Outcome::new(format!("{} experiments, {agreement}", scenes.len()), vec![], checks)
+        }
+    }
+}
+
+impl ExactExperiments {
+    fn shown(&self, scene: &Scene) -> Result<Shown, CaseFailure> {
+        let mut states = vec![];
+        let mut observe = |motion: &mut dyn Motion, _: &Report| {
+            let t = motion.t();
+            // A level of a one-step scheme is there up to rounding.
+            if self.times.get(states.len()).is_some_and(|&time| (t - time).abs() <= 1e-9 * time) {
+                states.push(motion.at(t));
+            }
+            Ok(ControlFlow::Continue(()))
+        };
+        let run = Simulator::new(scene)?.watched(Recording::Curve(TIP_TIMES), &self.times, &mut observe).finished()?;
+        let balance = [run.energy.largest_balance_residual / run.energy.initial, run.energy.largest_increase];
+        let (tip, steps) = (run.tip(), run.steps);
+        Ok(Shown { states, tip, steps, balance, events: run.contact.map_or(vec![], |contact| contact.events) })
+    }
+
+    /// The two discretisations, and the steps that they have taken.
+    fn how(&self, scenes: &[OfScene<'_>]) -> Table {
+        let row = |(k, how): (usize, &Discretisation)| {
+            let steps =
+                |scene: &OfScene<'_>| scene.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string());
+            let mut row = [how.elements, how.degree, how.stepping.degree].map(|count| count.to_string()).to_vec();
+            row.extend(
+                [how.stepping.dt, how.stepping.restart_dt, how.stepping.growth].map(|number| format!("{number:?}")),
+            );
+            row.push(scenes.iter().map(steps).collect::<Vec<_>>().join(", "));
+            row
+        };
+        let head = ["elements", "degree p", "degree q", "largest step", "first step", "growth", "steps of each scene"];
+        Table::new("The two discretisations", head, self.discretisations.iter().enumerate().map(row))
+    }
+
+    fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
+        let figure = |what: &str, caption: &str, title: &str, y, points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
+            let curve = |scene: &OfScene<'_>| plots::Series { label: scene.name.to_owned(), points: points(scene) };
+            let history = plots::History {
+                title: Some(title.to_owned()),
+                y,
+                series: scenes.iter().map(curve).collect(),
+                looks: looks(scenes.iter().map(|scene| scene.name)),
+                ..plots::History::default()
+            };
+            over_time(&self.header.id, what, caption, &history)
+        };
+        let mut figures = vec![figure(
+            "tip",
+            "The free end of every experiment, to ten digits.",
+            "Displacement of the free end",
+            plots::Axis::linear("displacement u(1, t) (dimensionless)"),
+            |scene| scene.any_order[0].map(|shown| shown.tip.clone()).unwrap_or_default(),
+        )];
+        if self.compare {
+            figures.push(figure(
+                "error",
+                "Error of the scenes' own schemes at their own resolution over time, in the displacement of the free end.",
+                "Error of the scenes' own scheme at their own resolution",
+                plots::Axis::log("error of u(1, t) (dimensionless)"),
+                |scene| scene.error_over_time(),
+            ));
+        }
+        figures
+    }
+}
+
+/// The runs of one scene.
+struct OfScene<'r> {
+    name: &'r str,
+    any_order: [Option<&'r Shown>; 2],
+    own: Option<&'r Shown>,
+}
+
+const HEAD: [&str; 6] = ["u(1)", "φ(1)", "u_t(1)", "φ_t(1)", "θ(1/2)", "E"];
+
+fn numbers(state: &Sample) -> [(&'static str, f64); 6] {
+    [
+        ("u(1)", state.u_tip),
+        ("phi(1)", state.phi_tip),
+        ("u_t(1)", state.u_t_tip),
+        ("phi_t(1)", state.phi_t_tip),
+        ("theta(1/2)", state.theta_mid),
+        ("E", state.energy),
+    ]
+}
+
+impl<'r> OfScene<'r> {
+    fn of(study: &'r ExactExperiments, ran: &'r [Ran<Run, Shown>], scene: usize) -> Self {
+        let by = |method: Method| found(ran, &Run { scene, method });
+        let any_order = [by(Method::AnyOrder(0)), by(Method::AnyOrder(1))];
+        Self { name: &study.scenes[scene].name, any_order, own: by(Method::Own) }
+    }
+
+    /// The states of the first discretisation.
+    fn states(&self) -> &'r [Sample] {
+        self.any_order[0].map_or(&[], |shown| &shown.states)
+    }
+
+    /// The largest difference of any number at any time; NaN where one of the runs is missing.
+    fn difference(&self) -> f64 {
+        let [Some(one), Some(other)] = self.any_order else { return f64::NAN };
+        if one.states.len() != other.states.len() || one.states.is_empty() {
+            return f64::NAN;
+        }
+        let pairs = one.states.iter().flat_map(numbers).zip(other.states.iter().flat_map(numbers));
+        pairs.map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, max_or_nan)
+    }
+
+    fn checks(&self, agreement: f64) -> [Check; 3] {
+        let difference = self.difference();
+        let claim = format!("{}: two discretisations agree within {agreement:e}", self.name);
+        let agree = Check::that(difference <= agreement, claim, format!("largest difference {difference:.1e}"));
+        [agree, self.events_agree(agreement), self.balance()]
+    }
+
+    fn events_agree(&self, agreement: f64) -> Check {
+        let claim = format!("{}: they agree on every contact event", self.name);
+        let [Some(one), Some(other)] = self.any_order else {
+            return Check::that(false, claim, "a run is missing");
+        };
+        let alike = one.events.len() == other.events.len()
+            && one.events.iter().zip(&other.events).all(|(a, b)| (a.from, a.to) == (b.from, b.to));
+        let apart = one.events.iter().zip(&other.events).map(|(a, b)| (a.t - b.t).abs()).fold(0.0, max_or_nan);
+        let evidence =
+            format!("{} and {} events, times at most {apart:.1e} apart", one.events.len(), other.events.len());
+        // Times are of order 10, the other numbers of order 1.
+        Check::that(alike && apart <= 10.0 * agreement, claim, evidence)
+    }
+
+    fn balance(&self) -> Check {
+        let fold = |i: usize| {
+            let values = self.any_order.iter().map(|shown| shown.map_or(f64::NAN, |shown| shown.balance[i]));
+            values.fold(f64::NEG_INFINITY, max_or_nan)
+        };
+        let (residual, increase) = (fold(0), fold(1));
+        Check::that(
+            residual <= CLOSED && increase <= 0.0,
+            format!("{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0", self.name),
+            format!("largest residual {residual:.1e} of E0, largest change {increase:.1e}"),
+        )
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        let guard = |(state, (name, value)): (&Sample, (&str, f64))| {
+            Quantity::new(format!("{}: {name} at t = {}", self.name, state.t), value, TOLERANCE)
+        };
+        self.states().iter().flat_map(|state| numbers(state).map(|number| guard((state, number)))).collect()
+    }
+
+    /// `(t, error)` of u(1, t) by the scene's own scheme.
+    fn error_over_time(&self) -> Vec<(f64, f64)> {
+        let (Some(own), Some(exact)) = (self.own, self.any_order[0]) else { return vec![] };
+        // The history of the exact run begins at t = 0. The reader has made sure that both have the same times.
+        own.tip.iter().zip(&exact.tip).skip(1).map(|((t, u), (_, exact))| (*t, (u - exact).abs())).collect()
+    }
+
+    /// The largest of these; NaN where there is none.
+    fn own_error(&self) -> f64 {
+        self.error_over_time().into_iter().map(|(_, error)| error).reduce(max_or_nan).unwrap_or(f64::NAN)
+    }
+}
+
+/// The numbers, to the digits that both discretisations agree on and one more.
+fn values(scenes: &[OfScene<'_>]) -> Table {
+    let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
+        let (name, apart) = (scene.name.to_owned(), scene.difference());
+        let decimals = if apart > 0.0 { (-apart.log10()).floor().clamp(0.0, 14.0) as usize } else { 14 };
+        let row = |state: &Sample| {
+            let mut row = vec![name.clone(), state.t.to_string()];
+            row.extend(numbers(state).map(|(_, value)| format!("{value:.decimals$}")));
+            row.push(format!("{apart:.0e}"));
+            row
+        };
+        scene.states().iter().map(row).collect()
+    };
+    let head = ["scene", "t"].into_iter().chain(HEAD).chain(["largest difference"]);
+    let title = "The free end and the energy, to the digits on which two discretisations agree";
+    Table::new(title, head, scenes.iter().flat_map(of_scene))
+}
+
+fn events(scenes: &[OfScene<'_>]) -> Table {
+    let row = |scene: &OfScene<'_>, event: &ContactEvent| {
+        let [from, to] = [event.from, event.to].map(phase_name);
+        vec![scene.name.to_owned(), format!("{:.10}", event.t), format!("{from} to {to}")]
+    };
+    let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
+        scene.any_order[0].iter().flat_map(|shown| &shown.events).map(|event| row(scene, event)).collect()
+    };
+    Table::new("Contact events", ["scene", "t", "free end"], scenes.iter().flat_map(of_scene))
+}
+
+fn errors(scenes: &[OfScene<'_>]) -> Table {
+    let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
+        let row = |(a, b): (&Sample, &Sample)| {
+            let mut row = vec![scene.name.to_owned(), b.t.to_string()];
+            row.extend(numbers(a).iter().zip(numbers(b)).map(|(a, b)| format!("{:.2e}", a.1 - b.1)));
+            row.push(format!("{:.2e}", scene.own_error()));
+            row
+        };
+        scene.own.iter().flat_map(|own| own.states.iter().zip(scene.states())).map(row).collect()
+    };
+    let head = ["scene", "t"].into_iter().chain(HEAD).chain(["largest |error| of u(1, t)"]);
+    Table::new("Errors of the scenes' own scheme at their own resolution", head, scenes.iter().flat_map(of_scene))
+}

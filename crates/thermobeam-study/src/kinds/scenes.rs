@@ -1,0 +1,282 @@
+//! Whole scenes, read and run as `run` does it, against the answers of an independent implementation.
+//!
+//! Studies of orders take loads and initial data from an exact solution; what a scene says beside them, from its initial rotation
+//! to its stopping criterion, is tested here. The work of a run is guarded too: a factorisation in every step changes no result.
+//!
+//! ```toml
+//! [[case]]
+//! name = "listed-nodes"
+//! claim = "..."                # in words
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
+//! [case.answer]                # with `ends = "answer"` only: numbers as `run --format json` calls them
+//! within = 1e-9                # bound on the distance to each
+//! u_tip = -0.0408657198986
+//! # and the tables of a scene, by any scheme
+//! [case.time]
+//! dt = 0.005
+//! t_end = 1.0
+//! ```
+
+use convergence_study::text::number::short_text;
+
+use super::energy::{End, named_cases};
+use super::prelude::*;
+use super::tables::Discretisation;
+use crate::run::simulate::{Recording, Run, Simulator};
+use crate::run::tally::{EnergySummary, Extremes, Sample};
+use crate::run::together::run_together;
+use crate::scene::{self, Method};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "scenes",
+    read: reader::<Scenes>,
+    why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
+          the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
+          order those of a converged solution.",
+    judged: "Each number of an answer must be met within the bound of its case, and each run must end as the case says. The \
+             baseline guards all numbers of a run and its counts: steps, iterations, factorisations.",
+    failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
+              not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
+};
+
+/// Times of a curve in the figure.
+const TIMES: usize = 200;
+
+/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10 or more, and may stop one
+/// earlier where rounding differs.
+const TOLERANCE: f64 = 1e-7;
+
+/// The same of a count: below 50 it must be equal.
+const COUNT_TOLERANCE: f64 = 0.02;
+
+/// A study of whole scenes.
+#[derive(Debug, Clone)]
+pub struct Scenes {
+    header: Header,
+    scenes: Vec<Whole>,
+}
+
+/// A scene and what is known of it.
+#[derive(Debug, Clone)]
+struct Whole {
+    name: String,
+    claim: String,
+    scene: Scene,
+    end: End,
+    /// Numbers by their names, some of [`NUMBERS`].
+    answer: Vec<(&'static str, f64)>,
+    /// Bound on the distance to each number of the answer.
+    within: f64,
+}
+
+/// What a run shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    /// How it ended.
+    pub end: End,
+    /// The last level, the free end's range and the energy's largest change, in the order of [`NUMBERS`].
+    pub numbers: [f64; NUMBERS.len()],
+    /// Counts, in the order of [`COUNTS`].
+    pub counts: [usize; COUNTS.len()],
+    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it can only run alone.
+    pub alike_in_lanes: Option<bool>,
+    /// `(t, u(1, t))`, for the figure.
+    pub tip: Vec<(f64, f64)>,
+}
+
+/// Names of numbers, as in the object of `run --format json`.
+pub const NUMBERS: [&str; 9] =
+    ["u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "energy", "u_tip_min", "u_tip_max", "largest_increase"];
+
+/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any order.
+pub const COUNTS: [&str; 6] = ["steps", "iterations", "most iterations", "passes", "factorizations", "contact"];
+
+impl FromFile for Scenes {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "case"])?;
+        Ok(Self { header, scenes: named_cases(root, case)? })
+    }
+}
+
+fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
+    section.allow(&[&["name", "claim", "ends", "answer"], &scene::TABLES[..]].concat())?;
+    let end = section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?;
+    let (answer, within) = match (section.section("answer")?, end) {
+        (Some(answer), End::Answer) => numbers_of(&answer)?,
+        (None, End::Answer) => {
+            return Err(section.missing("answer", "a table with numbers, where a case ends with its answer"));
+        }
+        (Some(_), _) => return Err(section.refuse("answer", "an answer", "none, where a case ends with an error")),
+        (None, _) => (vec![], 0.0),
+    };
+    Ok(Whole {
+        claim: section.require("claim", "a text")?.text()?.to_owned(),
+        scene: Scene::from_tables(section, name.clone())?,
+        name,
+        end,
+        answer,
+        within,
+    })
+}
+
+/// The numbers of an answer, and the bound.
+fn numbers_of(section: &Section<'_>) -> Result<(Vec<(&'static str, f64)>, f64), InputError> {
+    section.allow(&[&["within"], &NUMBERS[..]].concat())?;
+    let within = section.positive("within")?;
+    let number = |name| section.get(name).map(|field| Ok((name, field.number()?)));
+    let answer = NUMBERS.into_iter().filter_map(number).collect::<Result<Vec<_>, InputError>>()?;
+    if answer.is_empty() {
+        return Err(section.missing(NUMBERS[0], "at least one number of the answer"));
+    }
+    Ok((answer, within))
+}
+
+impl Kind for Scenes {
+    /// Number of the scene.
+    type Data = usize;
+    type Found = Shown;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        let cost = |scene: &Scene| match scene.method {
+            Method::OneStep(_) => scene.steps() as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
+            Method::Dg(stepping) => {
+                let Scene { degree, t_end, .. } = *scene;
+                Discretisation { elements: scene.mesh.elements(), degree, stepping }.cost(t_end)
+            }
+        };
+        let case = |(data, whole): (usize, &Whole)| Case { label: whole.name.clone(), cost: cost(&whole.scene), data };
+        self.scenes.iter().enumerate().map(case).collect()
+    }
+
+    fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
+        let scene = &self.scenes[*index].scene;
+        let shown = Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
+        let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::of).transpose()?;
+        Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
+        let found: Vec<(&Whole, &Shown)> =
+            ran.iter().filter_map(|ran| Some((&self.scenes[ran.case.data], ran.ok()?))).collect();
+        let mut checks = vec![completion(ran, |shown| {
+            // A run without a step has no change of the energy.
+            let count = if shown.counts[0] == 0 { NUMBERS.len() - 1 } else { NUMBERS.len() };
+            not_finite(&NUMBERS.into_iter().zip(shown.numbers).take(count).collect::<Vec<_>>())
+        })];
+        checks.extend(found.iter().map(|(whole, shown)| whole.check(shown)));
+        checks.push(alike_in_lanes(&found));
+        let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
+        let strain = answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within).fold(0.0, max_or_nan);
+        let headline =
+            format!("{} scenes, at most {strain:.2} of the distance allowed to an independent answer", found.len());
+        let drawn = found.iter().filter(|(whole, _)| whole.end == End::Answer);
+        let curve =
+            |(whole, shown): &(&Whole, &Shown)| plots::Series { label: whole.name.clone(), points: shown.tip.clone() };
+        let history = plots::History {
+            y: plots::Axis::linear("displacement u(1, t) (dimensionless)"),
+            series: drawn.map(curve).collect(),
+            ..plots::History::default()
+        };
+        let caption = "Displacement of the free end in the scenes that end with an answer.";
+        let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"].into_iter().chain(COUNTS);
+        let rows = found.iter().map(|(whole, shown)| whole.row(shown));
+        Outcome {
+            tables: vec![Table::new("Scenes against an independent implementation", head, rows)],
+            figures: vec![over_time(&self.header.id, "tip", caption, &history)],
+            quantities: found.iter().flat_map(|(whole, shown)| whole.quantities(shown)).collect(),
+            headline: headline.clone(),
+            ..Outcome::new(headline, vec![], checks)
+        }
+    }
+}
+
+impl Whole {
+    /// The number that is farthest from its answer, and how far; NaN is farthest.
+    fn farthest(&self, shown: &Shown) -> (&'static str, f64) {
+        let mut farthest = ("none", 0.0);
+        for &(name, expected) in &self.answer {
+            let found =
+                NUMBERS.iter().position(|number| *number == name).map_or(f64::NAN, |place| shown.numbers[place]);
+            let distance = (found - expected).abs();
+            if !(distance <= farthest.1) {
+                farthest = (name, distance);
+            }
+        }
+        farthest
+    }
+
+    fn check(&self, shown: &Shown) -> Check {
+        let (name, distance) = self.farthest(shown);
+        let holds = shown.end == self.end && (self.end != End::Answer || distance <= self.within);
+        let evidence = if shown.end == End::Answer {
+            format!("{name} is {} from its answer, {:e} allowed", short_text(distance), self.within)
+        } else {
+            format!("{} after {} steps", shown.end.name(), shown.counts[0])
+        };
+        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+    }
+
+    /// All numbers and counts of a run, unless a run without a step has no change of the energy.
+    fn quantities(&self, shown: &Shown) -> Vec<Quantity> {
+        let numbers = NUMBERS.into_iter().zip(shown.numbers).filter(|(_, value)| value.is_finite());
+        let numbers = numbers.map(|(name, value)| (name, value, TOLERANCE));
+        let counts = COUNTS.into_iter().zip(shown.counts).map(|(name, count)| (name, count as f64, COUNT_TOLERANCE));
+        let quantity = |(name, value, tolerance)| Quantity::new(format!("{}: {name}", self.name), value, tolerance);
+        numbers.chain(counts).map(quantity).collect()
+    }
+
+    fn row(&self, shown: &Shown) -> Vec<String> {
+        let solver = self.scene.one_step().map_or("newton", |stepping| stepping.settings.solver.name());
+        let (name, distance) = self.farthest(shown);
+        let by = if self.answer.is_empty() { "-".to_owned() } else { format!("{distance:.1e}") };
+        let cells = [&self.name, self.scene.method.name(), solver, shown.end.name(), name, &by].map(str::to_owned);
+        cells.into_iter().chain(shown.counts.map(|count| count.to_string())).collect()
+    }
+}
+
+fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
+    let compared = found.iter().filter(|(_, shown)| shown.alike_in_lanes.is_some()).count();
+    let apart = found.iter().filter(|(_, shown)| shown.alike_in_lanes == Some(false));
+    let apart: Vec<&str> = apart.map(|(whole, _)| whole.name.as_str()).collect();
+    Check::that(
+        compared > 0 && apart.is_empty(),
+        "in lanes, in a group that is not full, each scene that can run so has the same bits",
+        format!("{compared} compared, {} with other bits: {}", apart.len(), apart.join(", ")),
+    )
+}
+
+impl Shown {
+    /// Whether end, numbers and counts are the same, to the bit.
+    fn has_the_bits_of(&self, other: &Self) -> bool {
+        let bits = |shown: &Self| shown.numbers.map(f64::to_bits);
+        (self.end, bits(self), self.counts) == (other.end, bits(other), other.counts)
+    }
+
+    fn of(run: &Run) -> Result<Self, CaseFailure> {
+        let end = match &run.failure {
+            None => End::Answer,
+            Some(failure) => End::of_run(failure).ok_or_else(|| failure.clone())?,
+        };
+        let Run { last, extremes, energy, iterations, work, .. } = run;
+        let contact = run.contact.as_ref().map_or(run.contact_steps, |contact| contact.events.len());
+        Ok(Self {
+            end,
+            numbers: numbers(last, extremes, energy),
+            counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
+            alike_in_lanes: None,
+            tip: run.tip(),
+        })
+    }
+}
+
+/// What a run of any scheme shows, in the order of [`NUMBERS`].
+fn numbers(last: &Sample, extremes: &Extremes, energy: &EnergySummary) -> [f64; NUMBERS.len()] {
+    let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy: end, .. } = *last;
+    let Extremes { u_tip_min, u_tip_max } = *extremes;
+    [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, end, u_tip_min, u_tip_max, energy.largest_increase]
+}

@@ -29,21 +29,20 @@
 //! agreement = 0.02           # of measured and predicted boundary, relative
 //! ```
 
-mod comparison;
-mod contraction;
-mod file;
 mod map;
-mod step;
+mod parts;
 
-use convergence_study::study::levels::completion;
-use convergence_study::study::{
-    Case, CaseFailure, Check, Figure, Header, Kind, KindRow, Outcome, Quantity, Ran, Table, reader,
-};
+use thermobeam::contraction::{contact_contraction, coupling_contraction};
+use thermobeam::error::StepFailure;
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::solve::{Settings, Solver};
 
-pub use comparison::Agreement;
-pub use contraction::Contraction;
+use super::prelude::*;
+use crate::run::driver::{Driver, RunError};
+
 pub use map::{Boundary, Crossing, NewtonSteps, Point, Row};
-pub use step::FixedPointStep;
+pub use parts::{Agreement, Contraction};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -63,8 +62,8 @@ pub const ROW: KindRow = KindRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solvers {
     header: Header,
-    contraction: Option<contraction::Grid>,
-    comparison: Option<comparison::Comparison>,
+    contraction: Option<parts::Grid>,
+    comparison: Option<parts::Comparison>,
     map: Option<map::Map>,
 }
 
@@ -104,67 +103,43 @@ pub enum Found {
 impl Found {
     /// Names of the numbers that are NaN, or infinite where only a finite one makes sense.
     fn not_finite(&self) -> Vec<String> {
-        let names = match self {
-            Found::Contraction(found) => found.not_finite(),
-            Found::Comparison(found) => found.not_finite(),
-            Found::Row(row) => row.not_finite(),
+        match self {
+            Found::Contraction(found) => not_finite(&[("alpha", found.alpha), ("gamma", found.gamma)]),
+            Found::Comparison(found) => not_finite(&[
+                ("the distance", found.distance),
+                ("the mean number of iterations", found.mean_iterations),
+            ]),
+            Found::Row(row) => row.points.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),
-        };
-        names.into_iter().map(str::to_owned).collect()
+        }
     }
 }
 
-/// What one part contributes to the outcome.
-struct Part {
-    summary: String,
-    headline: String,
-    checks: Vec<Check>,
-    tables: Vec<Table>,
-    figures: Vec<Figure>,
-    quantities: Vec<Quantity>,
+impl FromFile for Solvers {
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let parts = ["contraction", "comparison", "map"];
+        root.allow(&[&["study"], &parts[..]].concat())?;
+        if parts.iter().all(|part| root.get(part).is_none()) {
+            let allowed = format!("at least one table for kind \"{}\": {}", ROW.name, parts.join(", "));
+            return Err(root.missing(parts[0], &allowed));
+        }
+        Ok(Self {
+            header,
+            contraction: root.section(parts[0])?.map(|section| parts::Grid::read(&section)).transpose()?,
+            comparison: root.section(parts[1])?.map(|section| parts::Comparison::read(&section, folder)).transpose()?,
+            map: root.section(parts[2])?.map(|section| map::Map::read(&section)).transpose()?,
+        })
+    }
 }
 
-impl Solvers {
-    /// What was found by the cases that `pick` takes, in the order of the cases; a failed case is left out, and fails
-    /// the check of completion.
-    fn found<'r, D, F>(
-        ran: &'r [Ran<Task, Found>],
-        pick: impl Fn(&'r Task, &'r Found) -> Option<(D, F)>,
-    ) -> Vec<(D, F)> {
-        ran.iter().filter_map(|ran| pick(&ran.case.data, ran.ok()?)).collect()
-    }
+/// A list of at least one number > 0.
+fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputError> {
+    section.list(key, "a list of at least one number > 0", Field::positive, |list| !list.is_empty())
+}
 
-    fn parts(&self, ran: &[Ran<Task, Found>]) -> Vec<Part> {
-        let id = &self.header.id;
-        let contraction = self.contraction.as_ref().map(|_| {
-            let found = Self::found(ran, |task, found| match (task, found) {
-                (Task::Contraction { dt, epsilon, zeta }, Found::Contraction(found)) => {
-                    Some(([*dt, *epsilon, *zeta], found))
-                }
-                _ => None,
-            });
-            contraction::judge(id, &found)
-        });
-        let comparison = self.comparison.as_ref().map(|_| {
-            let found = Self::found(ran, |task, found| match (task, found) {
-                (Task::Comparison(tolerance), Found::Comparison(found)) => Some((*tolerance, found)),
-                _ => None,
-            });
-            comparison::judge(id, &found)
-        });
-        let map = self.map.as_ref().map(|map| {
-            let rows = Self::found(ran, |task, found| match (task, found) {
-                (Task::Row(value), Found::Row(row)) => Some((*value, row)),
-                _ => None,
-            });
-            let lines = Self::found(ran, |task, found| match (task, found) {
-                (Task::Boundary(value), Found::Boundary(line)) => Some((*value, line)),
-                _ => None,
-            });
-            map.judge(id, &rows, &lines)
-        });
-        [contraction, comparison, map].into_iter().flatten().collect()
-    }
+/// The part that a case belongs to.
+fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
+    part.as_ref().ok_or_else(|| CaseFailure { reason: "the study has no such part".to_owned() })
 }
 
 impl Kind for Solvers {
@@ -176,38 +151,98 @@ impl Kind for Solvers {
     }
 
     fn cases(&self) -> Vec<Case<Task>> {
-        let contraction = self.contraction.iter().flat_map(contraction::Grid::cases);
-        let comparison = self.comparison.iter().flat_map(comparison::Comparison::cases);
+        let contraction = self.contraction.iter().flat_map(parts::Grid::cases);
+        let comparison = self.comparison.iter().flat_map(parts::Comparison::cases);
         contraction.chain(comparison).chain(self.map.iter().flat_map(map::Map::cases)).collect()
     }
 
     fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
-        let absent = || CaseFailure { reason: "the study has no such part".to_owned() };
         Ok(match *task {
             Task::Contraction { dt, epsilon, zeta } => {
-                let grid = self.contraction.as_ref().ok_or_else(absent)?;
-                Found::Contraction(contraction::measure(grid.elements, [dt, epsilon, zeta])?)
+                Found::Contraction(part(&self.contraction)?.measure([dt, epsilon, zeta])?)
             }
-            Task::Comparison(tolerance) => {
-                Found::Comparison(self.comparison.as_ref().ok_or_else(absent)?.run(tolerance)?)
-            }
-            Task::Row(value) => Found::Row(self.map.as_ref().ok_or_else(absent)?.row(value)?),
-            Task::Boundary(value) => Found::Boundary(self.map.as_ref().ok_or_else(absent)?.boundary(value)?),
+            Task::Comparison(tolerance) => Found::Comparison(part(&self.comparison)?.run(tolerance)?),
+            Task::Row(value) => Found::Row(part(&self.map)?.row(value)?),
+            Task::Boundary(value) => Found::Boundary(part(&self.map)?.boundary(value)?),
         })
     }
 
     fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
-        let parts = self.parts(ran);
-        let join = |text: fn(&Part) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
-        let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));
-        let mut checks = vec![completion(ran, Found::not_finite)];
-        let (mut tables, mut figures, mut quantities) = (vec![], vec![], vec![]);
-        for part in parts {
-            checks.extend(part.checks);
-            tables.extend(part.tables);
-            figures.extend(part.figures);
-            quantities.extend(part.quantities);
+        // A failed case is left out, and fails the check of completion.
+        let (mut factors, mut agreements, mut rows, mut lines) = (vec![], vec![], vec![], vec![]);
+        for (task, found) in ran.iter().filter_map(|ran| Some((ran.case.data, ran.ok()?))) {
+            match (task, found) {
+                (Task::Contraction { dt, epsilon, zeta }, Found::Contraction(of)) => {
+                    factors.push(([dt, epsilon, zeta], of));
+                }
+                (Task::Comparison(tolerance), Found::Comparison(of)) => agreements.push((tolerance, of)),
+                (Task::Row(value), Found::Row(row)) => rows.push((value, row)),
+                (Task::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
+                _ => {}
+            }
         }
+        let id = &self.header.id;
+        let contraction = self.contraction.as_ref().map(|_| parts::judge_contraction(id, &factors));
+        let comparison = self.comparison.as_ref().map(|_| parts::judge_comparison(id, &agreements));
+        let map = self.map.as_ref().map(|map| map.judge(id, &rows, &lines));
+        let parts: Vec<Outcome> = [contraction, comparison, map].into_iter().flatten().collect();
+        let join = |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
+        let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));
+        let mut all = Outcome::new("", vec![], vec![completion(ran, Found::not_finite)]);
+        for part in parts {
+            all.checks.extend(part.checks);
+            all.tables.extend(part.tables);
+            all.figures.extend(part.figures);
+            all.quantities.extend(part.quantities);
+        }
+        let Outcome { checks, tables, figures, quantities, .. } = all;
         Outcome { headline, tables, figures, quantities, ..Outcome::new(summary, vec![], checks) }
     }
+}
+
+/// How a step by the fixed point ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedPointStep {
+    /// Whether the increment fell below the tolerance.
+    pub converged: bool,
+    /// Iterations done.
+    pub iterations: usize,
+    /// Ratio of the last two increments, where there were two; infinite where the iterates overflowed or the operator
+    /// was not definite.
+    pub contraction: Option<f64>,
+}
+
+impl FixedPointStep {
+    /// The first step of the problem, with at most so many iterations, to an increment below `tolerance`.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the solver refuses the problem or time is up; that the iteration fails is a result.
+    fn run(problem: &Problem, dt: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
+        let settings =
+            Settings { solver: Solver::FixedPoint, tolerance, max_iterations: iterations, ..Settings::default() };
+        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+        let error = match Driver::new(problem.clone(), stepping)?.advance(|_, _| ()) {
+            Ok(report) => {
+                return Ok(Self { converged: true, iterations: report.iterations, contraction: report.contraction });
+            }
+            Err(RunError::Step(error)) => error,
+            Err(other) => return Err(other.into()),
+        };
+        let (iterations, contraction) = match error.failure {
+            StepFailure::Diverged { iterations, contraction, .. }
+            | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, contraction),
+            StepFailure::NonFinite { iterations, .. } => (iterations, f64::INFINITY),
+            StepFailure::Indefinite { .. } => (0, f64::INFINITY),
+        };
+        Ok(Self { converged: false, iterations, contraction: Some(contraction) })
+    }
+}
+
+/// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite where the
+/// operator is not definite.
+fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
+    let lengths: Vec<f64> = problem.mesh.lengths().collect();
+    let (beam, scheme) = (&problem.beam, &EULER_CRANK_NICOLSON);
+    let contact = |obstacles| contact_contraction(beam, &obstacles, &lengths, scheme, dt, n_value);
+    [problem.obstacles.map_or(0.0, contact), coupling_contraction(beam, &lengths, scheme, dt, n_value)]
 }

@@ -6,8 +6,7 @@ use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
 
 use super::judge::{Lines, Rows};
-use super::row::Point;
-use super::{Map, Parameter};
+use super::{Map, Parameter, Point};
 
 /// Contractions below are shown as this: after a few iterations the ratio tells no more.
 const FASTEST: f64 = 1e-6;
@@ -109,7 +108,7 @@ impl Maps<'_> {
         };
         let marked = self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect();
         let map = ParameterMap { cells, marked, marked_label: hatched_label.to_owned(), boundaries };
-        Figure { file: format!("{id}-{file}.svg"), caption, svg: plots::parameter_map(&map) }
+        Figure::new(id, file, caption, plots::parameter_map(&map))
     }
 
     fn second_axis(&self) -> Axis {

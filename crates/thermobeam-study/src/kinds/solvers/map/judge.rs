@@ -1,12 +1,10 @@
 //! Claims, the table of boundaries, and what the baseline guards.
 
-use convergence_study::study::{Check, Quantity, Table};
-use convergence_study::text::number::{max_or_nan, plain_text};
+use convergence_study::text::number::plain_text;
 use thermobeam::kirchhoff::BUCKLING;
 
-use super::super::Part;
-use super::row::{NewtonSteps, Point};
-use super::{Boundary, Map, Row, figures};
+use super::{Boundary, Map, NewtonSteps, Point, Row, figures};
+use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
 /// A factor for which the iterations of the map are enough, with a margin for the mean force, which is not known beforehand.
@@ -21,7 +19,7 @@ pub(super) type Rows<'r> = [(f64, &'r Row)];
 pub(super) type Lines<'r> = [(f64, &'r Boundary)];
 
 impl Map {
-    pub(in super::super) fn judge(&self, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Part {
+    pub(in super::super) fn judge(&self, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Outcome {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
         checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
         checks.extend(energy(rows));
@@ -38,15 +36,14 @@ impl Map {
             "{} points: the fixed point converges at {converged}, Newton's method at {completes}; boundary within {worst:.2} % of alpha = 1 where gamma <= {ALONE}; residual at most {residual:.1e} of the energy",
             self.points * self.points,
         );
-        Part {
-            summary,
+        Outcome {
             headline: format!(
                 "boundary within {worst:.2} % of alpha = 1, residual at most {residual:.1e} of the energy"
             ),
-            checks,
             tables: vec![self.boundaries(lines)],
             figures: figures::all(self, id, rows, lines),
             quantities: self.quantities(lines, converged as f64),
+            ..Outcome::new(summary, vec![], checks)
         }
     }
 
@@ -105,35 +102,30 @@ impl Map {
     }
 
     fn boundaries(&self, lines: &Lines<'_>) -> Table {
-        let cell = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
         let row = |(value, line): &(f64, &Boundary)| {
             let Boundary { predicted, found } = **line;
             let difference = found.zip(predicted).map(|(at, predicted)| 100.0 * (at.dt / predicted - 1.0));
-            vec![
-                plain_text(*value),
-                cell(predicted.map(|dt| format!("{dt:.4e}"))),
-                cell(found.map(|at| format!("{:.4e}", at.dt))),
-                cell(difference.map(|percent| format!("{percent:+.3} %"))),
-                cell(found.map(|at| format!("{:.4}", at.alpha))),
-                cell(found.map(|at| format!("{:.1e}", at.gamma))),
-            ]
+            let readings = vec![
+                Reading::new("dt where alpha = 1", predicted).scientific(4),
+                Reading::new("dt found", found.map(|at| at.dt)).scientific(4),
+                Reading::new("difference", difference).shown(|percent| format!("{percent:+.3} %")),
+                Reading::new("alpha there", found.map(|at| at.alpha)).fixed(4),
+                Reading::new("gamma there", found.map(|at| at.gamma)).scientific(1),
+            ];
+            (vec![plain_text(*value)], readings)
         };
-        let head = [self.over.name(), "dt where alpha = 1", "dt found", "difference", "alpha there", "gamma there"];
-        Table {
-            title: "Boundary of the fixed point's convergence, by bisection in dt".to_owned(),
-            head: head.map(str::to_owned).to_vec(),
-            rows: lines.iter().map(row).collect(),
-        }
+        let title = "Boundary of the fixed point's convergence, by bisection in dt";
+        readings::table(title, &[self.over.name()], &lines.iter().map(row).collect::<Vec<_>>())
     }
 
     fn quantities(&self, lines: &Lines<'_>, converged: f64) -> Vec<Quantity> {
         let found = |(value, line): &(f64, &Boundary)| {
             let name = format!("boundary at {} = {value:e}", self.over.name());
-            line.found.map(|at| Quantity { name, value: at.dt, tolerance: 1e-2 })
+            line.found.map(|at| Quantity::new(name, at.dt, 1e-2))
         };
         let mut quantities: Vec<Quantity> = lines.iter().filter_map(found).collect();
         // A point next to the boundary may fall to either side.
-        quantities.push(Quantity { name: "points with a fixed point".to_owned(), value: converged, tolerance: 1e-2 });
+        quantities.push(Quantity::new("points with a fixed point", converged, 1e-2));
         quantities
     }
 }

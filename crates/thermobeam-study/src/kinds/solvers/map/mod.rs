@@ -17,21 +17,24 @@
 //! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is enough, with the buckling force B and
 //! the mean axial force m >= β.
 
-mod boundary;
 mod figures;
 mod judge;
-mod row;
 
-use convergence_study::study::Case;
+use std::ops::ControlFlow;
+
 use convergence_study::text::number::plain_text;
+use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::simulation::{Initial, Problem};
+use thermobeam::solve::{Level, Settings};
 
-use super::Task;
-
-pub use boundary::{Boundary, Crossing};
-pub use row::{NewtonSteps, Point, Row};
+use super::{FixedPointStep, Task, factors};
+use crate::kinds::prelude::*;
+use crate::kinds::watch::{SOLVED, Watch, Worst};
+use crate::run::ensemble::EnsembleDriver;
+use crate::scene::tables;
 
 /// The obstacles, close enough for the heat to press the beam against them for every β on the maps.
 const GAP: f64 = 0.01;
@@ -39,23 +42,36 @@ const GAP: f64 = 0.01;
 const HEAT: f64 = 20.0;
 /// Velocity of the tip.
 const SPEED: f64 = 0.1;
+/// Iterations after which the fixed point is given up on the map.
+const ITERATIONS: usize = 150;
+/// Increment at which it has converged: large against round-off, so that the last ratio is a contraction.
+const TOLERANCE: f64 = 1e-10;
+/// Halvings of the logarithm of dt: to a ten-thousandth of a range of seven decades.
+const HALVINGS: usize = 20;
+/// Iterations after which the ratio of two increments is the factor of the slowest mode.
+const SETTLED: usize = 400;
+/// The α up to which the boundary is looked for. Far beyond it the iterates grow so large that the Kirchhoff term stiffens
+/// the beam: the increments may shrink for many iterations without convergence. That it fails there the map shows.
+const FAR: f64 = 4.0;
+/// Consecutive ratios that must be below 1: past the boundary the iteration may run in a cycle, in which some are.
+const CONSECUTIVE: usize = 8;
 
 /// The table `[map]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
-    pub(super) over: Parameter,
-    pub(super) dt: [f64; 2],
-    pub(super) range: [f64; 2],
-    pub(super) points: usize,
-    pub(super) lines: Vec<f64>,
-    pub(super) elements: usize,
-    pub(super) steps: usize,
-    pub(super) agreement: f64,
+    over: Parameter,
+    dt: [f64; 2],
+    range: [f64; 2],
+    points: usize,
+    lines: Vec<f64>,
+    elements: usize,
+    steps: usize,
+    agreement: f64,
 }
 
 /// The second parameter of a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Parameter {
+enum Parameter {
     Epsilon,
     Beta,
     Zeta,
@@ -64,7 +80,7 @@ pub(super) enum Parameter {
 }
 
 impl Parameter {
-    pub(super) const ALL: [(&str, Parameter); 4] = [
+    const ALL: [(&str, Parameter); 4] = [
         ("epsilon", Parameter::Epsilon),
         ("beta", Parameter::Beta),
         ("zeta", Parameter::Zeta),
@@ -75,7 +91,7 @@ impl Parameter {
         Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    pub(super) fn is_linear(self) -> bool {
+    fn is_linear(self) -> bool {
         self == Parameter::Beta
     }
 }
@@ -88,6 +104,34 @@ fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
 }
 
 impl Map {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["over", "dt", "range", "points", "lines", "elements", "steps", "agreement"])?;
+        let over = section.require("over", "a second parameter")?.choice(&Parameter::ALL)?;
+        let range = interval(section, "range", over.is_linear())?;
+        if over == Parameter::Width {
+            check_width(&section.require("range", "a range")?, range[0])?;
+        }
+        let line = |item: &Field<'_>| {
+            // ζ = 0 has no place on a logarithmic axis, and is the value that the theory excludes.
+            let fits = |value: f64| value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0);
+            let value = item.number_where("a value of the parameter", fits)?;
+            if over == Parameter::Width {
+                check_width(item, value)?;
+            }
+            Ok(value)
+        };
+        Ok(Self {
+            over,
+            dt: interval(section, "dt", false)?,
+            range,
+            points: section.count("points", 2..=limits::MAP_POINTS)?,
+            lines: section.list("lines", "a list of at least one number", line, |list| !list.is_empty())?,
+            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
+            steps: section.count("steps", 1..=limits::STEPS)?,
+            agreement: section.positive("agreement")?,
+        })
+    }
+
     /// The time steps of every row.
     fn time_steps(&self) -> Vec<f64> {
         spaced(self.dt, self.points, false)
@@ -129,11 +173,11 @@ impl Map {
         let name = self.over.name();
         let elements = |value: f64| if self.over == Parameter::Width { 1.0 / value } else { self.elements as f64 };
         let row = |value: f64| {
-            let cost = (self.points * (row::ITERATIONS + 4 * self.steps)) as f64 * elements(value);
+            let cost = (self.points * (ITERATIONS + 4 * self.steps)) as f64 * elements(value);
             Case { label: format!("{name} = {value:.3e}"), cost, data: Task::Row(value) }
         };
         let line = |&value: &f64| {
-            let cost = (2 * boundary::HALVINGS * boundary::ITERATIONS) as f64 * elements(value);
+            let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
             Case { label: format!("boundary at {name} = {}", plain_text(value)), cost, data: Task::Boundary(value) }
         };
         self.row_values().into_iter().map(row).chain(self.lines.iter().map(line)).collect()
@@ -144,4 +188,233 @@ impl Map {
 fn axial_force(problem: &Problem) -> f64 {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();
     problem.beam.axial_force(thermobeam::norms::slope_squared(&lengths, &problem.initial.u))
+}
+
+/// Refuses a mesh width for which the mesh does not fit into memory.
+fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
+    let elements = (1.0 / width).round();
+    if elements <= limits::ELEMENTS as f64 {
+        return Ok(());
+    }
+    let found =
+        format!("{}, of which the finest mesh would take {}", field.as_written(), limits::memory_of_elements(elements));
+    Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
+}
+
+/// Two ascending numbers, positive unless the axis is linear.
+fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], InputError> {
+    let allowed = if linear { "two ascending numbers" } else { "two ascending numbers > 0" };
+    let fits = |ends: &[f64]| ends.len() == 2 && increases(ends) && (linear || ends[0] > 0.0);
+    let ends = section.list(key, allowed, Field::number, fits)?;
+    Ok([ends[0], ends[1]])
+}
+
+/// What was found at one value of the second parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// One for each time step, ascending.
+    pub points: Vec<Point>,
+}
+
+/// Both solvers with one time step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The time step.
+    pub dt: f64,
+    /// Predicted factor of the contact; infinite where its operator is not definite.
+    pub alpha: f64,
+    /// Predicted factor of the coupling; infinite where its operator is not definite.
+    pub gamma: f64,
+    /// The first step by the fixed point.
+    pub fixed_point: FixedPointStep,
+    /// Whether Newton's method did all steps.
+    pub newton_completes: bool,
+    /// The steps that it did; `None` where the first one failed.
+    pub newton: Option<NewtonSteps>,
+}
+
+/// Steps by Newton's method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonSteps {
+    /// Iterations of the step that took most.
+    pub iterations: usize,
+    /// The contact force after the first step.
+    pub contact_force: f64,
+    /// Rise of the energy and residual of its balance.
+    pub worst: Worst,
+}
+
+impl Row {
+    /// The points at which Newton's method did at least one step.
+    fn newton(&self) -> impl Iterator<Item = &NewtonSteps> {
+        self.points.iter().filter_map(|point| point.newton.as_ref())
+    }
+}
+
+impl Point {
+    pub(super) fn not_finite(&self) -> Vec<String> {
+        let contraction = self.fixed_point.contraction.filter(|_| self.fixed_point.converged).unwrap_or(0.0);
+        // A predicted factor may be infinite.
+        let predicted = |factor: f64| if factor.is_infinite() { 0.0 } else { factor };
+        let [alpha, gamma] = [self.alpha, self.gamma].map(predicted);
+        let mut names = not_finite(&[("alpha", alpha), ("gamma", gamma), ("the contraction", contraction)]);
+        if let Some(NewtonSteps { contact_force, worst, .. }) = self.newton {
+            names.extend(not_finite(&[("the contact force", contact_force)]));
+            names.extend(not_finite(&worst.named()));
+        }
+        names
+    }
+}
+
+impl Map {
+    pub(super) fn row(&self, value: f64) -> Result<Row, CaseFailure> {
+        let (problem, dts) = (self.problem(value)?, self.time_steps());
+        let n_value = axial_force(&problem);
+        let newton = newton(&problem, &dts, self.steps)?;
+        let point = |(dt, (newton_completes, newton)): (f64, (bool, Option<NewtonSteps>))| {
+            let fixed_point = FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)?;
+            let [alpha, gamma] = factors(&problem, dt, n_value);
+            Ok(Point { dt, alpha, gamma, fixed_point, newton_completes, newton })
+        };
+        Ok(Row { points: dts.iter().copied().zip(newton).map(point).collect::<Result<_, CaseFailure>>()? })
+    }
+}
+
+/// A time step while Newton's method is under way.
+struct Lane {
+    old: Level,
+    new: Level,
+    watch: Watch,
+    iterations: usize,
+    /// After the first step, if it was done.
+    contact_force: Option<f64>,
+}
+
+impl Lane {
+    fn new(ensemble: &Ensemble, k: usize, nodes: usize) -> Self {
+        let mut old = Level::new(nodes);
+        ensemble.observe(k, &mut old);
+        let watch = Watch::new(ensemble.energy_scale(k, &old));
+        Self { new: old.clone(), old, watch, iterations: 0, contact_force: None }
+    }
+
+    fn steps(&self) -> Option<NewtonSteps> {
+        let (iterations, worst) = (self.iterations, self.watch.worst);
+        self.contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst })
+    }
+}
+
+/// Newton's method, several time steps side by side: whether all steps were done, and what was seen in them.
+fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Option<NewtonSteps>)>, CaseFailure> {
+    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let problems = vec![problem.clone(); dts.len()];
+    let mut driver = EnsembleDriver::new(problems, dts, EULER_CRANK_NICOLSON, settings)?;
+    let nodes = problem.mesh.nodes().len();
+    let mut lanes: Vec<Lane> = (0..dts.len()).map(|k| Lane::new(driver.ensemble(), k, nodes)).collect();
+    driver.run(steps, |ensemble, balances| {
+        for (k, (lane, balance)) in lanes.iter_mut().zip(balances).enumerate() {
+            let Ok(report) = ensemble.report(k) else { continue };
+            lane.iterations = lane.iterations.max(report.iterations);
+            ensemble.observe(k, &mut lane.new);
+            lane.contact_force.get_or_insert(lane.new.contact_force);
+            let scale = ensemble.energy_scale(k, &lane.new);
+            lane.watch.step(balance, scale, || ensemble.rounding(k, &lane.old, &lane.new));
+            std::mem::swap(&mut lane.old, &mut lane.new);
+        }
+        ControlFlow::Continue(())
+    })?;
+    let ensemble = driver.ensemble();
+    Ok(lanes.iter().enumerate().map(|(k, lane)| (ensemble.report(k).is_ok(), lane.steps())).collect())
+}
+
+/// Predicted and measured boundary on a line of constant second parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Boundary {
+    /// The dt at which α = 1; `None` where α does not cross 1 within the map.
+    pub predicted: Option<f64>,
+    /// The dt from which on the fixed point fails; `None` where it behaves alike at both ends of the map.
+    pub found: Option<Crossing>,
+}
+
+/// A boundary found, and the predicted factors there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// The time step.
+    pub dt: f64,
+    /// Factor of the contact.
+    pub alpha: f64,
+    /// Factor of the coupling.
+    pub gamma: f64,
+}
+
+impl Boundary {
+    pub(super) fn not_finite(&self) -> Vec<String> {
+        let at = self.found.map(|at| [("boundary", at.dt), ("alpha", at.alpha), ("gamma", at.gamma)]);
+        let predicted = self.predicted.map(|dt| ("predicted boundary", dt));
+        not_finite(&predicted.into_iter().chain(at.into_iter().flatten()).collect::<Vec<_>>())
+    }
+}
+
+impl Map {
+    pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
+        let (problem, [low, high]) = (self.problem(value)?, self.dt);
+        let n_value = axial_force(&problem);
+        let alpha_is_below = |limit: f64| {
+            bisect(low, high, |dt| {
+                let [alpha, _] = factors(&problem, dt, n_value);
+                Ok(alpha < limit)
+            })
+        };
+        let predicted = alpha_is_below(1.0)?;
+        let far = alpha_is_below(FAR)?.unwrap_or(high);
+        let found = bisect(low, far, |dt| contracts(&problem, dt))?.map(|dt| {
+            let [alpha, gamma] = factors(&problem, dt, n_value);
+            Crossing { dt, alpha, gamma }
+        });
+        Ok(Boundary { predicted, found })
+    }
+}
+
+/// Whether the increments shrink, however slowly.
+fn contracts(problem: &Problem, dt: f64) -> Result<bool, CaseFailure> {
+    for iterations in SETTLED - CONSECUTIVE..SETTLED {
+        let step = FixedPointStep::run(problem, dt, TOLERANCE, iterations)?;
+        if step.converged || !step.contraction.is_some_and(|ratio| ratio < 1.0) {
+            return Ok(step.converged);
+        }
+    }
+    Ok(true)
+}
+
+/// The value between a `low` that holds and a `high` that does not; `None` unless they are so.
+fn bisect(
+    mut low: f64,
+    mut high: f64,
+    holds: impl Fn(f64) -> Result<bool, CaseFailure>,
+) -> Result<Option<f64>, CaseFailure> {
+    if !holds(low)? || holds(high)? {
+        return Ok(None);
+    }
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        if holds(middle)? {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(Some((low * high).sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bisect;
+
+    #[test]
+    fn a_threshold_is_found_to_a_part_in_ten_thousand() {
+        let found = bisect(1e-6, 10.0, |dt| Ok(dt < 4.6e-3)).unwrap().unwrap();
+        assert!((found / 4.6e-3 - 1.0).abs() < 1e-4);
+        assert_eq!(bisect(1.0, 2.0, |_| Ok(true)).unwrap(), None);
+        assert_eq!(bisect(1.0, 2.0, |_| Ok(false)).unwrap(), None);
+    }
 }

@@ -1,0 +1,265 @@
+//! Two parts of a study: the contraction factor in contact, measured against α; a scene by the fixed point and by Newton's
+//! method, their difference against the fixed point's tolerance.
+
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::simulation::{Initial, Problem, Stepping};
+use thermobeam::solve::{Settings, Solver};
+
+use super::{FixedPointStep, Task, factors, positive_numbers};
+use crate::error::evaluator;
+use crate::figures;
+use crate::kinds::prelude::*;
+use crate::run::driver::Driver;
+use crate::run::simulate;
+use crate::scene::tables;
+
+/// Iterations after which an iteration with a factor near 1 is given up.
+const ITERATIONS: usize = 1000;
+/// Increment at which a measurement stops: small enough for the slowest mode to dominate, large against round-off.
+const TOLERANCE: f64 = 1e-9;
+/// Largest relative difference between measured and predicted factor.
+const AGREEMENT: f64 = 0.03;
+/// How many times γ the factor α must be to dominate: γ then changes it by a percent at most.
+const DOMINANCE: f64 = 100.0;
+/// Slope of the beam pressed into the upper obstacle by a fifth of the gap.
+const PRESSED: f64 = 0.12;
+
+/// The table `[contraction]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Grid {
+    elements: usize,
+    dt: Vec<f64>,
+    epsilon: Vec<f64>,
+    zeta: Vec<f64>,
+}
+
+/// Predicted and measured factor of one step in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contraction {
+    /// The factor α of the contact.
+    pub alpha: f64,
+    /// The factor γ of the coupling between rotation and displacement.
+    pub gamma: f64,
+    /// What the fixed point did.
+    pub step: FixedPointStep,
+}
+
+impl Grid {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["elements", "dt", "epsilon", "zeta"])?;
+        let [dt, epsilon, zeta] = ["dt", "epsilon", "zeta"].map(|key| positive_numbers(section, key));
+        let (dt, epsilon, zeta) = (dt?, epsilon?, zeta?);
+        limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
+        Ok(Self {
+            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
+            dt,
+            epsilon,
+            zeta,
+        })
+    }
+
+    pub(super) fn cases(&self) -> Vec<Case<Task>> {
+        let cost = self.elements as f64 * ITERATIONS as f64;
+        let mut cases = vec![];
+        for &zeta in &self.zeta {
+            for &epsilon in &self.epsilon {
+                for &dt in &self.dt {
+                    let data = Task::Contraction { dt, epsilon, zeta };
+                    cases.push(Case { label: name([dt, epsilon, zeta]), cost, data });
+                }
+            }
+        }
+        cases
+    }
+
+    /// One step of a beam at rest, pressed into the upper obstacle.
+    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<Contraction, CaseFailure> {
+        let mesh = Mesh::uniform(self.elements)?;
+        let mut initial = Initial::at_rest(&mesh, 0.0);
+        initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
+        let beam = Beam { zeta, ..Beam::default() };
+        let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
+        let problem = Problem { beam, obstacles, mesh, initial };
+        let [alpha, gamma] = factors(&problem, dt, beam.axial_force(PRESSED * PRESSED));
+        Ok(Contraction { alpha, gamma, step: FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)? })
+    }
+}
+
+fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
+    format!("dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
+}
+
+/// * `found`: the results, each with its (dt, ε, ζ).
+pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &Contraction)]) -> Outcome {
+    let (mut checks, mut rows, mut quantities) = (vec![], vec![], vec![]);
+    let mut worst = 0.0;
+    for &(at, &Contraction { alpha, gamma, step }) in found {
+        let name = name(at);
+        let factor = step.contraction.unwrap_or(f64::NAN);
+        let deviation = (factor / alpha - 1.0).abs();
+        let evidence = format!("alpha {alpha:.5}, measured {factor:.5}");
+        if alpha < 1.0 - AGREEMENT && alpha >= DOMINANCE * gamma {
+            worst = max_or_nan(worst, deviation);
+            let holds = step.converged && deviation <= AGREEMENT;
+            checks.push(Check::that(holds, format!("{name}: the contraction factor is alpha"), evidence));
+            quantities.push(Quantity::new(format!("contraction, {name}"), factor, 1e-2));
+        } else if alpha > 1.0 + AGREEMENT {
+            checks.push(Check::that(!step.converged, format!("{name}: diverges, since alpha > 1"), evidence));
+        }
+        let [dt, epsilon, zeta] = at;
+        rows.push(vec![
+            format!("{dt:e}"),
+            format!("{epsilon:e}"),
+            zeta.to_string(),
+            format!("{alpha:.5}"),
+            if step.converged { format!("{factor:.5}") } else { "diverges".to_owned() },
+            step.iterations.to_string(),
+        ]);
+    }
+    let head = ["dt", "epsilon", "zeta", "alpha", "measured", "iterations"];
+    let summary = format!("contraction within {:.1} % of alpha", 100.0 * worst);
+    Outcome {
+        headline: summary.clone(),
+        tables: vec![Table::new("Contraction factor in contact", head, rows)],
+        figures: vec![contraction_figure(id, found)],
+        quantities,
+        ..Outcome::new(summary, vec![], checks)
+    }
+}
+
+fn contraction_figure(id: &str, found: &[([f64; 3], &Contraction)]) -> Figure {
+    let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
+    zetas.dedup();
+    let series = zetas.iter().map(|zeta| {
+        let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
+        let points = of_zeta.map(|(_, found)| (found.alpha, found.step.contraction.unwrap_or(f64::NAN))).collect();
+        plots::Series { label: format!("ζ = {zeta}"), points }
+    });
+    let svg = figures::contraction(&figures::Contraction { title: None, series: series.collect() });
+    let caption =
+        "Contraction factor of the fixed point in contact, measured over predicted; from 1 on it does not converge.";
+    Figure::new(id, "contraction", caption, svg)
+}
+
+/// Tolerance of the Newton run that the fixed point is compared with.
+const SOLVED: f64 = 1e-14;
+
+/// The table `[comparison]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Comparison {
+    scene: Scene,
+    elements: usize,
+    steps: usize,
+    tolerances: Vec<f64>,
+}
+
+/// What a run of both solvers shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Agreement {
+    /// Largest distance of their levels in the norm of Theorem 3.4, over all steps.
+    pub distance: f64,
+    /// Iterations of the fixed point per step.
+    pub mean_iterations: f64,
+    /// Its iterations in the step that took most.
+    pub most_iterations: usize,
+    /// Its iterations in each step, as (t, iterations).
+    pub iterations: Vec<(f64, f64)>,
+    /// The same of Newton's method.
+    pub newton: Vec<(f64, f64)>,
+    /// Intervals of time of the steps that end in contact.
+    pub contact: Vec<(f64, f64)>,
+}
+
+impl Comparison {
+    pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        section.allow(&["scene", "elements", "steps", "tolerances"])?;
+        Ok(Self {
+            scene: Scene::read_one_step(&section.require("scene", "a scene file beside this one")?, folder)?,
+            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
+            // Each is a point of a figure.
+            steps: section.count("steps", 1..=limits::RECORDED_STEPS)?,
+            tolerances: positive_numbers(section, "tolerances")?,
+        })
+    }
+
+    pub(super) fn cases(&self) -> Vec<Case<Task>> {
+        // Some four iterations of 60 ns a step and element, against 25 ns for the runner's unit.
+        let cost = (self.elements * self.steps) as f64 * 10.0;
+        let case = |&eta: &f64| Case { label: format!("tolerance {eta:e}"), cost, data: Task::Comparison(eta) };
+        self.tolerances.iter().map(case).collect()
+    }
+
+    /// Steps the scene by both solvers side by side.
+    pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
+        let scene = Scene { mesh: Mesh::uniform(self.elements)?, ..self.scene.clone() };
+        let driver = |settings| {
+            let stepping = Stepping { settings, ..scene.one_step()? };
+            Driver::new(simulate::problem(&scene), stepping)
+        };
+        let mut newton = driver(Settings { tolerance: SOLVED, ..Settings::default() })?;
+        let mut fixed = driver(Settings { solver: Solver::FixedPoint, tolerance, ..Settings::default() })?;
+        let lengths: Vec<f64> = scene.mesh.lengths().collect();
+        let (mut distance, mut total, mut most_iterations) = (0.0, 0, 0);
+        let (mut iterations, mut of_newton, mut contact) = (vec![], vec![], vec![]);
+        for _ in 0..self.steps {
+            let solved = newton.advance(|_, _| ())?;
+            let report = fixed.advance(|_, _| ())?;
+            let t = fixed.simulation().t();
+            let level = fixed.level();
+            distance = max_or_nan(distance, evaluator::distance(&lengths, level, newton.level()));
+            total += report.iterations;
+            most_iterations = most_iterations.max(report.iterations);
+            iterations.push((t, report.iterations as f64));
+            of_newton.push((t, solved.iterations as f64));
+            if level.contact_force != 0.0 {
+                contact.push((t - scene.dt(), t));
+            }
+        }
+        let mean_iterations = total as f64 / self.steps as f64;
+        Ok(Agreement { distance, mean_iterations, most_iterations, iterations, newton: of_newton, contact })
+    }
+}
+
+/// * `found`: the results, each with its tolerance η*.
+pub(super) fn judge_comparison(id: &str, found: &[(f64, &Agreement)]) -> Outcome {
+    let check = |(eta, found): &(f64, &Agreement)| {
+        // A step leaves less than α/(1 - α) η* unsolved, with α far below 1/2 here, and the beam damps what is left.
+        let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
+        Check::that(found.distance <= *eta, format!("eta* = {eta:e}: the error is below eta*"), evidence)
+    };
+    let row = |(eta, found): &(f64, &Agreement)| {
+        vec![
+            format!("{eta:e}"),
+            format!("{:.3e}", found.distance),
+            format!("{:.3}", found.mean_iterations),
+            found.most_iterations.to_string(),
+        ]
+    };
+    let head = ["tolerance", "distance to Newton", "mean iterations", "most iterations"];
+    let last = found.last().map(|(_, found)| *found);
+    let distance = last.map_or(f64::NAN, |found| found.distance);
+    let summary = format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
+    let title = "Fixed point against Newton's method on the scene";
+    Outcome {
+        headline: summary.clone(),
+        tables: vec![Table::new(title, head, found.iter().map(row))],
+        figures: vec![iterations_figure(id, last)],
+        ..Outcome::new(summary, vec![], found.iter().map(check).collect())
+    }
+}
+
+fn iterations_figure(id: &str, found: Option<&Agreement>) -> Figure {
+    let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
+    let series = |label: &str, points| plots::Series { label: label.to_owned(), points };
+    let series = vec![
+        series("fixed point", curve(|found| &found.iterations)),
+        series("Newton's method", curve(|found| &found.newton)),
+    ];
+    let phases = plots::Phases { label: "in contact".to_owned(), intervals: curve(|found| &found.contact) };
+    let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
+    let caption =
+        format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
+    let svg = plots::iterations(&plots::Iterations { series, phases, ..plots::Iterations::default() });
+    Figure::new(id, "iterations", caption, svg)
+}

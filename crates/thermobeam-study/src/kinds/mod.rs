@@ -1,7 +1,7 @@
-//! The kinds of study of the beam: a folder each.
+//! The kinds of study of the beam: a file each, or a folder where the mathematics is long.
 //!
-//! A study is a TOML file: data. In the folder of its kind `file.rs` reads it, `cases.rs` lists and computes its cases, `judge.rs`
-//! turns their results into an outcome: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
+//! A study is a TOML file: data. Its kind reads the file (`from_document`), lists its cases and computes each, and judges what they
+//! found: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
 
 pub mod any_order;
 pub mod bifurcation;

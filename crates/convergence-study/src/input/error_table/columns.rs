@@ -639,7 +639,7 @@ impl Reader<'_, '_> {
 }
 
 /// What numbers tend to, where it is near the last of them and not zero.
-pub(crate) fn limit(numbers: &[f64]) -> Option<f64> {
+pub fn limit(numbers: &[f64]) -> Option<f64> {
     let [.., a, b, c] = *numbers else { return None };
     let shrinks = (c - b) / (b - a);
     let limit = if shrinks.abs() < 0.95 { c + (c - b) * shrinks / (1.0 - shrinks) } else { c };

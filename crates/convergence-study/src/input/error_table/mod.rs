@@ -25,8 +25,7 @@ use std::path::Path;
 
 use crate::input::{self, InputError};
 use crate::judge::verdict::{Judge, RateVerdict};
-pub use columns::Choice;
-pub(crate) use columns::limit;
+pub use columns::{Choice, limit};
 pub use digits::Column;
 use text::Grid;
 

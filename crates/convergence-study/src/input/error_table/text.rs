@@ -234,8 +234,8 @@ impl<'t> Grid<'t> {
         if let Some((line, names)) = numbered(&heads, spans.len()).or_else(|| grid.fit(&heads, separator, &spans)) {
             (grid.line, grid.names) = (line, names);
         } else if !grid.turn() {
-            let words = heads.iter().filter(|head| head.before == 0).map(|head| split(head.text, separator).len());
-            grid.misfit = words.filter(|words| *words > 1).next_back();
+            let mut words = heads.iter().filter(|head| head.before == 0).map(|head| split(head.text, separator).len());
+            grid.misfit = words.rfind(|words| *words > 1);
         }
         grid
     }

@@ -17,8 +17,10 @@ use crate::text::names::{did_you_mean, nearest};
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
-/// Tables, logs, lists and JSON are read. The step is what falls, or counts up, by regular ratios; errors are positive and fall; rates are recognised by their numbers. A line
-/// says how the table was read. Exit status 0 where every rate with a claim agrees with its order, 1 where one does not, the data cannot tell or nothing is claimed, 2 where the
+/// Tables, logs, lists and JSON are read. The step is what falls, or counts up, by regular ratios; errors are
+/// positive and fall; rates are recognised by their numbers. A line
+/// says how the table was read. Exit status 0 where every rate with a claim agrees with its order, 1 where one does
+/// not, the data cannot tell or nothing is claimed, 2 where the
 /// table cannot be read: then the message has the command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
@@ -30,7 +32,8 @@ pub struct Arguments {
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
     #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
-    /// Round-off, in the unit of the errors: the finest levels have no say as long as their errors are not above E; 0 drops none
+    /// Round-off, in the unit of the errors: the finest levels have no say as long as their errors are not above E; 0
+    /// drops none
     ///
     /// A level above the floor keeps its say, and so do all levels coarser than it.
     #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR, allow_negative_numbers = true)]

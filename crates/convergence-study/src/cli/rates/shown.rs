@@ -140,7 +140,8 @@ fn sentence(findings: &Findings<'_>) -> String {
     }
 }
 
-/// What `rates --format json` prints, beside the verdict: rates as in `study --format json`, the column's name for the norm's.
+/// What `rates --format json` prints, beside the verdict: rates as in `study --format json`, the column's name for
+/// the norm's.
 pub(super) fn object(findings: &Findings<'_>) -> Value {
     let rate = |judged: &Judged<'_>| {
         let rate = &judged.rate;
@@ -149,8 +150,10 @@ pub(super) fn object(findings: &Findings<'_>) -> Value {
         let aside: Vec<Value> =
             rate.set_aside.iter().map(|aside| json!({"level": aside.level, "because": aside.because.text()})).collect();
         let mut object = json!({
-            "norm": judged.column.name, "order": rate.order, "tolerance": rate.tolerance, "pairwise": rate.pairwise, "fitted": rate.fitted,
-            "constant": rate.constant, "interval": rate.interval, "extrapolated": rate.extrapolated, "verdict": rate.verdict.name(),
+            "norm": judged.column.name, "order": rate.order, "tolerance": rate.tolerance, "pairwise": rate.pairwise,
+            "fitted": rate.fitted,
+            "constant": rate.constant, "interval": rate.interval, "extrapolated": rate.extrapolated,
+            "verdict": rate.verdict.name(),
             "reason": if judged.is_claimed() { &rate.reason } else { "no order is claimed" }, "code": rate.kind.code(),
             "decides": judged.decides, "levels": levels, "set_aside": aside,
         });
@@ -165,7 +168,8 @@ pub(super) fn object(findings: &Findings<'_>) -> Value {
     let not_errors =
         findings.table.not_errors.iter().map(|(column, because)| json!({"column": column, "because": because}));
     json!({
-        "step": findings.table.step, "floor": findings.judge.floor(), "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
+        "step": findings.table.step, "floor": findings.judge.floor(),
+        "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
         "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.table.reading],
     })
 }

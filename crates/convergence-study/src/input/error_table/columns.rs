@@ -304,7 +304,8 @@ impl Reader<'_, '_> {
         if let Some(count) = of(&|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
             return Ok((count, String::new()));
         }
-        // The only column of unknown name that falls by regular ratios; of several the first, unless another has a smaller ratio.
+        // The only column of unknown name that falls by regular ratios; of several the first, unless another has a
+        // smaller ratio.
         let first = (0..self.names.len()).find(|k| !self.is_index(*k));
         let unknown = of(&|word| word == Word::Unknown).into_iter();
         let regular: Vec<(usize, f64)> = unknown.filter_map(|k| Some((k, self.regular(k)?))).collect();
@@ -437,7 +438,8 @@ impl Reader<'_, '_> {
         may_be && self.grid.rows.len() > 1 && self.grid.counts_rows(column)
     }
 
-    /// The least ratio by which a column falls or grows, if they all are the same or its numbers whole multiples or parts of one of them.
+    /// The least ratio by which a column falls or grows, if they all are the same or its numbers whole multiples or
+    /// parts of one of them.
     fn regular(&self, column: usize) -> Option<f64> {
         let mut values = self.values(column)?;
         values.sort_by(f64::total_cmp);
@@ -504,7 +506,8 @@ impl Reader<'_, '_> {
         self.doubts(&found).map_or(Ok(found), Err)
     }
 
-    /// What forbids to judge: no error, or a column that may be one and does not fall, where no name says which are errors.
+    /// What forbids to judge: no error, or a column that may be one and does not fall, where no name says which are
+    /// errors.
     fn doubts(&self, found: &Sorted) -> Option<InputError> {
         let Sorted { errors, values, limits, doubtful, others } = found;
         let columns = |columns: &[usize]| self.command(|choice| choice.columns = Some(self.named(columns)));
@@ -596,7 +599,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// The error whose rates or reductions a column has, to its digits, on the finer or on the coarser level of each two.
+    /// The error whose rates or reductions a column has, to its digits, on the finer or on the coarser level of each
+    /// two.
     fn rates_of(&self, column: usize, steps: &Steps) -> Option<usize> {
         let (order, last) = (&steps.order, steps.order.len() - 1);
         let half = 1.2 * halves(&self.numbers[column]).into_iter().fold(0.0, f64::max);

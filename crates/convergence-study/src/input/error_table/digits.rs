@@ -24,7 +24,8 @@ pub struct Column {
 }
 
 impl Column {
-    /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could make a pass of another verdict,
+    /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could
+    /// make a pass of another verdict,
     /// or take it away, the digits are what is missing.
     pub fn judge(&self, judge: &Judge, order: f64) -> RateVerdict {
         let judged = judge.judge(&self.levels, order);

@@ -1,4 +1,5 @@
-//! Convergence rates of any code: a table of step sizes and errors, judged by the rule of [`verdict`](crate::judge::verdict).
+//! Convergence rates of any code: a table of step sizes and errors, judged by the rule of
+//! [`verdict`](crate::judge::verdict).
 //!
 //! ```text
 //! # comments and blank lines are skipped
@@ -8,9 +9,12 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The numbers decide what a column is, and
-//! its name where they leave it open: the step falls, or as a count grows, by regular ratios; errors are positive and fall; rates are those of another
-//! column; what tends to a limit is a value. [`RateTable::reading`] says in a line how the table was read. What is in doubt is refused, with the
+//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The
+//! numbers decide what a column is, and
+//! its name where they leave it open: the step falls, or as a count grows, by regular ratios; errors are positive and
+//! fall; rates are those of another
+//! column; what tends to a limit is a value. [`RateTable::reading`] says in a line how the table was read. What is in
+//! doubt is refused, with the
 //! command that works. `NaN` and `inf` are errors; a column with one of them fails.
 
 mod columns;

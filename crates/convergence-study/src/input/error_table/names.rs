@@ -19,8 +19,9 @@ pub(super) enum Word {
     Unknown,
 }
 
-static STEPS: &str = "h dt dx dy dz hmax hmin hmean havg maxh minh hx hy hz hk diam diameter cellsize celldiameter tau τ step stepsize \
-    meshsize meshwidth gridsize gridspacing spacing timestep timestepsize deltat deltax deltay deltaz δt δx δy δz ∆t ∆x";
+static STEPS: &str = "h dt dx dy dz hmax hmin hmean havg maxh minh hx hy hz hk diam diameter cellsize celldiameter tau τ \
+    step stepsize meshsize meshwidth gridsize gridspacing spacing timestep timestepsize deltat deltax deltay deltaz δt δx δy δz \
+    ∆t ∆x";
 /// A mesh of n cells has the step n^(-1/dim) up to a constant, its unknowns only in the limit.
 static COUNTS: [&str; 4] = [
     "cells cell elements element elems elem steps timesteps intervals triangles tets tetrahedra quads hexes faces edges \
@@ -30,10 +31,10 @@ static COUNTS: [&str; 4] = [
     "dofs dof unknowns degreesoffreedom kdofs kdof mdofs sqrtdofs ndofs finiteelementunknowns",
 ];
 static RATES: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence p-obs";
-static COSTS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz cond cfl \
-    row index cycle level lvl refinement ref i k l";
-static ERRORS: &str = "max maximum sup inf e eh res resid energy mae mse rms rmse diff difference dev abs rel u v w p velocity pressure \
-    displacement temperature stress flux solution gradient";
+static COSTS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz \
+    cond cfl row index cycle level lvl refinement ref i k l";
+static ERRORS: &str = "max maximum sup inf e eh res resid energy mae mse rms rmse diff difference dev abs rel u v w p \
+    velocity pressure displacement temperature stress flux solution gradient";
 static METHODS: &str = "first second third fourth fifth low lower high higher scheme";
 
 /// The lists that a word is in.
@@ -163,7 +164,8 @@ fn without_unit(name: &str) -> &str {
     bracketed('[', ']').or_else(|| bracketed('(', ')')).or_else(worded).unwrap_or(name)
 }
 
-/// Which of the names is asked for: as it is written, the only one that is so without its unit, or a nameless one by its number.
+/// Which of the names is asked for: as it is written, the only one that is so without its unit, or a nameless one by
+/// its number.
 pub(crate) fn position<'n>(names: impl Iterator<Item = &'n str> + Clone, wanted: &str) -> Option<usize> {
     let numbered = format!("column {wanted}");
     names.clone().position(|name| name == wanted || name == numbered).or_else(|| {

@@ -4,8 +4,8 @@
 const DASHES: [&str; 12] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)"];
 
 /// Markup that dresses a number and does not change it, and what it stands for.
-const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\\frac \\dfrac=\\frac \\num= \\textbf= \\mathbf= \
-    \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
+const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\\frac \\dfrac=\\frac \\num= \
+    \\textbf= \\mathbf= \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
 
 /// A number, and how many digits it is printed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,8 @@ pub(super) struct Number {
 
 /// Half a unit of the last printed place of each number of a column; 0 for whole numbers and for exact ones.
 ///
-/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625 leaves out zeros.
+/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625
+/// leaves out zeros.
 pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     let places = |scaled: bool| {
         let places = column.iter().flatten().filter_map(|number| number.place);
@@ -39,7 +40,8 @@ pub(super) fn is_dash(cell: &str) -> bool {
 
 /// The value of a cell; `None` where it is no number.
 ///
-/// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may be 1024.
+/// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may
+/// be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     // Most cells that are no numbers are words, of which there may be a hundred thousand.
     if cell.is_empty() || (cell.starts_with(char::is_alphabetic) && cell.parse::<f64>().is_err()) {

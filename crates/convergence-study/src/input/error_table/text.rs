@@ -291,7 +291,8 @@ impl<'t> Grid<'t> {
         true
     }
 
-    /// Puts the cells of shorter rows into the columns below which they stand, and empty ones between them; the bytes that each column takes.
+    /// Puts the cells of shorter rows into the columns below which they stand, and empty ones between them; the bytes
+    /// that each column takes.
     fn fill_gaps(&mut self, separator: Option<char>) -> Vec<[usize; 2]> {
         // Where the rate of the coarsest level is left blank its row is shorter than the others.
         let width = self.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
@@ -373,7 +374,8 @@ impl<'t> Grid<'t> {
         matches!(first.min(last), 0 | 1) && values.windows(2).all(|two| two[1] - two[0] == (last - first).signum())
     }
 
-    /// Whether a column may hold rates without a name: a dash in the first row or the last, and few decimals in all others.
+    /// Whether a column may hold rates without a name: a dash in the first row or the last, and few decimals in all
+    /// others.
     fn holds_rates(&self, column: usize) -> bool {
         let cells: Vec<&str> = self.rows.iter().map(|row| row.cells.get(column).map_or("", |cell| cell.text)).collect();
         let is_rate = |text: &&str| {
@@ -402,7 +404,8 @@ fn above<'t>(line: &'t str, words: &[Cell<'t>], spans: &[[usize; 2]], dashed: &[
     named.iter().skip(1).all(|k| !names[*k].text.is_empty()).then_some(names)
 }
 
-/// The names of `# 1: cells`, `# 2: dofs`, ..., and the line of the first; `None` where they are not as many as columns.
+/// The names of `# 1: cells`, `# 2: dofs`, ..., and the line of the first; `None` where they are not as many as
+/// columns.
 fn numbered<'t>(heads: &[Head<'t>], width: usize) -> Option<(usize, Vec<Cell<'t>>)> {
     let name = |head: &Head<'t>| {
         let (number, name) = head.text[head.before..].split_once(':')?;

@@ -603,6 +603,9 @@ impl Reader<'_, '_> {
     /// two.
     fn rates_of(&self, column: usize, steps: &Steps) -> Option<usize> {
         let (order, last) = (&steps.order, steps.order.len() - 1);
+        if last < 2 {
+            return None;
+        }
         let half = 1.2 * halves(&self.numbers[column]).into_iter().fold(0.0, f64::max);
         let matches = |error: usize, shift: usize, measure: usize| {
             let halves = halves(&self.numbers[error]);
@@ -635,7 +638,7 @@ impl Reader<'_, '_> {
         // Those before it, the nearest first, and those behind.
         let before = (column.saturating_sub(NEIGHBOURS)..column).rev();
         let near = before.chain(column + 1..(column + NEIGHBOURS).min(self.names.len()));
-        let mut errors = near.filter(|k| last > 1 && *k != steps.column && falls(k));
+        let mut errors = near.filter(|k| *k != steps.column && falls(k));
         errors.find(|error| {
             [1, 0].into_iter().filter(may).any(|shift| (0..3).any(|measure| matches(*error, shift, measure)))
         })

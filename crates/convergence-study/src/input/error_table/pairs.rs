@@ -22,6 +22,9 @@ fn is_mark(c: char) -> bool {
 ///
 /// * `must_mark`: whether `=` or `:` must stand between them.
 pub(super) fn read(text: &str, must_mark: bool) -> Option<Grid<'_>> {
+    if must_mark && !text.contains([':', '=']) {
+        return None;
+    }
     let (mut entries, mut rows, mut depth, mut name) = (vec![], 0, 0, None);
     for (line, words) in text.lines().enumerate() {
         rows += usize::from(entries_of(line + 1, words, &mut depth, &mut name, &mut entries));

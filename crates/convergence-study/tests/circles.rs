@@ -11,7 +11,7 @@ const CIRCLES: [(&str, &[&[&str]]); 5] = [
     (
         "convergence-study",
         &[
-            &["input/error_table/grid", "input/error_table/pairs", "input/error_table/spans"],
+            &["input/error_table/pairs", "input/error_table/text"],
             &["input/field", "input/section", "input/settings"],
             &["judge/richardson/estimate", "judge/richardson/gci"],
             &["judge/verdict/outcome", "judge/verdict/reading", "judge/verdict/reason"],

@@ -23,7 +23,7 @@ use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::interrupt;
 use convergence_study::cli::output;
-use convergence_study::cli::progress;
+use convergence_study::cli::running;
 use convergence_study::cli::running::seconds;
 use convergence_study::judge::verdict::Verdict;
 
@@ -130,7 +130,7 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
         }
         None => Recording::Summary,
     };
-    let bar = progress::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
+    let bar = running::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
     let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
     let (told, shown) = (Arc::clone(&done), bar.clone());
     interrupt::say(move || {

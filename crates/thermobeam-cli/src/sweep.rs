@@ -12,7 +12,7 @@ use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 use convergence_study::cli::exit::{Ended, Outcome};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::interrupt;
-use convergence_study::cli::progress;
+use convergence_study::cli::running;
 use convergence_study::cli::running::seconds;
 use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 
 /// Lines to standard output, in the order of the cases; returns how many failed.
 fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
-    let bar = progress::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
+    let bar = running::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
     let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
     let outcome = sweep::run(sweep, &mine, jobs(arguments), arguments.case_limit, |line: Line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -81,7 +81,7 @@ fn to_folder(
     let cases = mine.len();
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
     let begun = pending.len();
-    let bar = progress::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
+    let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
     let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
     interrupt::say(move || {
         let done = before + counted.position() as usize;

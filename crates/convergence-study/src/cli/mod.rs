@@ -6,20 +6,16 @@
 
 mod compare;
 mod completions;
-mod earlier;
 pub mod exit;
 mod explain;
 pub mod flags;
 mod github;
 mod guard;
-mod help;
 pub mod interrupt;
 mod list;
 pub mod long;
-mod moved;
 mod new;
 pub mod output;
-pub mod progress;
 mod rates;
 mod report;
 pub mod running;
@@ -29,13 +25,13 @@ mod study;
 mod verify;
 pub mod workspace;
 
+use std::fmt::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
 use crate::program;
 use crate::project::Project;
-use help::grouped;
 
 /// The commands of the harness. What each does stands at its arguments, from where `--help` takes it.
 #[allow(missing_docs)]
@@ -90,6 +86,26 @@ fn program_name(project: &Project) -> String {
 pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
     let command = P::command().name(project.command).bin_name(project.command).about(project.about);
     grouped(new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")), groups)
+}
+
+/// The command line with its subcommands listed under headings, and the exit status explained.
+///
+/// * `groups`: heading, and names of subcommands. A subcommand of no group is not listed.
+fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
+    let mut text = String::new();
+    let width = groups.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max().unwrap_or(0);
+    for (heading, names) in groups {
+        let _ = writeln!(text, "{heading}:");
+        for name in *names {
+            let found = command.get_subcommands().find(|known| known.get_name() == *name);
+            let about = found.and_then(clap::Command::get_about).map(ToString::to_string).unwrap_or_default();
+            let _ = writeln!(text, "  {name:width$}  {about}");
+        }
+        text.push('\n');
+    }
+    let template =
+        format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}\n\n{}", exit::HELP);
+    command.help_template(template)
 }
 
 /// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.

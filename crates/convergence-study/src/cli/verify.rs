@@ -2,22 +2,22 @@
 
 use std::path::Path;
 
-use crate::judge::verdict::Verdict;
-use crate::project::Project;
-use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
-use crate::run::Finished;
-use crate::store::record;
-use crate::study::{Study, StudyFile, Tier};
-use crate::text::visible;
-use crate::verify::{self, Request, Scope, Verification};
-
 use super::exit::Outcome;
 use super::flags::Flags;
 use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched, kept};
-use crate::cli::screen;
-use crate::cli::workspace;
-use crate::cli::{github, moved, output, selection};
+use crate::cli::{github, output, screen, selection, workspace};
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
+use crate::run::Finished;
+use crate::store::baseline::Change;
+use crate::store::record;
+use crate::study::{Study, StudyFile, Tier};
+use crate::text::visible;
+use crate::text::visible::visible;
+use crate::verify;
+use crate::verify::{Request, Scope, Verification};
 
 /// Run the studies in `studies/` and write `reports/`
 #[derive(Debug, clap::Args)]
@@ -103,7 +103,7 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
 /// verdict last: a terminal shows the end.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
     let quiet = arguments.flags.quiet;
-    let mut text = moved::lines(&found.changes, arguments.verbose);
+    let mut text = moved_lines(&found.changes, arguments.verbose);
     match &found.blessing {
         Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
         Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::lines(&refusal.to_string())),
@@ -157,4 +157,61 @@ fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
 /// A path as seen from the workspace.
 fn below(path: &Path, root: &Path) -> String {
     visible::path(path.strip_prefix(root).unwrap_or(path))
+}
+
+/// Changes of a study that are listed one by one.
+const LISTED: usize = 3;
+
+/// Claims that changed, under a head. Of numbers one line each, too; of a study with many, their number and those of most
+/// weight, unless all are wanted.
+fn moved_lines(changes: &[Change], all: bool) -> String {
+    let studies = changes.chunk_by(|one, next| one.study == next.study);
+    let numbers: String = studies.map(|of_study| of_one_study(of_study, all)).collect();
+    let claims: String = changes.iter().filter(|change| change.movement.needs_a_reason()).map(claim).collect();
+    if claims.is_empty() { numbers } else { format!("{numbers}claims changed\n{claims}") }
+}
+
+fn claim(change: &Change) -> String {
+    format!("  {}\n", visible(&change.words()))
+}
+
+fn of_one_study(changes: &[Change], all: bool) -> String {
+    let numbers: Vec<&Change> = changes.iter().filter(|change| !change.movement.needs_a_reason()).collect();
+    if all || numbers.len() <= LISTED { each(numbers) } else { condensed(numbers) }
+}
+
+fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {
+    changes.into_iter().map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect()
+}
+
+fn condensed(changes: Vec<&Change>) -> String {
+    let (study, rest) = (&changes[0].study, changes.len() - LISTED);
+    let mut heaviest = changes.clone();
+    // A stable order: of equals the first ones.
+    heaviest.sort_by(|a, b| b.movement.weight().total_cmp(&a.movement.weight()));
+    heaviest.truncate(LISTED);
+    each(heaviest) + &format!("baseline: {study}: and {rest} more; --verbose and the report list all\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::moved_lines;
+    use crate::store::baseline::{Change, Movement};
+
+    fn moved(study: &str, name: &str, to: f64) -> Change {
+        let movement = Movement::Moved { from: 1.0, to, tolerance: 1e-3 };
+        Change { study: study.to_owned(), name: name.to_owned(), movement }
+    }
+
+    #[test]
+    fn of_many_changes_the_largest_are_listed() {
+        let mut changes: Vec<Change> = (0..10).map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i))).collect();
+        changes[0].movement = Movement::Vanished { value: 1.0 };
+        changes.push(moved("few", "m", 2.0));
+        let text = moved_lines(&changes, false);
+        let listed: Vec<&str> = text.lines().map(|line| line.split(' ').nth(2).unwrap()).collect();
+        assert_eq!(listed, ["n0", "n9", "n8", "and", "m"], "{text}");
+        assert!(text.contains("many: and 7 more"), "{text}");
+        assert_eq!(moved_lines(&changes, true).lines().count(), 11);
+    }
 }

@@ -1,16 +1,17 @@
 //! Errors against the mesh width or the time step.
 
+use std::ops::Range;
+
 use super::legend::{Entry, Swatch};
 use super::look::{Look, look};
 use super::marker::Marks;
 use super::ruler::on_scale;
 use super::slopes::{Trend, triangles};
-use super::style::{self, Dash};
+use super::style::Dash;
 use super::xy::{Curve, Xy};
-use super::{Axis, Guide, Scale};
+use super::{Axis, Guide, Scale, Series, style};
 use crate::judge::power_law::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
-use std::ops::Range;
 
 /// The errors in one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -179,4 +180,30 @@ fn trends(series: &[ErrorSeries]) -> Vec<Trend> {
         Trend { points, order: s.order }
     };
     series.iter().map(trend).collect()
+}
+
+/// Errors against cost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorkPrecision {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// The measure of cost; `None` is the run time in seconds.
+    pub x_label: Option<String>,
+    /// What is measured.
+    pub y_label: String,
+    /// `(cost, error)`, one series per method, in order of refinement.
+    pub series: Vec<Series>,
+}
+
+/// Draws error over cost, log-log: the lower and the further left, the better.
+pub fn work_precision(figure: &WorkPrecision) -> String {
+    let curve = |(k, series): (usize, &Series)| Curve { marks: Marks::Filled, ..Curve::line(k, series) };
+    Xy {
+        title: figure.title.clone(),
+        x: Axis::log(figure.x_label.as_deref().unwrap_or("run time (s)")),
+        y: Axis::log(&*figure.y_label),
+        curves: figure.series.iter().enumerate().map(curve).collect(),
+        ..Xy::default()
+    }
+    .draw()
 }

@@ -31,16 +31,13 @@
 
 pub mod canvas;
 mod colour;
-mod contour;
 mod convergence;
-mod decimate;
 mod forest;
 pub mod heat;
 mod history;
 pub mod legend;
 pub mod look;
 pub mod marker;
-mod parameter_map;
 mod readable;
 pub mod rect;
 pub mod ruler;
@@ -49,16 +46,15 @@ mod slopes;
 mod space_time;
 pub mod style;
 mod surface;
-mod work_precision;
 pub mod xy;
 
 pub use convergence::{Convergence, ErrorSeries, convergence};
+pub use convergence::{WorkPrecision, work_precision};
 pub use forest::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
 pub use history::{History, Iterations, history, iterations};
-pub use parameter_map::{ParameterMap, parameter_map};
 pub use space_time::{SpaceTime, space_time};
+pub use surface::{ParameterMap, parameter_map};
 pub use surface::{Surface, surface};
-pub use work_precision::{WorkPrecision, work_precision};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

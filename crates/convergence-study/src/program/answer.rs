@@ -168,27 +168,17 @@ impl<'de> Deserialize<'de> for Once {
 
 /// The text with `null` for every NaN and infinity outside of strings.
 fn with_null_for_nan(line: &str) -> String {
-    let mut text = String::with_capacity(line.len());
-    let mut rest = line;
-    let mut is_string = false;
-    while let Some(c) = rest.chars().next() {
-        let token = ["-Infinity", "Infinity", "-NaN", "NaN", "-inf", "inf", "nan", "-nan"];
-        match token.iter().find_map(|token| rest.strip_prefix(token)) {
-            Some(after) if !is_string => {
-                text += "null";
-                rest = after;
-                continue;
-            }
-            _ => {}
-        }
-        // A backslash and what follows it belong together.
-        let length =
-            if is_string && c == '\\' { 1 + rest[1..].chars().next().map_or(0, char::len_utf8) } else { c.len_utf8() };
-        is_string ^= c == '"';
-        text += &rest[..length];
-        rest = &rest[length..];
-    }
-    text
+    const TOKENS: [&str; 8] = ["-Infinity", "Infinity", "-NaN", "NaN", "-inf", "inf", "-nan", "nan"];
+    let (mut is_string, mut is_escaped) = (false, false);
+    // Pieces end with a quote that opens or closes a string: every second one is a string.
+    let pieces = line.split_inclusive(|c| {
+        let is_quote = c == '"' && !is_escaped;
+        is_escaped = is_string && c == '\\' && !is_escaped;
+        is_string ^= is_quote;
+        is_quote
+    });
+    let null = |piece: &str| TOKENS.iter().fold(piece.to_owned(), |piece, token| piece.replace(token, "null"));
+    pieces.enumerate().map(|(k, piece)| if k % 2 == 1 { piece.to_owned() } else { null(piece) }).collect()
 }
 
 impl Answer {

@@ -6,14 +6,12 @@
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `begin.rs` | the files that `new` begins with |
 //! | `file.rs`, `refine.rs`, `template.rs` | the study file: tables, resolutions, placeholders |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: time limit, what it prints, its end |
 //! | `answer.rs`, `kept.rs` | what it answered; what is kept of that |
 //! | `judge.rs`, `values.rs` | from answers to an outcome: errors, and values without an exact solution |
 
 mod answer;
-mod begin;
 mod command;
 mod file;
 pub mod guard;
@@ -28,6 +26,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::input::{InputError, Section};
+use crate::project::Template;
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
@@ -38,7 +37,6 @@ use refine::Refine;
 use template::Word;
 
 pub use answer::Answer;
-pub use begin::TEMPLATE;
 pub use refine::{Parameter, Resolution};
 
 /// The row of the table of kinds.
@@ -54,6 +52,14 @@ pub const ROW: KindRow = KindRow {
              or answers no finite numbers is a failed case, and fails the study.",
     failure: "The program does not have the order at these resolutions: a term, a boundary value or a quadrature is wrong, or another error, \
               such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
+};
+
+/// The files that `new program NAME` begins with: a study of a program, and the program.
+pub const TEMPLATE: Template = Template {
+    name: "program",
+    about: "A convergence study of a program in any language",
+    files: &[(".toml", include_str!("begin/study.toml")), (".py", include_str!("begin/program.py"))],
+    next: &["study", "explain"],
 };
 
 /// A study of a program, validated.

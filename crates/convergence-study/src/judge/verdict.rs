@@ -1,5 +1,4 @@
 //! [laws]: crate::judge::calibration::laws
-//! [comparison]: crate::judge::calibration::comparison
 //! [calibration]: crate::judge::calibration
 //! [grid]: crate::judge::grid
 // The links above are for rustdoc, those at the end of RULE.md for readers of that file.

@@ -27,5 +27,4 @@ pub const KINDS: [KindRow; 18] = [
     work_precision::ROW,
     calibration::ROW,
     program::ROW,
-    calibration::bars::ROW,
 ];

@@ -68,7 +68,7 @@ fn what_a_study_cannot_have_is_refused_with_what_it_would_take() {
         ("equilibria.toml", &[("t_max", "t_max = 1e18")], &["run.t_max: found 1e18", "at most 1e10 steps"]),
         ("bifurcation.toml", &[("t_max", "t_max = 1e18")], &["rest.t_max: found 1e18", "at most 1e10 steps"]),
         ("fixed-point.toml", &[("steps", "steps = 100000000")], &["steps: found 100000000", "<= 10000000"]),
-        ("rule-calibration.toml", &[("samples", "samples = 1000000000000")], &["samples: found 1000000000000"]),
+        ("rule-calibration.toml", &[("tables", "tables = 1000000000000")], &["tables: found 1000000000000"]),
         ("random-scenes.toml", &[("batches", "batches = 1000000000")], &["batches: found 1000000000"]),
     ] {
         says(&refusal(name, changes), &[&[name, ":"][..], pieces].concat());

@@ -8,7 +8,8 @@
 //! * *emerging*: h^p + b h^(p - 1/2) or h^(p - 1). The order is the lower one, whatever the levels show of it.
 //! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim is wrong.
 
-use super::{Level, SplitMix};
+use crate::judge::fit::Level;
+use crate::judge::random::SplitMix;
 
 /// Number of levels and step ratio of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -291,6 +292,30 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     Table { levels: (0..levels).map(level).collect(), shown: p, order: (q > 0.0).then_some(q) }
 }
 
+/// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1 or 2, f from 1 to 90 % of the finest error.
+pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
+    let (a, r) = (random.within([-0.9, 3.0]), [1.0, 2.0][random.below(2)]);
+    let main = |h: f64| h * h * (1.0 + a * h.powf(r));
+    let f = main(0.5_f64.powi(7)) * log_uniform([0.01, 0.9], random) * [1.0, -1.0][random.below(2)];
+    eight(2.0, None, |h| (main(h) + f).abs())
+}
+
+/// Eight errors h^p (1 + a h) + b h^(p - 1): a and b of either sign, |a| from 0.1 to 10, the last term 10 to 22 % of the finest error of the others.
+pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
+    let (p, mut sign) = (random.within([1.0, 4.0]), || [1.0, -1.0][random.below(2)]);
+    let (one, other) = (sign(), sign());
+    let a = one * log_uniform([0.1, 10.0], random);
+    let main = |h: f64| h.powf(p) * (1.0 + a * h);
+    let finest = 0.5_f64.powi(7);
+    let b = other * main(finest).abs() * random.within([0.1, 0.22]) * finest.powf(1.0 - p);
+    eight(p, Some(p - 1.0), |h| (main(h) + b * h.powf(p - 1.0)).abs())
+}
+
+fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
+    let steps = (0..8).map(|k| 0.5_f64.powi(k));
+    Table { levels: steps.map(|step| Level { step, error: error(step) }).collect(), shown, order }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -336,6 +361,17 @@ mod tests {
                 assert!((rates[6] - table.shown).abs() > 0.01 * share, "{share} leaves a trace: {rates:?}");
                 assert!(table.order.is_none_or(|order| order < table.shown));
             }
+        }
+    }
+
+    #[test]
+    fn wrong_limits_and_three_terms_are_what_they_are_called() {
+        let mut random = SplitMix::new(13);
+        for _ in 0..100 {
+            let table = wrong_limit(&mut random);
+            assert!(table.levels.len() == 8 && table.order.is_none() && table.shown == 2.0);
+            let rates = pairwise_rates(&three_terms(&mut random).levels);
+            assert!(rates.len() == 7 && rates.iter().all(|rate| rate.is_finite()), "{rates:?}");
         }
     }
 

@@ -1,0 +1,246 @@
+//! The rules that judge rates, error bars and grids, judged themselves: on errors whose order, and values whose limit, is known.
+//!
+//! ```toml
+//! [[measure]]            # what is counted
+//! of = "rule"            # the sheets of the rule, of the bars or of the grids
+//! tables = 4             # for each law and mesh
+//! seed = 7919
+//!
+//! [[expect]]             # one share of one sheet
+//! sheet = "rules"
+//! column = "wrong pass, ±0.05, 0.1 off"
+//! row = "this rule"      # left out: each row for which the rule answers
+//! most = 0.006           # or least = ...
+//! ```
+
+use std::path::Path;
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::judge::calibration::{
+    CLAIMS, ELEMENTS_OF_A_TABLE, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
+};
+use convergence_study::plots::{self, Axis, History, Series};
+use convergence_study::study::levels;
+use convergence_study::study::outcome::{Check, Figure, Table};
+use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "calibration",
+    read: reader::<Calibration>,
+    why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
+          is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
+    judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
+             has its limit.",
+    failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted as far as was said.",
+};
+
+/// What is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Verdicts on rates, beside other rules.
+    Rule,
+    /// Error bars of values.
+    Bars,
+    /// Verdicts on grids of h and dt.
+    Grids,
+}
+
+/// A part with the number of its tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Measure {
+    of: Part,
+    tables: usize,
+    seed: u64,
+}
+
+impl Measure {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["of", "tables", "seed"])?;
+        let parts = [("rule", Part::Rule), ("bars", Part::Bars), ("grids", Part::Grids)];
+        Ok(Self {
+            of: section.require("of", "rule, bars or grids")?.choice(&parts)?,
+            tables: section.require("tables", "a number of tables")?.count(1..=10_000)?,
+            seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
+        })
+    }
+
+    /// Tables of all laws and meshes, for each of `tables`; measured.
+    fn cost(self) -> f64 {
+        let each = match self.of {
+            Part::Rule => 3000,
+            Part::Bars => 90,
+            Part::Grids => 40,
+        };
+        (each * self.tables * ELEMENTS_OF_A_TABLE) as f64
+    }
+}
+
+/// A share that is bounded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expectation {
+    sheet: String,
+    column: String,
+    row: Option<String>,
+    bounds: [f64; 2],
+}
+
+impl Expectation {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["sheet", "column", "row", "most", "least"])?;
+        let text = |key: &str| Ok(section.require(key, "a text in quotes")?.text()?.to_owned());
+        let bound = |key: &str, open: f64| section.get(key).map_or(Ok(open), |field| field.positive());
+        if section.get("most").is_some() == section.get("least").is_some() {
+            return Err(section.refuse("most", "both or none of most and least", "one of the two"));
+        }
+        Ok(Self {
+            sheet: text("sheet")?,
+            column: text("column")?,
+            row: section.get("row").map(|field| field.text().map(str::to_owned)).transpose()?,
+            bounds: [bound("least", f64::NEG_INFINITY)?, bound("most", f64::INFINITY)?],
+        })
+    }
+
+    fn checks(&self, sheets: &[Sheet]) -> Vec<Check> {
+        let Self { sheet, column, row, bounds: [least, most] } = self;
+        let found = sheets.iter().find(|known| known.key == sheet);
+        let place = found.and_then(|sheet| sheet.columns.iter().position(|known| known == column));
+        let rows = found.map_or(&[][..], |sheet| &sheet.rows[..]).iter();
+        let is_meant = |known: &&Row| row.as_ref().map_or(known.declared, |name| *name == known.name);
+        let rows: Vec<&Row> = rows.filter(is_meant).collect();
+        let (Some(place), false) = (place, rows.is_empty()) else {
+            let names = |sheet: &Sheet| format!("columns: {}", sheet.columns.join("; "));
+            let there = found.map_or_else(|| "no such sheet".to_owned(), names);
+            let row = row.as_deref().unwrap_or("each declared");
+            return vec![Check::that(false, format!("{sheet} has {column} of {row}"), there)];
+        };
+        let bound = if least.is_finite() { format!("at least {least}") } else { format!("at most {most}") };
+        let check = |row: &Row| {
+            let value = row.values.get(place).copied().unwrap_or(f64::NAN);
+            Check::that(
+                *least <= value && value <= *most,
+                format!("{sheet}, {}: {column}: {bound}", row.name),
+                text(value),
+            )
+        };
+        rows.into_iter().map(check).collect()
+    }
+}
+
+/// A study of this kind.
+pub struct Calibration {
+    header: Header,
+    measures: Vec<Measure>,
+    expected: Vec<Expectation>,
+}
+
+impl FromFile for Calibration {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "measure", "expect"])?;
+        let sections = |key: &str| {
+            let allowed = format!("at least one table [[{key}]]");
+            let field = root.require(key, &allowed)?;
+            let items = field.items(&allowed)?;
+            if items.is_empty() {
+                Err(field.refuse_as_written(allowed))
+            } else {
+                items.iter().map(|item| item.section()).collect()
+            }
+        };
+        let (measures, expected): (Vec<Section<'_>>, Vec<Section<'_>>) = (sections("measure")?, sections("expect")?);
+        Ok(Self {
+            header,
+            measures: measures.iter().map(Measure::read).collect::<Result<_, _>>()?,
+            expected: expected.iter().map(Expectation::read).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Kind for Calibration {
+    type Data = Measure;
+    type Found = Vec<Sheet>;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<Measure>> {
+        let label =
+            |measure: &Measure| format!("{:?}, {} tables of each law", measure.of, measure.tables).to_lowercase();
+        self.measures.iter().map(|data| Case { label: label(data), cost: data.cost(), data: *data }).collect()
+    }
+
+    fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
+        Ok(match of {
+            Part::Rule => of_the_rule(tables, seed)?,
+            Part::Bars => of_the_bars(tables, seed)?,
+            Part::Grids => of_grids(tables, seed)?,
+        })
+    }
+
+    fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
+        let sheets: Vec<Sheet> = ran.iter().filter_map(Ran::ok).flatten().cloned().collect();
+        let mut checks: Vec<Check> = self.expected.iter().flat_map(|expected| expected.checks(&sheets)).collect();
+        checks.push(levels::completion(ran, |_| vec![]));
+        let summary = format!("{} shares of {} sheets are within their limits", checks.len() - 1, sheets.len());
+        let figures = figures(&sheets, &self.header.id);
+        Outcome { tables: sheets.iter().map(table).collect(), figures, ..Outcome::new(summary, vec![], checks) }
+    }
+}
+
+fn text(value: f64) -> String {
+    if value.is_nan() { "none".to_owned() } else { format!("{value:.4}") }
+}
+
+fn table(sheet: &Sheet) -> Table {
+    let name = |row: &Row| if row.declared { row.name.clone() } else { format!("({})", row.name) };
+    let cells = |row: &Row| std::iter::once(name(row)).chain(row.values.iter().map(|value| text(*value))).collect();
+    Table {
+        title: sheet.title.clone(),
+        head: std::iter::once(String::new()).chain(sheet.columns.iter().cloned()).collect(),
+        rows: sheet.rows.iter().map(cells).collect(),
+    }
+}
+
+/// What each rule pays for the true claims that it passes, and how often a term of lower order goes unnoticed.
+fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
+    let figure =
+        |key: &str, caption: &str, x_label: &str, y: &str, points: &dyn Fn(&Sheet, &Row) -> Vec<(f64, f64)>| {
+            let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
+            let series = sheet.rows.iter().map(|row| Series { label: row.name.clone(), points: points(sheet, row) });
+            let history = History {
+                title: Some(sheet.title.clone()),
+                x_label: x_label.to_owned(),
+                y: Axis::linear(y),
+                series: series.collect(),
+                ..History::default()
+            };
+            Some(Figure { file: format!("{id}-{key}.svg"), caption: caption.to_owned(), svg: plots::history(&history) })
+        };
+    let trade = |_: &Sheet, row: &Row| {
+        (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()
+    };
+    let hidden = |sheet: &Sheet, row: &Row| {
+        let share = |column: &String| column.trim_end_matches(" %").parse().unwrap_or(f64::NAN);
+        sheet.columns.iter().map(share).zip(row.values.iter().map(|value| 100.0 * value)).collect()
+    };
+    [
+        figure(
+            "rules",
+            "What each rule pays for the true claims it passes: wrong claims that pass, too.",
+            "true claims that pass (%)",
+            "wrong claims that pass (%)",
+            &trade,
+        ),
+        figure(
+            "hidden-8",
+            "How often a term of lower order goes unnoticed, by its share of the finest error.",
+            "share of the finest error (%)",
+            "tables that pass (%)",
+            &hidden,
+        ),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}

@@ -344,30 +344,26 @@ fn a_verdict_says_on_what_it_rests() {
 #[test]
 fn each_reason_has_a_verdict_and_words_of_its_own() {
     use Reason::*;
-    let failing = [NonFiniteError, NegativeError, ErrorGrows, FallsAway, WrongLimit, TooLow, TooHigh];
-    let ignorant = [
-        ZeroError,
-        StepsNotDecreasing,
-        ClaimUnusable,
-        ToleranceTooWide,
-        TooFewLevels,
-        NotAsymptotic,
-        Departs,
-        LastPair,
-        RoundOffFloor,
-        LeftOver,
-        WildRate,
-        Outlier,
-        LevelsTooClose,
-        IntervalTooWide,
-        AtTheEdge,
-    ];
-    assert_eq!(Agrees.verdict(), Verdict::Pass);
-    assert!(failing.iter().all(|reason| reason.verdict() == Verdict::Fail));
-    assert!(ignorant.iter().all(|reason| reason.verdict() == Verdict::Inconclusive));
-    let texts: Vec<_> = [Agrees].iter().chain(&failing).chain(&ignorant).map(|reason| reason.text()).collect();
-    let distinct: std::collections::BTreeSet<_> = texts.iter().collect();
-    assert!(distinct.len() == 23 && texts.iter().all(|text| text.len() > 10), "{texts:?}");
+    let failing =
+        [NoResult, NonFiniteError, NegativeError, ErrorGrows, FallsAway, WrongLimit, TooLow, TooHigh, ConstantOff];
+    for reason in Reason::ALL {
+        let expected = match reason {
+            Agrees => Verdict::Pass,
+            reason if failing.contains(&reason) => Verdict::Fail,
+            _ => Verdict::Inconclusive,
+        };
+        assert_eq!(reason.verdict(), expected, "{reason:?}");
+        assert!(reason.text().len() > 10 && reason.advice().len() > 30, "{reason:?}");
+        // A finer level decides only what is undecided.
+        assert!(!reason.wants_a_level() || expected == Verdict::Inconclusive, "{reason:?}");
+    }
+    let distinct = |words: fn(Reason) -> &'static str| {
+        Reason::ALL.map(words).into_iter().collect::<std::collections::BTreeSet<_>>().len()
+    };
+    assert_eq!([Reason::code, Reason::text, Reason::advice].map(distinct), [Reason::ALL.len(); 3]);
+    let undecided =
+        [TooFewLevels, NotAsymptotic, Departs, LastPair, LeftOver, LevelsTooClose, IntervalTooWide, AtTheEdge];
+    assert!(undecided.iter().all(|reason| reason.wants_a_level()) && !RoundOffFloor.wants_a_level());
 }
 
 mod whatever_is_measured {

@@ -25,6 +25,12 @@
 //! tolerance = 0.05
 //!
 //! [[expect]]
+//! error = "H1"
+//! order = ">= 1"                 # at least; or `factor = 5` (or ">= 5"), by which the error falls a degree, n being the degree;
+//! constant = [0.9, 1.1]          # or `exact = 1e-12` alone: no error is larger. The constant of error = C h^order, beside an order
+//! tolerance = 0.05
+//!
+//! [[expect]]
 //! value = "flux"                 # a value without exact solution, judged by its differences
 //! order = 2.0
 //! tolerance = 0.1
@@ -37,9 +43,10 @@ use super::answer::Expected;
 use super::kept::Store;
 use super::refine::refine;
 use super::template::Word;
-use super::{Expectation, Program};
+use super::{Expectation, More, Program};
 use crate::input::{Field, InputError, Section, visible};
-use crate::judge::verdict::WIDEST_TOLERANCE;
+use crate::judge::claims::order_of_factor;
+use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
 use crate::study::{Claim, Header};
 
 /// The longest time for a case of a file that does not say.
@@ -129,12 +136,17 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
         }
         expectations.push(expectation);
     }
+    let by_degree = expectations.iter().filter(|expectation| expectation.more.by_degree).count();
+    let of_rates = expectations.iter().filter(|expectation| expectation.more.exact.is_none()).count();
+    if by_degree > 0 && by_degree < of_rates {
+        return Err(field.refuse("factor in some tables and order in others", "one of the two in all of a study"));
+    }
     if expectations.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(expectations) }
 }
 
 /// * `grid`: whether h and dt are refined apart; each error then has two orders.
 fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
-    section.allow(&["error", "value", "order", "order_dt", "tolerance"])?;
+    section.allow(&["error", "value", "order", "order_dt", "factor", "constant", "exact", "tolerance"])?;
     let expected = match section.get("value") {
         Some(value) if section.get("error").is_some() => {
             return Err(value.refuse("value beside error", "one of the two in each table [[expect]]"));
@@ -148,16 +160,64 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
             Expected::Error(name(&section.require("error", allowed)?, allowed)?)
         }
     };
-    let order = section.positive("order")?;
+    let (order, more) = claimed(section, grid || matches!(expected, Expected::Value(_)))?;
     let time = match section.get("order_dt") {
         Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
         Some(field) => field.positive()?,
         None => order,
     };
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
-    let tolerance = section.require("tolerance", &narrow)?;
-    let tolerance = tolerance.number_where(&narrow, |tolerance| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE)?;
-    Ok(Expectation { expected, claim: Claim { order, tolerance }, time })
+    let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
+    let tolerance = match section.get("tolerance") {
+        // There is no rate that it could be about.
+        None if more.exact.is_some() => DEFAULT_TOLERANCE,
+        Some(field) if more.exact.is_some() => return Err(field.refuse("tolerance beside exact", "exact alone")),
+        _ => section.require("tolerance", &narrow)?.number_where(&narrow, is_narrow)?,
+    };
+    Ok(Expectation { expected, claim: Claim { order, tolerance }, time, more })
+}
+
+/// The order, and what is claimed in its place or beside it.
+///
+/// * `plain`: whether nothing but an order can be claimed: of values, and of grids.
+fn claimed(section: &Section<'_>, plain: bool) -> Result<(f64, More), InputError> {
+    let claims = ["order", "factor", "exact"].map(|key| section.get(key));
+    let other = claims[1..].iter().flatten().next().cloned().or(section.get("constant"));
+    if let Some(field) = other.filter(|_| plain) {
+        return Err(field.refuse_as_written("order alone, for values and on a grid"));
+    }
+    if let [_, Some(field), Some(_)] | [Some(_), Some(field), _] | [Some(_), _, Some(field)] = &claims {
+        return Err(field.refuse_as_written("one of order, factor and exact"));
+    }
+    let mut more = More::default();
+    if let Some(field) = section.get("constant") {
+        let allowed = "two numbers > 0, the smaller first, beside order";
+        let ends: Vec<f64> = field.items(allowed)?.iter().map(Field::positive).collect::<Result<_, _>>()?;
+        match ends[..] {
+            [least, most] if least < most && claims[0].is_some() => more.constant = Some([least, most]),
+            _ => return Err(field.refuse_as_written(allowed)),
+        }
+    }
+    if let [_, _, Some(field)] = &claims {
+        return Ok((1.0, More { exact: Some(field.positive()?), ..more }));
+    }
+    let [order, factor, _] = claims;
+    more.by_degree = factor.is_some();
+    let field =
+        order.or(factor).map_or_else(|| section.require("order", "a number > 0, or a text such as \">= 2\""), Ok)?;
+    let number = match field.text() {
+        Ok(text) if !plain => {
+            more.at_least = true;
+            let number = text.trim().strip_prefix(">=").and_then(|number| number.trim().parse::<f64>().ok());
+            let number = number.filter(|number| *number > 0.0 && number.is_finite());
+            number.ok_or_else(|| field.refuse_as_written("a number > 0, or a text such as \">= 2\""))?
+        }
+        _ => field.positive()?,
+    };
+    if more.by_degree && number <= 1.0 {
+        return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
+    }
+    Ok((if more.by_degree { order_of_factor(number) } else { number }, more))
 }
 
 /// A name as answers have it, which control characters are never part of.

@@ -3,11 +3,14 @@
 use super::answer::{Answer, Expected};
 use super::refine::Resolution;
 use super::{Expectation, Program, values};
+use crate::judge::claims;
+use crate::judge::verdict::RateVerdict;
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Next};
 use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Ran};
+use crate::text::number::{error_text, plain_text};
 
 type Run = Ran<Resolution, Answer>;
 
@@ -64,15 +67,16 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
     // The next level takes as many times longer as the last one did, and at least twice as long.
     let cost = last * (last / before).max(2.0);
     let levels = levels(study, ran);
-    let rates = [levels.judge(), values::judge(study, ran, &levels.refinements).rates].concat();
+    let rates = [judged(study, &levels), values::judge(study, ran, &levels.refinements).rates].concat();
     Some(until_decided::next(&rates, ran.len(), cost, seconds.iter().sum(), budget))
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let mut rates = levels.judge();
+    let (mut rates, mut checks) = (judged(study, levels), exact(study, ran));
     let id = &study.header.id;
     let mut figures = vec![];
-    if !levels.columns.is_empty() {
+    // The figure is one over h.
+    if !levels.columns.is_empty() && !by_degree(study) {
         let caption = "Errors over levels of refinement.".to_owned();
         figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
         figures.extend(work_precision(id, levels, ran));
@@ -84,17 +88,50 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     rates.extend(values.rates);
     let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
     let summary = summary.collect::<Vec<_>>().join("; ");
+    checks.push(completion(ran));
     let outcome = Outcome {
         levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
         tables: values.tables,
         figures,
         quantities,
-        ..Outcome::new(summary, rates, vec![completion(ran)])
+        ..Outcome::new(summary, rates, checks)
     };
     match next(study, ran).zip(study.refine.budget) {
         Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),
         None => outcome,
     }
+}
+
+/// Whether n is a degree.
+fn by_degree(study: &Program) -> bool {
+    study.expect.iter().any(|expectation| expectation.more.by_degree)
+}
+
+/// The rates of the errors, each held against all that is claimed of it.
+fn judged(study: &Program, levels: &Levels) -> Vec<(String, RateVerdict)> {
+    let more = |(name, rate): (String, RateVerdict)| {
+        let is_of = |expectation: &&Expectation| expectation.expected == Expected::Error(name.clone());
+        let more = study.expect.iter().find(is_of).map(|expectation| expectation.more).unwrap_or_default();
+        let rate = if more.at_least { claims::at_least(rate) } else { rate };
+        let rate = match (more.constant, levels.of(&name)) {
+            (Some(between), Some(points)) => claims::with_constant(&points, rate, between),
+            _ => rate,
+        };
+        (name, rate)
+    };
+    levels.judge().into_iter().map(more).collect()
+}
+
+/// A check for each error that is claimed to be none.
+fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
+    let check = |expectation: &Expectation| {
+        let bound = expectation.more.exact?;
+        let number = |ran: &Run| ran.ok().and_then(|answer| answer.number(&expectation.expected)).unwrap_or(f64::NAN);
+        let (largest, is_exact) = claims::exact(ran.iter().map(number), bound);
+        let claim = format!("{} is exact: at most {}", expectation.expected.name(), plain_text(bound));
+        Some(Check::that(is_exact, claim, format!("largest {}", error_text(largest))))
+    };
+    study.expect.iter().filter_map(check).collect()
 }
 
 /// A case that answered less than was asked for counts as failed.
@@ -137,11 +174,12 @@ fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
 /// Every error of every answer.
 fn levels(study: &Program, ran: &[Run]) -> Levels {
     let axis = study.refine.axis();
+    let over = |step: f64| if by_degree(study) { claims::step_of_degree(step.recip()) } else { step };
     let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
     Levels {
         axis,
-        refinements: ran.iter().map(|ran| ran.case.data.refinement(step(ran, axis))).collect(),
-        columns: ErrorColumn::of(&claims(study), &found),
+        refinements: ran.iter().map(|ran| ran.case.data.refinement(over(step(ran, axis)))).collect(),
+        columns: ErrorColumn::of(&claimed(study), &found),
     }
 }
 
@@ -151,10 +189,10 @@ fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
     levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
 }
 
-fn claims(study: &Program) -> Vec<(String, Claim)> {
-    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
-        Expected::Error(name) => Some((name.clone(), *claim)),
-        Expected::Value(_) => None,
+fn claimed(study: &Program) -> Vec<(String, Claim)> {
+    let claim = |Expectation { expected, claim, more, .. }: &Expectation| match expected {
+        Expected::Error(name) if more.exact.is_none() => Some((name.clone(), *claim)),
+        _ => None,
     };
     study.expect.iter().filter_map(claim).collect()
 }

@@ -80,6 +80,19 @@ pub struct Program {
     expect: Vec<Expectation>,
 }
 
+/// What a table `[[expect]]` claims beside an order within a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct More {
+    /// The order is the least one.
+    at_least: bool,
+    /// The order is that of a factor a degree, n being the degree.
+    by_degree: bool,
+    /// Between which numbers the constant lies.
+    constant: Option<[f64; 2]>,
+    /// No error is larger; nothing else is claimed.
+    exact: Option<f64>,
+}
+
 /// A table `[[expect]]`.
 #[derive(Debug, Clone, PartialEq)]
 struct Expectation {
@@ -88,6 +101,8 @@ struct Expectation {
     claim: Claim,
     /// Of a grid: the order in dt.
     time: f64,
+    /// What else is claimed.
+    more: More,
 }
 
 impl FromFile for Program {
@@ -171,9 +186,17 @@ impl Kind for Program {
     fn details(&self) -> Vec<(String, String)> {
         let words: Vec<String> = self.words.iter().map(ToString::to_string).collect();
         let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
-        let order = |Expectation { expected, claim, time }: &Expectation| {
+        let order = |Expectation { expected, claim, time, more }: &Expectation| {
             let time = if self.refine.grid { format!(" in h, {time} in dt") } else { String::new() };
-            format!("{} {} {}{time} ± {}", expected.what(), expected.name(), claim.order, claim.tolerance)
+            let name = format!("{} {}", expected.what(), expected.name());
+            let least = if more.at_least { "at least " } else { "" };
+            let constant =
+                more.constant.map(|[least, most]| format!(", constant {least} to {most}")).unwrap_or_default();
+            match more.exact {
+                Some(bound) => format!("{name} at most {bound}"),
+                None if more.by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),
+                None => format!("{name} {least}{}{time} ± {}{constant}", claim.order, claim.tolerance),
+            }
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
         let kept = if self.store.is_some() { " Results are kept while command and files are unchanged." } else { "" };

@@ -122,6 +122,11 @@ pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
     /// The levels that have a result.
+    /// The levels of the error of this name that have a result; `None` where there is no such error.
+    pub(crate) fn of(&self, name: &str) -> Option<Vec<Level>> {
+        self.columns.iter().find(|column| column.name == name).map(|column| self.points(column))
+    }
+
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
         let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
         self.refinements.iter().enumerate().filter_map(level).collect()

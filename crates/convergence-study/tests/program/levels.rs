@@ -54,6 +54,65 @@ pub(crate) fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_jud
     assert!(status == Some(1) && out.contains("too high"), "the error is 1/n: over 1/n its order would be 1\n{out}");
 }
 
+pub(crate) fn other_claims_than_an_order_are_judged() {
+    let place = Place::new("plain", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let study = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        place.write_text(&text.replace(from, to));
+        place.study(&[])
+    };
+    for (claim, status, says) in [
+        ("order = \">= 1\"", 0, "pass"),
+        ("order = \">= 2\"", 0, "pass"),
+        ("order = \">= 2.5\"", 1, "too low"),
+        ("order = 2.0\nconstant = [0.9, 1.1]", 0, "pass"),
+        (
+            "order = 2.0\nconstant = [1.1, 2.0]",
+            1,
+            "the constant is outside its interval (1.0000 to 1.0000, claimed 1.1 to 2)",
+        ),
+    ] {
+        let (found, out, err) = study("order = 2.0", claim);
+        assert!(found == Some(status) && out.contains(says), "{claim}\n{out}{err}");
+    }
+    // The finest error is 2.4e-4, the coarsest 6.25e-2.
+    for (bound, status) in [("0.07", 0), ("0.06", 1)] {
+        let (found, out, err) = study("order = 2.0\ntolerance = 0.05", &format!("exact = {bound}"));
+        assert!(found == Some(status) && out.contains("largest 6.250e-2"), "{bound}\n{out}{err}");
+    }
+    for (claim, says) in [
+        ("order = \"> 2\"", ">= 2"),
+        ("order = \">= -2\"", ">= 2"),
+        ("order = 2.0\nfactor = 5", "one of order, factor and exact"),
+        ("factor = 0.5", "a factor > 1"),
+        ("order = 2.0\nconstant = [2.0, 1.0]", "two numbers"),
+        ("factor = 2\nconstant = [1.0, 2.0]", "beside order"),
+        ("exact = 1e-3", "exact alone"),
+    ] {
+        let (found, out, err) = study("order = 2.0", claim);
+        assert!(found == Some(2) && err.contains(says) && err.contains("s.toml:"), "{claim}\n{out}{err}");
+    }
+    let (found, _, err) = study("order = 2.0", "factor = 5\ntolerance = 0.1\n[[expect]]\nerror = \"H1\"\norder = 1.0");
+    assert!(found == Some(2) && err.contains("one of the two in all of a study"), "{err}");
+}
+
+pub(crate) fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
+    let place = Place::new("degrees", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = text.replace("[4, 8, 16, 32, 64]", "[1, 2, 3, 4, 5]");
+    for (claim, status, says) in [
+        ("factor = 5", 0, "pass"),
+        ("factor = 8", 1, "too low"),
+        ("factor = 3", 1, "too high"),
+        ("factor = \">= 3\"", 0, "pass"),
+    ] {
+        place.write_text(&text.replace("order = 2.0", claim));
+        let (found, out, err) = place.study(&[]);
+        assert!(found == Some(status) && out.contains(says), "{claim}\n{out}{err}");
+    }
+}
+
 pub(crate) fn a_name_that_an_answer_has_twice_is_refused() {
     let place = Place::new("twice", "");
     let (status, out, err) = place.study(&[]);

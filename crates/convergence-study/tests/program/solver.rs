@@ -44,6 +44,10 @@ pub(crate) fn main(arguments: &[String]) -> ! {
         println!(r#"{{"errors": {{"L2": {:e}}}, "h": {:e}}}"#, f64::from(n).recip(), f64::from(n).sqrt().recip());
         exit(0)
     }
+    if mode == "degrees" {
+        println!(r#"{{"errors": {{"L2": {:e}}}}}"#, 3.0 * 5.0_f64.powf(-f64::from(n)));
+        exit(0)
+    }
     if mode == "twice" {
         println!(r#"{{"errors": {{"L2": {:e}, "L2": 1e-3}}}}"#, f64::from(n).powi(-2));
         exit(0)

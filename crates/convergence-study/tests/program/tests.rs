@@ -19,7 +19,8 @@ use crate::kept::{
 };
 use crate::levels::{
     a_level_without_a_result_fails_and_the_others_have_a_rate, a_name_that_an_answer_has_twice_is_refused,
-    a_study_of_two_levels_has_the_rate_between_them, levels_are_added_until_it_is_decided_within_the_budget,
+    a_study_of_two_levels_has_the_rate_between_them, an_error_that_falls_by_a_factor_a_degree_has_that_factor,
+    levels_are_added_until_it_is_decided_within_the_budget, other_claims_than_an_order_are_judged,
     steps_that_only_some_levels_answer_are_refused, the_seconds_of_a_study_are_those_that_passed,
     the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over, what_is_finite_beside_a_nan_is_kept,
 };
@@ -46,6 +47,8 @@ const TESTS: &[Test] = &tests![
     what_is_finite_beside_a_nan_is_kept,
     the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over,
     a_name_that_an_answer_has_twice_is_refused,
+    other_claims_than_an_order_are_judged,
+    an_error_that_falls_by_a_factor_a_degree_has_that_factor,
     a_study_of_two_levels_has_the_rate_between_them,
     steps_that_only_some_levels_answer_are_refused,
     the_seconds_of_a_study_are_those_that_passed,

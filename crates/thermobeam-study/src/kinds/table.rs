@@ -9,7 +9,7 @@ use super::{
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 18] = [
+pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
     controls::ROW,

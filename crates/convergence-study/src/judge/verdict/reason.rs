@@ -47,6 +47,8 @@ pub enum Reason {
     RoundOffFloor,
     /// Too few digits of the errors are known.
     Digits,
+    /// The order agrees, and the constant before it may be outside its interval.
+    ConstantUnsure,
     /// The numbers tend to a value that is not zero, by smaller and smaller differences.
     Value,
     /// Whether the errors of a grid tend to zero is not known well enough.
@@ -79,7 +81,7 @@ impl TryFrom<String> for Reason {
 
 impl Reason {
     /// Every reason, for listing.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 28] = [
         Self::Agrees,
         Self::NoResult,
         Self::NonFiniteError,
@@ -100,6 +102,7 @@ impl Reason {
         Self::LastPair,
         Self::RoundOffFloor,
         Self::Digits,
+        Self::ConstantUnsure,
         Self::Value,
         Self::LeftOver,
         Self::WildRate,
@@ -135,6 +138,7 @@ impl Reason {
                 | Self::Departs
                 | Self::LastPair
                 | Self::LeftOver
+                | Self::ConstantUnsure
                 | Self::LevelsTooClose
                 | Self::IntervalTooWide
                 | Self::AtTheEdge
@@ -287,6 +291,11 @@ impl Reason {
                 "too few digits",
                 "The errors are given with too few digits for a rate that is known so well. Print more of \
                  them.",
+            ],
+            Self::ConstantUnsure => [
+                "constant-edge",
+                "the constant may be outside its interval",
+                "The order agrees, and the interval of the constant holds an end of the one claimed. Add a finer level, or claim less narrowly.",
             ],
             Self::Value => [
                 "value",

@@ -1,0 +1,136 @@
+//! Claims other than an order within a tolerance, each judged by what the [rule](super::verdict) reads.
+//!
+//! `RULE.md` has a paragraph on each, `judge::calibration` how often it errs.
+
+use super::fit::Level;
+use super::verdict::{RateVerdict, Reason};
+
+/// Half-width of the interval of a constant, in half-widths of the interval of the rate over the finest refinement: it then holds the constant of
+/// errors with noise and pollution at least 9 times in 10 for any number of levels.
+const DOUBT_OF_A_CONSTANT: f64 = 5.0;
+
+/// The step that an error over degrees is judged over: `e = C F^-p` is a power `e = C step^(log F)` of it.
+///
+/// * `degree`: p or q of the elements, or another count by which the error falls by a factor each.
+pub fn step_of_degree(degree: f64) -> f64 {
+    (-degree).exp()
+}
+
+/// The order in [`step_of_degree`] of an error that falls by this factor a degree; > 0 for a factor > 1.
+pub fn order_of_factor(factor: f64) -> f64 {
+    factor.ln()
+}
+
+/// The same rate where the order claimed is the least one: a higher rate is no failure.
+///
+/// The interval has to lie above the band's lower end, and so has the finest rate; rates that move upwards are not leaving.
+pub fn at_least(rate: RateVerdict) -> RateVerdict {
+    let least = rate.order - rate.tolerance;
+    let kind = match (rate.kind, rate.interval, &rate.pairwise[..rate.used.end.saturating_sub(1)]) {
+        (
+            Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide | Reason::LastPair | Reason::Departs,
+            Some([low, _]),
+            [.., before, last],
+        ) if low >= least && *last >= least && (rate.kind != Reason::Departs || last > before) => Reason::Agrees,
+        _ => return rate,
+    };
+    rate.with_reason(kind, kind.text())
+}
+
+/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` where there is no rate.
+///
+/// Beyond the finest level, h and e, the rates approach p from q, the finest, by half of what is left at each refinement by ρ, so that `log C` changes by
+/// `(p - q) log ρ` in all. The interval answers for slower pollution and for scatter by five half-widths of the rate's, times log ρ.
+pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
+    let [low, high] = rate.interval?;
+    let [.., before, finest] = levels.get(rate.used.clone())? else { return None };
+    let ratio = (before.step / finest.step).ln();
+    let last = (before.error / finest.error).ln() / ratio;
+    let middle = finest.error.ln() - rate.order * finest.step.ln() + (rate.order - last) * ratio;
+    let half = DOUBT_OF_A_CONSTANT * 0.5 * (high - low) * ratio;
+    Some([(middle - half).exp(), (middle + half).exp()])
+}
+
+/// The same rate where its constant has to lie between two numbers, too: a mistake of the scheme's own order changes nothing else.
+pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
+    let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else { return rate };
+    let kind = if high < least || low > most {
+        Reason::ConstantOff
+    } else if low < least || high > most {
+        Reason::ConstantUnsure
+    } else {
+        return rate;
+    };
+    rate.with_reason(kind, &format!("{} ({low:.4} to {high:.4}, claimed {least} to {most})", kind.text()))
+}
+
+/// The largest error, and whether all of them are at most `bound`: what is exact up to round-off. NaN never is.
+pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
+    let largest = errors.into_iter().map(f64::abs).fold(f64::NEG_INFINITY, crate::text::number::max_or_nan);
+    (largest, largest <= bound && largest >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::verdict::{Judge, Verdict};
+    use super::*;
+
+    fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
+        (1..7).map(|k| 0.5_f64.powi(k)).map(|step| Level { step, error: error(step) }).collect()
+    }
+
+    fn judged(levels: &[Level], order: f64) -> RateVerdict {
+        Judge::default().judge(levels, order)
+    }
+
+    #[test]
+    fn a_higher_rate_is_at_least_the_order_and_a_lower_one_is_not() {
+        let least = |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).kind;
+        assert_eq!(least(2.0, |h| h.powi(3)), Reason::Agrees);
+        assert_eq!(least(2.0, |h| h * h), Reason::Agrees);
+        assert_eq!(least(2.0, |h| h.powf(1.5)), Reason::TooLow);
+        // Between the ends of the band, and at the lower one.
+        assert_eq!(least(1.8, |h| h * h), Reason::Agrees);
+        assert_ne!(least(2.25, |h| h * h * (1.0 - 0.8 * h)), Reason::Agrees);
+        // On their way up from the order, and down from above it.
+        assert_eq!(least(2.0, |h| h * h - 0.004 * h), Reason::Agrees);
+        assert_eq!(least(2.0, |h| h * h + 0.004 * h), Reason::Departs);
+        assert_eq!(least(2.0, |h| h.powi(3) + 0.002 * h), Reason::FallsAway);
+        assert_eq!(least(2.0, |_| f64::NAN), Reason::NonFiniteError);
+    }
+
+    #[test]
+    fn errors_over_degrees_have_a_factor() {
+        let by_factor = |factor: f64| {
+            let levels = (1..6).map(f64::from).map(|p| Level { step: step_of_degree(p), error: 3.0 * factor.powf(-p) });
+            levels.collect::<Vec<_>>()
+        };
+        assert_eq!(judged(&by_factor(5.0), order_of_factor(5.0)).verdict, Verdict::Pass);
+        assert_eq!(judged(&by_factor(3.0), order_of_factor(5.0)).kind, Reason::TooLow);
+        assert_eq!(at_least(judged(&by_factor(9.0), order_of_factor(5.0))).verdict, Verdict::Pass);
+    }
+
+    #[test]
+    fn a_constant_is_held_against_its_interval() {
+        let with =
+            |levels: &[Level], least: f64, most: f64| with_constant(levels, judged(levels, 2.0), [least, most]).kind;
+        let smooth = levels(|h| 3.0 * h * h * (1.0 + 0.3 * h));
+        let [low, high] = constant(&smooth, &judged(&smooth, 2.0)).expect("a rate");
+        assert!(low < 3.0 && 3.0 < high && high / low < 1.1, "{low} {high}");
+        assert_eq!(with(&smooth, 2.7, 3.3), Reason::Agrees);
+        assert_eq!(with(&smooth, 3.3, 4.0), Reason::ConstantOff);
+        assert_eq!(with(&smooth, 2.0, 2.7), Reason::ConstantOff);
+        assert_eq!(with(&smooth, 3.0, 4.0), Reason::ConstantUnsure);
+        assert_eq!(with(&smooth, 2.0, 3.0), Reason::ConstantUnsure);
+        let lost = levels(|h| 3.0 * h);
+        assert_eq!(with(&lost, 2.7, 3.3), Reason::TooLow);
+        assert_eq!(constant(&smooth, &judged(&smooth[..2], 2.0)), None);
+    }
+
+    #[test]
+    fn what_is_exact_has_no_error_above_the_bound() {
+        assert_eq!(exact([1e-13, -2e-13], 1e-12), (2e-13, true));
+        assert_eq!(exact([1e-13, -2e-12], 1e-12), (2e-12, false));
+        assert!(!exact([1e-13, f64::NAN], 1e-12).1 && !exact([], 1e-12).1);
+    }
+}

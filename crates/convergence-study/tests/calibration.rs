@@ -90,6 +90,8 @@ fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
         assert!(fail == 0.0 && holds >= 0.95 && hidden <= 0.02 && constant == 0.0 && squares <= 0.02, "{row:?}");
         assert!(noisy_fail <= 0.02 && noisy_holds >= 0.88, "{row:?}");
     }
+    let sound: Vec<f64> = grids[0].rows.iter().map(|row| row.values[0]).collect();
+    assert!(sound.windows(2).all(|pair| pair[1] > pair[0]) && sound[2] > 0.75, "{sound:?}");
 }
 
 #[test]

@@ -1,7 +1,6 @@
-//! Orders over a grid of h and dt: how often they are right, and what they make of errors that do not add.
+//! Orders over a grid of h and dt, and what they make of errors that do not add; how often they are right is in `calibration.rs`.
 
 use convergence_study::judge::grid::{Adding, GridErrors};
-use convergence_study::judge::random::SplitMix;
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::study::Claim;
 use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
@@ -21,146 +20,6 @@ fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl F
 
 fn verdicts(verdict: &GridVerdict) -> [Verdict; 3] {
     [verdict.rates[0].1.verdict, verdict.rates[1].1.verdict, verdict.checks[0].verdict]
-}
-
-/// A(h) + B(dt), or the root of their squares.
-struct Law {
-    h: Vec<f64>,
-    dt: Vec<f64>,
-    orders: [f64; 2],
-    pollution: [f64; 2],
-    exponent: f64,
-    /// f of h^(p + 1) + f h^p; none where the table is smooth.
-    hidden: Option<f64>,
-    constant: f64,
-    power: f64,
-}
-
-const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
-
-impl Law {
-    fn draw(levels: usize, hidden: bool, random: &mut SplitMix) -> Self {
-        let first = |random: &mut SplitMix| [0.5, 0.25, 0.125][random.below(3)];
-        let order = |random: &mut SplitMix| ORDERS[random.below(ORDERS.len())];
-        let mut law = Self {
-            h: halved(first(random), levels),
-            dt: halved(first(random), levels),
-            orders: [order(random), order(random)],
-            pollution: [random.within([-0.8, 2.0]), random.within([-0.8, 2.0])],
-            exponent: [1.0, random.within([0.5, 2.0])][random.below(2)],
-            hidden: hidden.then(|| 10.0_f64.powf(random.within([-2.0, 0.0]))),
-            constant: 1.0,
-            power: [1.0, 2.0][random.below(2)],
-        };
-        let share = 30.0_f64.powf(random.within([-1.0, 1.0]));
-        law.constant = share * law.space(law.h[levels / 2]) / law.time(law.dt[levels / 2]);
-        law
-    }
-
-    fn space(&self, h: f64) -> f64 {
-        let [p, _] = self.orders;
-        match self.hidden {
-            Some(share) => h.powf(p + 1.0) + share * h.powf(p),
-            None => h.powf(p) * (1.0 + self.pollution[0] * h.powf(self.exponent)),
-        }
-    }
-
-    fn time(&self, dt: f64) -> f64 {
-        self.constant * dt.powf(self.orders[1]) * (1.0 + self.pollution[1] * dt.powf(self.exponent))
-    }
-
-    fn error(&self, h: f64, dt: f64) -> f64 {
-        (self.space(h).powf(self.power) + self.time(dt).powf(self.power)).powf(1.0 / self.power)
-    }
-
-    /// One order above the lower one where that is hidden.
-    fn claims(&self) -> [f64; 2] {
-        [self.orders[0] + if self.hidden.is_some() { 1.0 } else { 0.0 }, self.orders[1]]
-    }
-}
-
-/// Orders judged, and what was said of them.
-#[derive(Debug, Default)]
-struct Tally {
-    orders: usize,
-    intervals: usize,
-    covered: usize,
-    passed: usize,
-    failed: usize,
-}
-
-impl Tally {
-    fn percent(&self, part: usize) -> f64 {
-        100.0 * part as f64 / self.orders as f64
-    }
-
-    fn coverage(&self) -> f64 {
-        100.0 * self.covered as f64 / self.intervals as f64
-    }
-}
-
-const TABLES: usize = 60;
-
-/// Orders of smooth tables, both; of those with a hidden term, that in h, of which one too many is claimed.
-fn tally(levels: usize, hidden: bool, tolerance: f64, change: impl Fn(f64, &mut SplitMix) -> f64) -> Tally {
-    let mut random = SplitMix::new(17);
-    let mut tally = Tally::default();
-    for _ in 0..TABLES {
-        let law = Law::draw(levels, hidden, &mut random);
-        let mut noise = SplitMix::new(random.next_u64());
-        let table: Vec<Vec<f64>> =
-            law.h.iter().map(|&h| law.dt.iter().map(|&dt| change(law.error(h, dt), &mut noise)).collect()).collect();
-        let at = |steps: &[f64], step: f64| steps.iter().position(|known| *known == step).expect("a step of the grid");
-        let verdict = judged(&law.h, &law.dt, law.claims(), tolerance, |h, dt| table[at(&law.h, h)][at(&law.dt, dt)]);
-        for ((_, rate), order) in verdict.rates.iter().zip(law.orders).take(if hidden { 1 } else { 2 }) {
-            tally.orders += 1;
-            tally.passed += usize::from(rate.verdict == Verdict::Pass);
-            tally.failed += usize::from(rate.verdict == Verdict::Fail);
-            if let Some([low, high]) = rate.interval {
-                tally.intervals += 1;
-                tally.covered += usize::from(low <= order && order <= high);
-            }
-        }
-    }
-    tally
-}
-
-fn exact(error: f64, _: &mut SplitMix) -> f64 {
-    error
-}
-
-#[test]
-fn intervals_hold_the_orders_and_right_claims_do_not_fail() {
-    for (levels, least) in [(4, 4.0), (5, 30.0), (6, 55.0), (8, 80.0)] {
-        let [narrow, wide] = [0.1, 0.2].map(|tolerance| tally(levels, false, tolerance, exact));
-        assert!(narrow.coverage() >= 95.0 && narrow.intervals == narrow.orders, "{levels}: {narrow:?}");
-        assert!(narrow.percent(narrow.failed) <= 0.5 && wide.failed == 0, "{levels}: {narrow:?} {wide:?}");
-        assert!(narrow.percent(narrow.passed) >= least, "{levels}: {narrow:?}");
-        assert!(wide.passed > narrow.passed, "{levels}: {narrow:?} {wide:?}");
-    }
-}
-
-#[test]
-fn a_lower_order_that_hides_does_not_pass() {
-    for levels in [4, 5, 6, 8] {
-        for tolerance in [0.1, 0.2] {
-            let hidden = tally(levels, true, tolerance, exact);
-            assert!(hidden.percent(hidden.passed) <= 1.0, "{levels} ± {tolerance}: {hidden:?}");
-        }
-    }
-    let seen = tally(8, true, 0.2, exact);
-    assert!(seen.percent(seen.failed) >= 90.0, "{seen:?}");
-}
-
-#[test]
-fn noise_makes_right_claims_inconclusive() {
-    for noise in [1e-3, 1e-2] {
-        for levels in [5, 8] {
-            let scattered = tally(levels, false, 0.2, |error, random| error * (noise * random.normal()).exp());
-            assert!(scattered.percent(scattered.failed) <= 2.0, "{levels} {noise}: {scattered:?}");
-            assert!(scattered.coverage() >= 88.0, "{levels} {noise}: {scattered:?}");
-        }
-    }
 }
 
 #[test]
@@ -264,32 +123,6 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
     {
         let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, |h, dt| h + dt + share * finest / (1.0 - share));
         assert!(verdict.rates.iter().all(|(_, rate)| rate.kind == kind), "{share}: {verdict:?}");
-    }
-}
-
-/// Constants of a tenth to three times the finest error, added to it or to its square, of either sign.
-#[test]
-fn grids_with_a_wrong_limit_do_not_pass_and_sound_ones_do() {
-    for levels in [5, 6, 8] {
-        let (mut random, mut sound, mut wrong, mut lost) = (SplitMix::new(23), 0, 0, 0);
-        for _ in 0..2 * TABLES {
-            let law = Law::draw(levels, false, &mut random);
-            let size = random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
-            let finest = law.error(law.h[levels - 1], law.dt[levels - 1]);
-            let passes = |error: &dyn Fn(f64, f64) -> f64| {
-                verdicts(&judged(&law.h, &law.dt, law.claims(), 0.2, error)) == [Verdict::Pass; 3]
-            };
-            let explained = |error: &dyn Fn(f64, f64) -> f64| {
-                let verdict = judged(&law.h, &law.dt, law.claims(), 0.2, error);
-                verdict.rates.iter().any(|(_, rate)| matches!(rate.kind, Reason::LeftOver | Reason::WrongLimit))
-            };
-            sound += usize::from(passes(&|h, dt| law.error(h, dt)));
-            lost += usize::from(explained(&|h, dt| law.error(h, dt)));
-            wrong += usize::from(passes(&|h, dt| (law.error(h, dt) + size * finest).abs()));
-            wrong += usize::from(passes(&|h, dt| law.error(h, dt).hypot(size * finest)));
-        }
-        assert!(wrong <= 2 && lost <= 1, "{levels}: {wrong} wrong, {lost} lost");
-        assert!(sound >= TABLES, "{levels}: {sound} sound");
     }
 }
 

@@ -57,6 +57,9 @@ pub struct Scenes {
     scenes: Vec<Whole>,
 }
 
+/// Numbers by their names, some of [`NUMBERS`].
+type Answer = Vec<(&'static str, f64)>;
+
 /// A scene and what is known of it.
 #[derive(Debug, Clone)]
 struct Whole {
@@ -64,8 +67,7 @@ struct Whole {
     claim: String,
     scene: Scene,
     end: End,
-    /// Numbers by their names, some of [`NUMBERS`].
-    answer: Vec<(&'static str, f64)>,
+    answer: Answer,
     /// Bound on the distance to each number of the answer.
     within: f64,
 }
@@ -121,7 +123,7 @@ fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
 }
 
 /// The numbers of an answer, and the bound.
-fn numbers_of(section: &Section<'_>) -> Result<(Vec<(&'static str, f64)>, f64), InputError> {
+fn numbers_of(section: &Section<'_>) -> Result<(Answer, f64), InputError> {
     section.allow(&[&["within"], &NUMBERS[..]].concat())?;
     let within = section.positive("within")?;
     let number = |name| section.get(name).map(|field| Ok((name, field.number()?)));

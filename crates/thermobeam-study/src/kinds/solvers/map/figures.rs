@@ -13,73 +13,59 @@ const FASTEST: f64 = 1e-6;
 /// Residuals below are shown as this, a hundredth of a rounding error.
 const EXACT: f64 = 1e-18;
 
-/// What a map shows at each point, and which points it hatches instead.
+/// What a map shows at each point; where the solver fails it is hatched instead.
 struct Shown {
     file: &'static str,
     caption: String,
     z: Axis,
     /// Smaller values are shown as this.
     least: f64,
+    /// A number of Newton's method; else one of the fixed point.
+    of_newton: bool,
     value: fn(&Point) -> Option<f64>,
-    hatched: fn(&Point) -> bool,
-    hatched_label: &'static str,
     boundaries: Vec<Series>,
 }
 
 pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
     let maps = Maps { map, rows };
     let over = map.over.name();
-    let of_fixed_point = |file, axis: &str, least, value, caption| Shown {
-        file,
-        caption,
-        z: Axis::log(axis),
-        least,
-        value,
-        hatched: |point| !point.fixed_point.converged,
-        hatched_label: "the fixed point fails",
-        boundaries: vec![maps.predicted(), maps.found(lines)],
-    };
-    let of_newton = |file, z, least, value, boundaries, caption| Shown {
-        file,
-        caption,
-        z,
-        least,
-        value,
-        hatched: |point| !point.newton_completes,
-        hatched_label: "operator not definite",
-        boundaries,
-    };
     let shown = [
-        of_fixed_point(
-            "contraction",
-            "contraction per iteration",
-            FASTEST,
-            |point| point.fixed_point.contraction,
-            format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
-        ),
-        of_fixed_point(
-            "iterations",
-            "iterations of the fixed point",
-            1.0,
-            |point| Some(point.fixed_point.iterations as f64),
-            format!("Iterations of the fixed point in a step over dt and {over}."),
-        ),
-        of_newton(
-            "newton",
-            Axis::linear("most Newton iterations in a step"),
-            1.0,
-            |point| Some(point.newton?.iterations as f64),
-            maps.definite(),
-            format!("Most iterations of Newton's method in a step over dt and {over}."),
-        ),
-        of_newton(
-            "balance",
-            Axis::log("largest residual / energy"),
-            EXACT,
-            |point| Some(point.newton?.worst.residual),
-            vec![maps.predicted()],
-            format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
-        ),
+        Shown {
+            file: "contraction",
+            caption: format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
+            z: Axis::log("contraction per iteration"),
+            least: FASTEST,
+            of_newton: false,
+            value: |point| point.fixed_point.contraction,
+            boundaries: vec![maps.predicted(), maps.found(lines)],
+        },
+        Shown {
+            file: "iterations",
+            caption: format!("Iterations of the fixed point in a step over dt and {over}."),
+            z: Axis::log("iterations of the fixed point"),
+            least: 1.0,
+            of_newton: false,
+            value: |point| Some(point.fixed_point.iterations as f64),
+            boundaries: vec![maps.predicted(), maps.found(lines)],
+        },
+        Shown {
+            file: "newton",
+            caption: format!("Most iterations of Newton's method in a step over dt and {over}."),
+            z: Axis::linear("most Newton iterations in a step"),
+            least: 1.0,
+            of_newton: true,
+            value: |point| Some(point.newton?.iterations as f64),
+            boundaries: maps.definite(),
+        },
+        Shown {
+            file: "balance",
+            caption: format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
+            z: Axis::log("largest residual / energy"),
+            least: EXACT,
+            of_newton: true,
+            value: |point| Some(point.newton?.worst.residual),
+            boundaries: vec![maps.predicted()],
+        },
     ];
     shown.into_iter().map(|shown| maps.draw(id, shown)).collect()
 }
@@ -91,7 +77,9 @@ struct Maps<'a> {
 
 impl Maps<'_> {
     fn draw(&self, id: &str, shown: Shown) -> Figure {
-        let Shown { file, caption, z, least, value, hatched, hatched_label, boundaries } = shown;
+        let Shown { file, caption, z, least, of_newton, value, boundaries } = shown;
+        let fails = if of_newton { "operator not definite" } else { "the fixed point fails" };
+        let hatched = |point: &Point| if of_newton { !point.newton_completes } else { !point.fixed_point.converged };
         let cell = |point: &Point| match value(point).filter(|_| !hatched(point)) {
             // `max` would replace NaN by the least value.
             Some(value) if !value.is_nan() => value.max(least),
@@ -107,7 +95,7 @@ impl Maps<'_> {
             values: self.rows.iter().map(|(_, row)| row.points.iter().map(cell).collect()).collect(),
         };
         let marked = self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect();
-        let map = ParameterMap { cells, marked, marked_label: hatched_label.to_owned(), boundaries };
+        let map = ParameterMap { cells, marked, marked_label: fails.to_owned(), boundaries };
         Figure::new(id, file, caption, plots::parameter_map(&map))
     }
 

@@ -423,7 +423,7 @@ fn json_is_alone_on_standard_output() {
         command.args(["--format", "json"]).env("GITHUB_ACTIONS", "true").env("GITHUB_STEP_SUMMARY", &summary);
         let (status, out, err) = texts(command.output().unwrap());
         let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &2.into()));
+        assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &1.into()));
         assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
         assert!(fs::read_to_string(&summary).unwrap().contains("**fail**"), "{arguments:?}");
         fs::remove_file(summary).unwrap();

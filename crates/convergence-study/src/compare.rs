@@ -170,7 +170,7 @@ fn compare_study(
     match (was.outcome.verdict, is.outcome.verdict) {
         (was, is) if is > was && own < Some(Change::Worse) => findings.push(whole(id, Change::Worse, words())),
         (Verdict::Fail, Verdict::Pass) if own < Some(Change::Better) => {
-            findings.push(whole(id, Change::Better, words()))
+            findings.push(whole(id, Change::Better, words()));
         }
         _ => {}
     }

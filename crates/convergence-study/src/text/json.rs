@@ -46,9 +46,9 @@ pub(crate) mod counted {
         for (name, number) in numbers {
             let whole = *number as i64;
             if whole as f64 == *number {
-                map.serialize_entry(name, &whole)?
+                map.serialize_entry(name, &whole)?;
             } else {
-                map.serialize_entry(name, number)?
+                map.serialize_entry(name, number)?;
             }
         }
         map.end()

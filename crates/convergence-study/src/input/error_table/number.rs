@@ -41,7 +41,7 @@ pub(super) fn is_dash(cell: &str) -> bool {
 /// The value of a cell; `None` where it is no number.
 ///
 /// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may
-/// be 1024.
+///   be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     // Most cells that are no numbers are words, of which there may be a hundred thousand.
     if cell.is_empty() || (cell.starts_with(char::is_alphabetic) && cell.parse::<f64>().is_err()) {

@@ -124,7 +124,10 @@ fn problem(
             }
             let by = discretisations(root, "reference", None, scene.t_end)?;
             let agreement = section.positive("agreement")?;
-            Ok((family, Answer::Agreed { scene: Box::new(scene), by, agreement, computed: OnceLock::new() }))
+            Ok((
+                family,
+                Answer::Agreed { scene: Box::new(scene), by: Box::new(by), agreement, computed: OnceLock::new() },
+            ))
         }
         (None, None, Some(_)) => Ok((vibration(section)?, Answer::Exact)),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),

@@ -105,7 +105,7 @@ enum Answer {
     /// The exact solution.
     Exact,
     /// A scene by two discretisations of any order, and how far they may be apart in the norm of Theorem 3.4.
-    Agreed { scene: Box<Scene>, by: [Discretisation; 2], agreement: f64, computed: Computed<Reference> },
+    Agreed { scene: Box<Scene>, by: Box<[Discretisation; 2]>, agreement: f64, computed: Computed<Reference> },
     /// u(1, t) at the times of observation, by dG.
     Tip(Computed<Vec<f64>>),
 }

@@ -12,8 +12,9 @@ use std::process::Command;
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report;
+use convergence_study::store::StoreError;
 use convergence_study::store::atomic;
-use convergence_study::store::record::{Record, RecordError};
+use convergence_study::store::record::Record;
 use convergence_study::study::Quantity;
 use convergence_study::study::Tier;
 use convergence_study::study::outcome::Table;
@@ -85,7 +86,7 @@ struct Numbers {
 
 impl Numbers {
     /// * `path`: of the program that printed the record.
-    fn parse(json: &str, path: &Path) -> Result<Self, RecordError> {
+    fn parse(json: &str, path: &Path) -> Result<Self, StoreError> {
         let mut numbers = Self::default();
         for study in Record::parse(json, path)?.studies {
             if study.outcome.verdict != Verdict::Pass {

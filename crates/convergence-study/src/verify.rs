@@ -13,8 +13,9 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, SeeAlso};
 use crate::run::{self, Effort, Finished, Progress, RunError};
+use crate::store::StoreError;
 use crate::store::atomic;
-use crate::store::baseline::{Baseline, BaselineError, Change, Refusal};
+use crate::store::baseline::{Baseline, Change, Refusal};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::{self, Record};
@@ -161,7 +162,7 @@ pub enum VerificationError {
     Run(#[from] RunError),
     /// The baseline cannot be used.
     #[error(transparent)]
-    Baseline(#[from] BaselineError),
+    Baseline(#[from] StoreError),
     /// The reports cannot be written.
     #[error("{}: the reports cannot be written: {error}", visible::path(.folder))]
     Reports {

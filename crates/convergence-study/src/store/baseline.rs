@@ -25,14 +25,14 @@ mod claims;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::{atomic, regular};
+use crate::store::{StoreError, atomic, regular};
 use crate::study::Header;
 use crate::text::{json, visible};
 
@@ -42,6 +42,10 @@ use claims::Claims;
 
 /// Version of the file's form.
 const SCHEMA: u32 = 2;
+
+/// What to do about another version.
+const EXPECTED: &str = "2, which also guards what study files claim; remove the file and run `verify --bless`, then `verify --tier full --bless`; to \
+                        keep the numbers of schema 1, write `\"schema\": 2, \"claims\": {}` in place of its version first and give a `--reason`";
 
 /// The committed numbers and claims.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -73,40 +77,6 @@ pub struct Guarded {
 #[derive(Deserialize)]
 struct Version {
     schema: u32,
-}
-
-/// A baseline that cannot be read or written.
-#[derive(Debug, Error)]
-pub enum BaselineError {
-    /// The file cannot be read or written.
-    #[error("{}: {error}", visible::path(.path))]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong.
-        error: io::Error,
-    },
-    /// Not the form of a baseline.
-    #[error("{}: {}; restore it, or remove it and run `verify --bless`", visible::path(.path), visible::visible(&.error.to_string()))]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong, with line and column.
-        error: serde_json::Error,
-    },
-    /// Written for another version of the harness.
-    #[error(
-        "{}: schema: found {found}; expected {SCHEMA}, which also guards what study files claim; remove the file and run \
-         `verify --bless`, then `verify --tier full --bless`; to keep the numbers of schema 1, write `\"schema\": {SCHEMA}, \
-         \"claims\": {{}}` in place of its version first and give a `--reason`",
-        visible::path(.path)
-    )]
-    Schema {
-        /// The file.
-        path: PathBuf,
-        /// The version found.
-        found: u32,
-    },
 }
 
 /// Why a run was not taken for the baseline.
@@ -156,29 +126,33 @@ impl Baseline {
     /// Reads the file. One that is not there is empty: every number is then new.
     ///
     /// # Errors
-    /// [`BaselineError`] where there is a file that is not a baseline.
-    pub fn read(path: &Path) -> Result<Self, BaselineError> {
+    /// [`StoreError`] where there is a file that is not a baseline.
+    pub fn read(path: &Path) -> Result<Self, StoreError> {
         let text = match regular::read_to_string(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(error) => return Err(BaselineError::File { path: path.to_owned(), error }),
+            Err(error) => return Err(StoreError::File { path: path.to_owned(), error }),
             Ok(text) => text,
         };
-        let malformed = |error| BaselineError::Malformed { path: path.to_owned(), error };
+        let malformed = |error| StoreError::Malformed {
+            path: path.to_owned(),
+            error,
+            expected: "restore it, or remove it and run `verify --bless`",
+        };
         // Another schema has other keys, so its version is read alone.
         match serde_json::from_str(&text).map_err(malformed)? {
             Version { schema: SCHEMA } => serde_json::from_str(&text).map_err(malformed),
-            Version { schema } => Err(BaselineError::Schema { path: path.to_owned(), found: schema }),
+            Version { schema } => Err(StoreError::Schema { path: path.to_owned(), found: schema, expected: EXPECTED }),
         }
     }
 
     /// Writes the file, as a whole or not at all.
     ///
     /// # Errors
-    /// [`BaselineError::File`].
-    pub fn write(&self, path: &Path) -> Result<(), BaselineError> {
+    /// [`StoreError::File`].
+    pub fn write(&self, path: &Path) -> Result<(), StoreError> {
         let text = crate::store::record::json(self).map_err(io::Error::from);
         text.and_then(|text| atomic::write(path, text))
-            .map_err(|error| BaselineError::File { path: path.to_owned(), error })
+            .map_err(|error| StoreError::File { path: path.to_owned(), error })
     }
 
     /// Every guarded number of these studies that is not what it was, and every claim: moved, changed, new or vanished.

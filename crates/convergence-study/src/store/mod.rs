@@ -9,7 +9,46 @@ pub mod record;
 pub mod regular;
 pub mod writing;
 
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
 use crate::judge::random::SplitMix;
+use crate::text::visible;
+
+/// A file of the harness that cannot be read or written.
+#[derive(Debug, Error)]
+pub enum StoreError {
+    /// The file cannot be read or written.
+    #[error("{}: {error}", visible::path(.path))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong.
+        error: io::Error,
+    },
+    /// Another form.
+    #[error("{}: {}; {expected}", visible::path(.path), visible::visible(&.error.to_string()))]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong, with line and column.
+        error: serde_json::Error,
+        /// What is expected, or what to do.
+        expected: &'static str,
+    },
+    /// Written by a version with another form.
+    #[error("{}: schema: found {found}; expected {expected}", visible::path(.path))]
+    Schema {
+        /// The file.
+        path: PathBuf,
+        /// The version found.
+        found: u32,
+        /// The version that is read.
+        expected: &'static str,
+    },
+}
 
 /// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.
 ///

@@ -7,21 +7,21 @@
 //! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why. Read back, `null` is NaN.
 //! The pictures are files of their own beside the record, in [`FIGURES`].
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::baseline::Change;
-use crate::store::regular;
+use crate::store::{StoreError, regular};
 use crate::text::number::{committed, committed_rate};
-use crate::text::visible;
 
 /// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
 pub const SCHEMA: u32 = 1;
+
+/// What is read as a record.
+const EXPECTED: &str = "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
 
 /// The folder of the pictures, beside the record.
 pub const FIGURES: &str = "figures";
@@ -49,58 +49,29 @@ pub struct Record {
     pub studies: Vec<Finished>,
 }
 
-/// A record that cannot be read.
-#[derive(Debug, Error)]
-pub enum RecordError {
-    /// The file cannot be read.
-    #[error("{}: {error}", visible::path(.path))]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong.
-        error: io::Error,
-    },
-    /// Not the form of a record.
-    #[error("{}: {}; expected a record as `verify` writes it to results.json, or `study --format json` prints it", visible::path(.path), visible::visible(&.error.to_string()))]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong, with line and column.
-        error: serde_json::Error,
-    },
-    /// Written by a version with another form.
-    #[error("{}: schema: found {found}; expected {SCHEMA}", visible::path(.path))]
-    Schema {
-        /// The file.
-        path: PathBuf,
-        /// The version found.
-        found: u32,
-    },
-}
-
 impl Record {
     /// Reads a record that [`json`] has written; its figures have no pictures.
     ///
     /// # Errors
-    /// [`RecordError`].
-    pub fn read(path: &Path) -> Result<Self, RecordError> {
+    /// [`StoreError`].
+    pub fn read(path: &Path) -> Result<Self, StoreError> {
         let path = path.to_owned();
         match regular::read_to_string(&path) {
             Ok(text) => Self::parse(&text, &path),
-            Err(error) => Err(RecordError::File { path, error }),
+            Err(error) => Err(StoreError::File { path, error }),
         }
     }
 
     /// The same from its text.
     ///
     /// # Errors
-    /// [`RecordError`], naming `path`.
-    pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
+    /// [`StoreError`], naming `path`.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, StoreError> {
         let path = path.to_owned();
         match serde_json::from_str::<Self>(text) {
             Ok(record) if record.schema == SCHEMA => Ok(record),
-            Ok(record) => Err(RecordError::Schema { path, found: record.schema }),
-            Err(error) => Err(RecordError::Malformed { path, error }),
+            Ok(record) => Err(StoreError::Schema { path, found: record.schema, expected: "1" }),
+            Err(error) => Err(StoreError::Malformed { path, error, expected: EXPECTED }),
         }
     }
 

@@ -1,7 +1,8 @@
 use std::fs;
 
 use convergence_study::run::Finished;
-use convergence_study::store::baseline::{Baseline, BaselineError, Refusal};
+use convergence_study::store::StoreError;
+use convergence_study::store::baseline::{Baseline, Refusal};
 use convergence_study::study::{Quantity, erased};
 
 use crate::fake::{Does, Fake, fake, finished, ids, study};
@@ -156,7 +157,7 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
     for text in ["", "{}", "[1", r#"{ "schema": 2, "claims": {}, "studies": {}, "more": 1 }"#] {
         fs::write(&file, text).unwrap();
         let refused = Baseline::read(&file).unwrap_err();
-        assert!(matches!(refused, BaselineError::Malformed { .. }), "{text}");
+        assert!(matches!(refused, StoreError::Malformed { .. }), "{text}");
         assert!(refused.to_string().contains("baseline.json: "), "{refused}");
     }
     for version in [1, 3] {

@@ -1,8 +1,8 @@
 //! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always does.
 //!
 //! The paper leaves the convergence of its iteration out. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn` per
-//! iteration ([`contact_contraction`](thermobeam::contraction::contact_contraction)), free of contact by a factor γ < 1
-//! ([`coupling_contraction`](thermobeam::contraction::coupling_contraction)); past α = 1 the iteration diverges. A study
+//! iteration ([`contact_contraction`]), free of contact by a factor γ < 1
+//! ([`coupling_contraction`]); past α = 1 the iteration diverges. A study
 //! asks one or more of three questions, one table of its file each:
 //!
 //! ```toml

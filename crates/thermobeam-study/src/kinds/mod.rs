@@ -14,6 +14,7 @@ pub mod exact_experiments;
 pub mod experiment;
 pub mod frequencies;
 mod prelude;
+pub mod random_errors;
 pub mod rigid;
 pub mod scenes;
 pub mod self_convergence;

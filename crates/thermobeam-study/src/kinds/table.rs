@@ -5,11 +5,11 @@ use convergence_study::study::KindRow;
 
 use super::{
     any_order, bifurcation, calibration, controls, convergence, energy, equilibrium, exact_experiments, experiment,
-    frequencies, rigid, scenes, self_convergence, solvers, vibration, work_precision,
+    frequencies, random_errors, rigid, scenes, self_convergence, solvers, vibration, work_precision,
 };
 
 /// One row for each kind; the first is that of a file without `kind`.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 18] = [
     convergence::ROW,
     any_order::ROW,
     controls::ROW,
@@ -23,6 +23,7 @@ pub const KINDS: [KindRow; 17] = [
     exact_experiments::ROW,
     equilibrium::ROW,
     bifurcation::ROW,
+    random_errors::ROW,
     rigid::ROW,
     work_precision::ROW,
     calibration::ROW,

@@ -103,16 +103,11 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 /// # Errors
 /// [`Unreachable`]: the scene's own run fails, or there is no reference that is good enough.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
-    let every = scene.steps().div_ceil(TIMES);
-    let own = match scene.method {
-        Method::OneStep(_) => by_one_step(scene, &Rows::Numbers, every, work),
-        Method::Dg(_) => by_dg(scene, &Rows::Numbers, None, work),
-    };
-    let own = own.map_err(|reason| none(0.0, reason))?;
+    let own = own_curves(scene, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
     let (reference, exact) = against(scene, &own, &times, work)?;
     let finer = match scene.method {
-        Method::OneStep(_) => finer_one_step(scene, &Rows::Numbers, every, work),
+        Method::OneStep(_) => finer_one_step(scene, &Rows::Numbers, every(scene), work),
         Method::Dg(_) => [finer_space(scene), Some(finer_steps(scene))]
             .map(|finer| by_dg(&finer.ok_or(Reason::Finest)?, &Rows::Numbers, Some(&times), work)),
     };
@@ -128,6 +123,28 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
         .collect();
     let dominant = dominant(&quantities);
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
+}
+
+/// Of so many levels of a one-step scheme one is compared.
+fn every(scene: &Scene) -> usize {
+    scene.steps().div_ceil(TIMES)
+}
+
+fn own_curves(scene: &Scene, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    match scene.method {
+        Method::OneStep(_) => by_one_step(scene, &Rows::Numbers, every(scene), work),
+        Method::Dg(_) => by_dg(scene, &Rows::Numbers, None, work),
+    }
+}
+
+/// The differences of a scene's numbers to those of another run, which is by dG, in the order of [`Budget::quantities`].
+///
+/// # Errors
+/// [`Reason`]: one of the runs did not come to its end.
+pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<[f64; OBSERVABLES.len()], Reason> {
+    let own = own_curves(scene, work)?;
+    let other = by_dg(other, &Rows::Numbers, Some(&own.own_times()), work)?;
+    Ok(OBSERVABLES.map(|(_, kind, k)| measured(kind, k, &own, &other).1))
 }
 
 /// A one-step scheme with twice the elements alone, and with half of dt alone.

@@ -101,7 +101,7 @@ pub enum Reason {
     #[error("a curve is not finite")]
     NotFinite,
     /// A run did not come to its end.
-    #[error("a run to compare with failed: {0}")]
+    #[error("a run failed: {0}")]
     Run(String),
 }
 
@@ -120,6 +120,9 @@ pub enum Unreachable {
         /// As asked for.
         target: f64,
     },
+    /// The scene's own run did not come to its end.
+    #[error("the scene itself: {0}")]
+    Own(Reason),
     /// Refinement came to its end.
     #[error("an error of {target:.3e} was not reached: {reason}{}", reachable(*reached, *space, *time))]
     NotReached {

@@ -12,6 +12,7 @@ mod exact_experiments;
 mod experiment;
 mod frequencies;
 mod planted;
+mod random_errors;
 mod refused;
 mod rigid;
 mod scenes;

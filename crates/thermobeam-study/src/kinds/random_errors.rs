@@ -1,0 +1,285 @@
+//! Errors and accuracies asked for, of random scenes with contact: against runs that share neither mesh nor steps with the search.
+//!
+//! A mistake that all runs by dG share would not show. So for some scenes linear elements and steps of `midpoint` are refined as well:
+//! they must tend to the run that was chosen.
+//!
+//! ```toml
+//! [random-errors]
+//! scenes = 12            # by turns of the paper's scheme, midpoint and dG
+//! refined = 4            # of every so many scenes one is run on finer and finer linear elements
+//! targets = [1e-4, 1e-6]
+//! seed = 1
+//! ```
+
+use convergence_study::judge::random::SplitMix;
+use thermobeam::dg::Stepping;
+use thermobeam::mesh::Mesh;
+use thermobeam::scheme::MIDPOINT;
+use thermobeam::simulation::Stepping as OneStep;
+use thermobeam::solve::Settings;
+
+use super::prelude::*;
+use crate::predict::choice::{self, choose};
+use crate::predict::estimate::{differences, estimate};
+use crate::predict::{MOST_WORK, Unreachable, Work};
+use crate::scene::Method;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "random-errors",
+    read: reader::<RandomErrors>,
+    why: "An error that is told is believed. It is measured against runs on seven elements of degree 16, which no search tries, and \
+          for some scenes linear elements and small steps must tend to the same motion.",
+    judged: "No error of any number exceeds twice its estimate, no run the error asked for, no search is refused, and the error of \
+             linear elements falls at least fourfold with four times the elements and steps.",
+    failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
+};
+
+/// What an error may be of its estimate.
+const EXCEEDED: f64 = 2.0;
+
+/// How much the error of linear elements must fall with four times the elements and steps: contact leaves first order.
+const FALL: f64 = 4.0;
+
+/// Elements of the coarsest of the linear elements, and its steps in a unit of time.
+const COARSEST: [usize; 2] = [80, 2500];
+
+/// Which of the numbers is the curve of u(1, t).
+const TIP: usize = 3;
+
+/// Relative change of the work that the baseline tolerates: a round more or less of a search.
+const WORK_TOLERANCE: f64 = 0.2;
+
+/// Final time of all scenes.
+const T_END: f64 = 0.4;
+
+/// A study of errors of random scenes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RandomErrors {
+    header: Header,
+    scenes: usize,
+    refined: usize,
+    targets: Vec<f64>,
+    seed: u64,
+}
+
+/// What a scene shows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// The largest error of a number, in units of its estimate.
+    pub over_estimate: f64,
+    /// The largest error of a chosen run, in units of the target.
+    pub over_target: f64,
+    /// Why a search was given up.
+    pub refused: Option<String>,
+    /// Errors of linear elements, and of four times as many in four times the steps.
+    pub linear: Option<[f64; 2]>,
+    /// Work of the searches.
+    pub work: f64,
+}
+
+impl FromFile for RandomErrors {
+    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", ROW.name])?;
+        let section = root.table(ROW.name, &["scenes", "refined", "targets", "seed"])?;
+        let positive = |list: &[f64]| !list.is_empty() && list.iter().all(|target| *target > 0.0);
+        Ok(Self {
+            header,
+            scenes: section.count("scenes", 1..=10_000)?,
+            refined: section.count("refined", 1..=10_000)?,
+            targets: section.list("targets", "a list of numbers > 0", Field::number, positive)?,
+            seed: section.count("seed", 0..=u32::MAX as usize)? as u64,
+        })
+    }
+}
+
+impl RandomErrors {
+    /// A scene: moderate coefficients, obstacles that are hit, smooth initial data.
+    fn scene(&self, number: usize) -> Result<Scene, InputError> {
+        // Far from the seeds of other studies, which are small.
+        let mut random = SplitMix::new((self.seed << 32) + number as u64);
+        let mut between = |low: f64, high: f64| random.within([low, high]);
+        let time = ["dt = 0.002", "dt = 0.004\nscheme = \"midpoint\"", "scheme = \"dg\"\ndegree = 1"][number % 3];
+        let mesh = if number % 3 == 2 { "elements = 2\ndegree = 8" } else { "elements = 32" };
+        let theta_a = between(-5.0, 5.0);
+        let text = format!(
+            "[beam]\nzeta = {:?}\na = {:?}\nrho = {:?}\nbeta = {:?}\ntheta_a = {theta_a:?}\n\
+             [obstacles]\nepsilon = {:?}\ng1 = {:?}\ng2 = {:?}\n\
+             [initial]\nu = \"{:?}*x*(x-2)\"\nu_t = \"{:?}*x + {:?}*x*(x-1)^2\"\ntheta = \"{theta_a:?}*(1-x) + {:?}*sin(pi*x)\"\n\
+             [mesh]\n{mesh}\n[time]\nt_end = {T_END}\n{time}\n",
+            10f64.powf(between(-2.0, 0.0)),
+            between(0.0, 1.0),
+            10f64.powf(between(-0.5, 0.7)),
+            between(-2.0, 5.0),
+            10f64.powf(between(-3.5, -2.0)),
+            -between(0.005, 0.1),
+            between(0.01, 0.1),
+            between(-0.01, 0.01),
+            between(-3.0, 3.0),
+            between(5.0, 20.0),
+            between(-2.0, 2.0),
+        );
+        Scene::parse(&text, "random.toml")
+    }
+
+    /// One element of degree 16 in each of seven layers towards x = 1, and short steps.
+    fn independent(scene: &Scene) -> Result<Scene, CaseFailure> {
+        let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.93, 0.98, 0.995, 0.999, 1.0])?;
+        let impact = scene.obstacles.map_or(T_END, |obstacles| obstacles.impact_time(scene.beam.zeta));
+        let dt = impact.min(0.004);
+        let stepping = Stepping { degree: 4, dt, restart_dt: 1e-3 * impact, growth: 1.2, ..Stepping::default() };
+        Ok(Scene { mesh, degree: 16, method: Method::Dg(stepping), ..scene.clone() })
+    }
+
+    /// Errors of linear elements and of finer ones against a run.
+    fn linear(scene: &Scene, exact: &Scene, work: &mut Work<'_>) -> Result<[f64; 2], CaseFailure> {
+        let [elements, steps] = COARSEST;
+        let mut errors = [f64::NAN; 2];
+        for (error, times) in errors.iter_mut().zip([1, 4]) {
+            let dt = 1.0 / (steps * times) as f64;
+            let stepping = OneStep { scheme: MIDPOINT, settings: Settings::default(), dt, loaded: false };
+            let mesh = Mesh::uniform(elements * times)?;
+            let linear = Scene { mesh, degree: 1, method: Method::OneStep(stepping), ..scene.clone() };
+            *error = differences(&linear, exact, work).map_err(failed)?[TIP];
+        }
+        Ok(errors)
+    }
+
+    /// What a scene shows; `Err` with a search that was given up.
+    fn found(&self, number: usize, scene: &Scene, work: &mut Work<'_>) -> Result<Found, Stopped> {
+        let exact = Self::independent(scene)?;
+        let budget = estimate(scene, work)?;
+        let errors = differences(scene, &exact, work).map_err(failed)?;
+        let over = budget.quantities.iter().zip(errors).map(|(of, error)| error / of.total);
+        let mut found = Found { over_estimate: over.fold(0.0, max_or_nan), ..Found::default() };
+        for &target in &self.targets {
+            let chosen = choose(scene, choice::Quantity::Tip, target, work)?.scene;
+            let error = differences(&chosen, &exact, work).map_err(failed)?[TIP];
+            found.over_target = max_or_nan(found.over_target, error / target);
+        }
+        if number.is_multiple_of(self.refined) {
+            found.linear = Some(Self::linear(scene, &exact, work)?);
+        }
+        Ok(found)
+    }
+}
+
+impl RandomErrors {
+    fn figure(&self, found: &[(&Ran<usize, Found>, &Found)]) -> Figure {
+        let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let svg = plots::work_precision(&plots::WorkPrecision {
+            title: Some("Errors of the runs chosen".to_owned()),
+            x_label: Some("work of a scene's searches (unknowns times solves)".to_owned()),
+            y_label: "largest error of u(1, t) over the error asked for".to_owned(),
+            series: vec![plots::Series { label: "random scenes".to_owned(), points }],
+        });
+        let caption =
+            "Largest errors of the runs chosen for random scenes, in units of the errors asked for: all below 1.";
+        Figure::new(&self.header.id, "errors", caption, svg)
+    }
+}
+
+/// Why a scene shows nothing.
+enum Stopped {
+    Refused(Unreachable),
+    Failed(CaseFailure),
+}
+
+impl From<Unreachable> for Stopped {
+    fn from(refused: Unreachable) -> Self {
+        Self::Refused(refused)
+    }
+}
+
+impl From<CaseFailure> for Stopped {
+    fn from(failure: CaseFailure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+fn failed(failure: impl ToString) -> CaseFailure {
+    CaseFailure { reason: failure.to_string() }
+}
+
+impl Kind for RandomErrors {
+    /// Number of the scene.
+    type Data = usize;
+    type Found = Found;
+
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        (0..self.scenes).map(|data| Case { label: format!("scene {data}"), cost: 3e7, data }).collect()
+    }
+
+    fn run(&self, &number: &usize) -> Result<Found, CaseFailure> {
+        let scene = self.scene(number).map_err(failed)?;
+        let mut told = |_: f64| ();
+        let mut work = Work::new(MOST_WORK, &mut told);
+        let found = match self.found(number, &scene, &mut work) {
+            Ok(found) => found,
+            Err(Stopped::Refused(refused)) => Found { refused: Some(refused.to_string()), ..Found::default() },
+            Err(Stopped::Failed(failure)) => return Err(failure),
+        };
+        Ok(Found { work: work.spent().work, ..found })
+    }
+
+    fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
+        let found: Vec<(&Ran<usize, Found>, &Found)> = ran.iter().filter_map(|ran| Some((ran, ran.ok()?))).collect();
+        let worst = |of: fn(&Found) -> f64| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan);
+        let (over_estimate, over_target) = (worst(|found| found.over_estimate), worst(|found| found.over_target));
+        let falls: Vec<f64> =
+            found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
+        let least = -falls.iter().map(|fall| -fall).fold(f64::NEG_INFINITY, max_or_nan);
+        let refused: Vec<&str> = found.iter().filter_map(|(_, found)| found.refused.as_deref()).collect();
+        let checks = vec![
+            completion(ran, |found| readings::not_finite(&found.readings())),
+            Check::that(
+                over_estimate <= EXCEEDED && !found.is_empty(),
+                format!("no error of a number exceeds {EXCEEDED} times its estimate"),
+                format!("the largest is {over_estimate:.2} of its estimate, of {} numbers", 8 * found.len()),
+            ),
+            Check::that(
+                over_target <= 1.0 && !found.is_empty(),
+                "no run that was chosen misses the error asked for",
+                format!("the largest is {over_target:.2} of it, of {} runs", self.targets.len() * found.len()),
+            ),
+            Check::that(refused.is_empty(), "every search ends with a run", refused.join("; ")),
+            Check::that(
+                least >= FALL && !falls.is_empty(),
+                format!(
+                    "linear elements and steps of midpoint tend to the same motion: their error falls {FALL} times or more"
+                ),
+                format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
+            ),
+        ];
+        let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
+        let work: f64 = found.iter().map(|(_, found)| found.work).sum();
+        let headline = format!(
+            "{} scenes: errors at most {over_estimate:.2} of their estimates and {over_target:.2} of the error asked for",
+            found.len()
+        );
+        Outcome {
+            tables: vec![readings::table("Errors over what was told", &["scene"], &rows)],
+            figures: vec![self.figure(&found)],
+            quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
+            headline: headline.clone(),
+            ..Outcome::new(headline, vec![], checks)
+        }
+    }
+}
+
+impl Found {
+    fn readings(&self) -> Vec<Reading> {
+        vec![
+            Reading::new("error over estimate", self.over_estimate).fixed(2),
+            Reading::new("error over target", self.over_target).fixed(2),
+            Reading::new("linear elements", self.linear.map(|of| of[0])).scientific(1),
+            Reading::new("four times as many", self.linear.map(|of| of[1])).scientific(1),
+            Reading::new("work", self.work).scientific(1),
+        ]
+    }
+}

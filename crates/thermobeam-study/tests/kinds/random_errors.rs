@@ -1,0 +1,52 @@
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::kind::run_cases_here;
+use convergence_study::study::{FromFile, Kind};
+use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors};
+
+use crate::refused::refusal;
+use crate::text;
+use crate::typed::{changed, passes_but_not_without_each_case};
+
+/// Two of the scenes of the file, one of them on linear elements as well.
+fn study() -> RandomErrors {
+    let small = text("random-errors.toml").replace("scenes = 10", "scenes = 2");
+    RandomErrors::parse(&small, "small.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_part_of_the_file_passes_and_each_check_can_fail() {
+    let study = study();
+    passes_but_not_without_each_case(&study);
+    let sound = run_cases_here(&study);
+    let verdict = |change: &dyn Fn(&mut Found)| {
+        let planted = changed::<RandomErrors>(&sound, |case, found| {
+            if case == 0 {
+                change(found);
+            }
+        });
+        study.judge(&planted).verdict
+    };
+    assert_eq!(verdict(&|_| ()), Verdict::Pass);
+    for wrong in [2.01, f64::NAN] {
+        assert_eq!(verdict(&|found| found.over_estimate = wrong), Verdict::Fail, "{wrong}");
+        assert_eq!(verdict(&|found| found.over_target = wrong), Verdict::Fail, "{wrong}");
+        assert_eq!(verdict(&|found| found.linear = Some([1e-3 * wrong, 1e-3])), Verdict::Fail, "{wrong}");
+    }
+    assert_eq!(verdict(&|found| found.refused = Some("given up".to_owned())), Verdict::Fail);
+    assert_eq!(verdict(&|found| found.linear = None), Verdict::Fail, "no linear elements at all");
+}
+
+#[test]
+fn unusable_files_are_refused() {
+    for (from, to, field) in [
+        ("scenes = 10", "scenes = 0", "random-errors.scenes"),
+        ("targets = [1e-4, 1e-6]", "targets = [0.0]", "random-errors.targets"),
+        ("targets = [1e-4, 1e-6]", "targets = []", "random-errors.targets"),
+        ("seed = 1", "seed = -1", "random-errors.seed"),
+        ("refined = 5\n", "", "random-errors.refined"),
+        ("seed = 1", "seed = 1\nsize = 2", "size"),
+    ] {
+        let error = refusal(&ROW, "random-errors.toml", from, to);
+        assert!(error.contains(field), "{to}: {error}");
+    }
+}

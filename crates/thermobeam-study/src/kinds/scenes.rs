@@ -11,6 +11,11 @@
 //! [case.answer]                # with `ends = "answer"` only: numbers as `run --format json` calls them
 //! within = 1e-9                # bound on the distance to each
 //! u_tip = -0.0408657198986
+//! history = [[0.5, 0.012]]     # t and u(1, t), at times k t_end/200
+//! contact = [[0.0, 0.2]]       # beginning and end of each contact
+//! steady = [[-0.01, 0]]        # u(1) and the number of unstable directions of each steady state, in the order of u(1)
+//! estimated_error = 1e-3       # what `--estimate-error` says of u(1) at the end
+//! chosen_u_tip = -0.040865     # u(1) at the end of the run that `--target-error` chooses for an error of `within`
 //! # and the tables of a scene, by any scheme
 //! [case.time]
 //! dt = 0.005
@@ -18,10 +23,15 @@
 //! ```
 
 use convergence_study::text::number::short_text;
+use thermobeam::equilibrium::Equilibrium;
 
 use super::energy::{End, named_cases};
 use super::prelude::*;
+use super::steady::exact_states;
 use super::tables::Discretisation;
+use crate::predict::choice::{Quantity as Accuracy, choose};
+use crate::predict::estimate::estimate;
+use crate::predict::{Unreachable, Work};
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::tally::{EnergySummary, Extremes, Sample};
 use crate::run::together::run_together;
@@ -57,9 +67,6 @@ pub struct Scenes {
     scenes: Vec<Whole>,
 }
 
-/// Numbers by their names, some of [`NUMBERS`].
-type Answer = Vec<(&'static str, f64)>;
-
 /// A scene and what is known of it.
 #[derive(Debug, Clone)]
 struct Whole {
@@ -72,6 +79,28 @@ struct Whole {
     within: f64,
 }
 
+/// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of [`PAIRS`].
+type Answer = Vec<(String, f64)>;
+
+/// Keys of an answer whose values are lists of pairs, and the numbers that each list stands for.
+const PAIRS: [(&str, fn(&[[f64; 2]]) -> Answer); 3] = [
+    ("history", |pairs| pairs.iter().map(|[t, u]| (format!("u(1, {t})"), *u)).collect()),
+    ("contact", |pairs| listed("contacts", ["begin of contact", "end of contact"], pairs)),
+    ("steady", |pairs| listed(STEADY, ["u(1) of steady state", "unstable directions of steady state"], pairs)),
+];
+const STEADY: &str = "steady states";
+
+fn listed(what: &str, names: [&str; 2], pairs: &[[f64; 2]]) -> Answer {
+    let named = |(k, pair): (usize, &[f64; 2])| [0, 1].map(|i| (format!("{} {}", names[i], k + 1), pair[i]));
+    [(what.to_owned(), pairs.len() as f64)].into_iter().chain(pairs.iter().enumerate().flat_map(named)).collect()
+}
+
+/// Keys of what predictions say: the error of a scene, and the run for an accuracy.
+const PREDICTED: [&str; 2] = ["estimated_error", "chosen_u_tip"];
+
+/// Work that a prediction may do.
+const MOST_WORK: f64 = 2e8;
+
 /// What a run shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
@@ -83,8 +112,12 @@ pub struct Shown {
     pub counts: [usize; COUNTS.len()],
     /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it can only run alone.
     pub alike_in_lanes: Option<bool>,
-    /// `(t, u(1, t))`, for the figure.
+    /// `(t, u(1, t))`.
     pub tip: Vec<(f64, f64)>,
+    /// Beginning and end of each contact.
+    pub contact: Vec<(f64, f64)>,
+    /// Predictions and steady states, where the answer has them.
+    others: Answer,
 }
 
 /// Names of numbers, as in the object of `run --format json`.
@@ -124,14 +157,29 @@ fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
 
 /// The numbers of an answer, and the bound.
 fn numbers_of(section: &Section<'_>) -> Result<(Answer, f64), InputError> {
-    section.allow(&[&["within"], &NUMBERS[..]].concat())?;
+    section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS.map(|(key, _)| key)].concat())?;
     let within = section.positive("within")?;
-    let number = |name| section.get(name).map(|field| Ok((name, field.number()?)));
-    let answer = NUMBERS.into_iter().filter_map(number).collect::<Result<Vec<_>, InputError>>()?;
+    let number = |name: &str| section.get(name).map(|field| Ok((name.to_owned(), field.number()?)));
+    let numbers = NUMBERS.into_iter().chain(PREDICTED).filter_map(number);
+    let mut answer = numbers.collect::<Result<Answer, InputError>>()?;
+    for (key, named) in PAIRS {
+        answer.extend(
+            section.get(key).map(|field| pairs(&field)).transpose()?.map(|pairs| named(&pairs)).unwrap_or_default(),
+        );
+    }
     if answer.is_empty() {
         return Err(section.missing(NUMBERS[0], "at least one number of the answer"));
     }
     Ok((answer, within))
+}
+
+fn pairs(field: &Field<'_>) -> Result<Vec<[f64; 2]>, InputError> {
+    let allowed = "a list of pairs of numbers";
+    let pair = |item: &Field<'_>| match item.items(allowed)?.as_slice() {
+        [one, other] => Ok([one.number()?, other.number()?]),
+        _ => Err(item.refuse_as_written("two numbers")),
+    };
+    field.items(allowed)?.iter().map(pair).collect()
 }
 
 impl Kind for Scenes {
@@ -156,10 +204,11 @@ impl Kind for Scenes {
     }
 
     fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
-        let scene = &self.scenes[*index].scene;
+        let whole = &self.scenes[*index];
+        let scene = &whole.scene;
         let shown = Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
         let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::of).transpose()?;
-        Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), ..shown })
+        Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), others: whole.others()?, ..shown })
     }
 
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
@@ -198,12 +247,36 @@ impl Kind for Scenes {
 }
 
 impl Whole {
+    /// Predictions and steady states, where the answer has them.
+    fn others(&self) -> Result<Answer, CaseFailure> {
+        let (mut others, mut told, [error, chosen]) = (vec![], |_: f64| (), PREDICTED);
+        let failed = |error: Unreachable| CaseFailure { reason: error.to_string() };
+        let asked = |name: &str| self.answer.iter().any(|(of, _)| of == name);
+        if asked(error) {
+            let budget = estimate(&self.scene, &mut Work::new(MOST_WORK, &mut told)).map_err(failed)?;
+            let of_tip = budget.quantities.iter().find(|estimate| estimate.name == "u(1) at the end");
+            others.push((error.to_owned(), of_tip.map_or(f64::NAN, |estimate| estimate.total)));
+        }
+        if asked(chosen) {
+            let work = &mut Work::new(MOST_WORK, &mut told);
+            let choice = choose(&self.scene, Accuracy::Tip, self.within, work).map_err(failed)?;
+            let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
+            others.push((chosen.to_owned(), run.last.u_tip));
+        }
+        if asked(STEADY) {
+            // Infinitely many unstable directions are no number of an answer.
+            let unstable = |state: &Equilibrium| state.unstable_directions.map_or(f64::INFINITY, |count| count as f64);
+            let states = exact_states(&self.scene)?;
+            others.extend((PAIRS[2].1)(&states.iter().map(|state| [state.u_tip, unstable(state)]).collect::<Vec<_>>()));
+        }
+        Ok(others)
+    }
+
     /// The number that is farthest from its answer, and how far; NaN is farthest.
-    fn farthest(&self, shown: &Shown) -> (&'static str, f64) {
-        let mut farthest = ("none", 0.0);
-        for &(name, expected) in &self.answer {
-            let found =
-                NUMBERS.iter().position(|number| *number == name).map_or(f64::NAN, |place| shown.numbers[place]);
+    fn farthest(&self, shown: &Shown) -> (&str, f64) {
+        let (mut farthest, named) = (("none", 0.0), shown.named());
+        for (name, expected) in &self.answer {
+            let found = named.iter().find(|(number, _)| number == name).map_or(f64::NAN, |(_, value)| *value);
             let distance = (found - expected).abs();
             if !(distance <= farthest.1) {
                 farthest = (name, distance);
@@ -253,6 +326,14 @@ fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
 }
 
 impl Shown {
+    /// All numbers by their names.
+    fn named(&self) -> Answer {
+        let numbers = NUMBERS.into_iter().map(str::to_owned).zip(self.numbers);
+        let lists = [&self.tip, &self.contact].map(|list| list.iter().map(|&(a, b)| [a, b]).collect::<Vec<_>>());
+        let pairs = PAIRS.iter().zip(&lists).flat_map(|((_, named), list)| named(list));
+        numbers.chain(pairs).chain(self.others.clone()).collect()
+    }
+
     /// Whether end, numbers and counts are the same, to the bit.
     fn has_the_bits_of(&self, other: &Self) -> bool {
         let bits = |shown: &Self| shown.numbers.map(f64::to_bits);
@@ -272,6 +353,8 @@ impl Shown {
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
             alike_in_lanes: None,
             tip: run.tip(),
+            contact: run.contact_phases(),
+            others: vec![],
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Error norms at one time level, without quadrature in the time loop and without cancellation.
 //!
 //! The error is `e = d + η`, with the P1 function `d = u_h - I u` and the interpolation error
-//! `η = I u - u = Σ T_j η_j`. Both are small and known to full relative accuracy, so `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²`
+//! `η = I u - u = Σ T_j η_j`. Both are small and known up to rounding errors of u itself, ε|u|, so `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²`
 //! does not cancel (unlike ‖u_h‖² - 2 (u_h, u) + ‖u‖²). The moments of η_j on each element and their Gram matrices are
 //! computed once.
 //!

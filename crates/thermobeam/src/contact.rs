@@ -5,7 +5,7 @@
 //!
 //! For given mean axial force a step is linear except for one scalar equation at the tip, `u + c F(u) = r`: r is the
 //! tip's position without obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is
-//! piecewise linear for the implicit rule and a quotient of quadratics for the discrete gradient. It is nondecreasing,
+//! piecewise linear for the implicit rule; for the discrete gradient some pieces are a quadratic over a linear function. It is nondecreasing,
 //! so the root is unique and r determines the piece that contains it: for every ε it is computed without iteration.
 
 use crate::parameters::Obstacles;
@@ -28,9 +28,10 @@ impl Obstacles {
         self.depth(u) / self.epsilon
     }
 
-    /// How long an impact takes: `t* = (ε √ζ)^(2/3)`, or ε where viscosity is too small to matter (ζ < ε).
+    /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε where viscosity is too small to matter (ζ < ε).
     ///
-    /// `THEORY.md`, "Penetration of an impact"; without viscosity the tip obeys `p' = c - p/ε`, p being its penetration.
+    /// The penetration is largest at 1.65 t*; contact lasts longer, whatever ε. `THEORY.md`, "Penetration of an impact"; without
+    /// viscosity the tip obeys `p' = c - p/ε`, p being its penetration.
     pub fn impact_time(&self, zeta: f64) -> f64 {
         (self.epsilon * zeta.sqrt()).powf(2.0 / 3.0).max(self.epsilon)
     }

@@ -1,13 +1,18 @@
 //! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
-//! The paper does not analyse the convergence of its iteration. Two of the quantities that (4.2) takes from the
-//! previous iterate determine it:
+//! The paper does not analyse the convergence of its iteration. An error returns to its field by four loops, and each multiplies it by
+//! a factor. The largest of them decides: above 1 the iteration diverges. Write A_u, A_φ and A_θ for the matrices of (4.2).
 //!
-//! * g(u) in the first equation: in contact an error is multiplied by [`contact_contraction`] in each iteration;
-//! * u and û in the second equation: without contact an error is multiplied by [`coupling_contraction`].
+//! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
+//! | --- | --- | --- | --- |
+//! | [`Loop::Contact`] | g(u) in the first equation | [`contact_contraction`] | g' dt^{3/2}/√(cζ) |
+//! | [`Loop::Rotation`] | u and û in the second | [`coupling_contraction`] | ζ dt/(2c) |
+//! | [`Loop::Heat`] | φ̂ in the third | [`heat_contraction`] | a² dt/(√c + √(2ζ))² |
+//! | [`Loop::AxialForce`] | N(u) in the first | [`axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(cζ) |
 //!
-//! The iteration diverges for a factor above 1. The effects of the previous N(u) and φ̂ in the first and third equation
-//! are smaller, of order dt².
+//! c is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
+//! `midpoint`.
+use std::fmt;
 
 use crate::norms::{l2_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
@@ -18,8 +23,7 @@ use crate::tridiagonal::TridiagonalFactor;
 ///
 /// `A_u = κ M + (ζ + dt (1 + N)/2) K` is the matrix of the first equation of (4.2), κ = inertia/dt, and g' the slope of
 /// the contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous iterate enters
-/// the right- hand side at the tip only, so an error e of u(1) becomes -α e. On a fine mesh `α ≈ dt^{3/2}/(ε √ζ)`, up
-/// to terms in dt/ζ.
+/// the right-hand side at the tip only, so an error e of u(1) becomes -α e.
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
@@ -48,7 +52,7 @@ pub fn contact_contraction(
 const ITERATIONS: usize = 300;
 const RELATIVE_CHANGE: f64 = 1e-13;
 
-/// Contraction factor of the fixed point without contact, from the coupling of rotation and displacement.
+/// Contraction factor of the fixed point by the coupling of rotation and displacement.
 ///
 /// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
 /// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
@@ -57,8 +61,8 @@ const RELATIVE_CHANGE: f64 = 1e-13;
 /// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.
 /// ```
 ///
-/// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about dt s/4.
-/// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about dt s/2.
+/// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about s/(4κ).
+/// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about s/(2κ).
 /// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
 ///
 /// * `lengths`: length of each element.
@@ -67,30 +71,146 @@ const RELATIVE_CHANGE: f64 = 1e-13;
 pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64) -> f64 {
     let n = lengths.len();
     let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-    let stiffness_u = s + 0.5 * dt * n_value;
-    let (mut of_u, mut of_phi) = (TridiagonalFactor::new(n), TridiagonalFactor::new(n));
-    let factorized = of_u
-        .factorize(lengths, kappa, stiffness_u, n_value)
-        .and_then(|()| of_phi.factorize(lengths, kappa + s, s, n_value));
-    if factorized.is_err() {
-        return f64::INFINITY;
+    let of_u = Operator::new(n, lengths, kappa, s + 0.5 * dt * n_value);
+    let of_phi = Operator::new(n, lengths, kappa + s, s);
+    of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, s, &of_u, &of_phi))
+}
+
+/// Contraction factor of the fixed point by the coupling of rotation and temperature.
+///
+/// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`. The
+/// factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes its sign.
+/// A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with the
+/// inertia c: larger than that of rotation and displacement where `a² > s (1 + √(2s))²/2` (c = 1), and above 1 for a large a.
+///
+/// * `lengths`: length of each element.
+pub fn heat_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64) -> f64 {
+    let n = lengths.len();
+    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
+    if n == 1 || beam.a == 0.0 {
+        return 0.0;
     }
+    let of_phi = Operator::new(n, lengths, kappa + s, s);
+    let of_theta = Operator::new(n - 1, lengths, 2.0 / dt, 1.0);
+    of_phi.zip(of_theta).map_or(f64::INFINITY, |(of_phi, of_theta)| round_trip(lengths, beam.a, &of_phi, &of_theta))
+}
+
+/// Contraction factor of the fixed point by the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
+///
+/// The mean axial force ½(N(u) + N(u0)) changes by `ρ dt (K u)ᵀ V` with an error of V, and the first equation by that times `K u`:
+/// a rank-one map, whose one eigenvalue is -1 times the factor.
+///
+/// * `lengths`: length of each element.
+/// * `n_value`: the mean axial force of the step.
+/// * `u`: the displacement at the nodes; that of the old and of the new level are taken as one.
+/// * Returns infinity if A_u is not positive definite.
+pub fn axial_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64, u: &[f64]) -> f64 {
+    let n = lengths.len();
+    let stiffness = beam.zeta + 0.5 * dt * (1.0 + n_value);
+    let Some(of_u) = Operator::new(n, lengths, scheme.inertia / dt, stiffness) else { return f64::INFINITY };
+    let mut bent = vec![0.0; n + 1];
+    for (i, h) in lengths.iter().enumerate() {
+        let slope = (u[i + 1] - u[i]) / h;
+        bent[i] -= slope;
+        bent[i + 1] += slope;
+    }
+    bent[0] = 0.0;
+    let mut moved = bent.clone();
+    of_u.factor.solve_in_place(&mut moved);
+    beam.rho * dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
+}
+
+/// A loop by which an error of an iterate returns to its field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loop {
+    /// Of the free end and the contact force.
+    Contact,
+    /// Of displacement and rotation.
+    Rotation,
+    /// Of rotation and temperature.
+    Heat,
+    /// Of displacement and axial force.
+    AxialForce,
+}
+
+impl fmt::Display for Loop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Loop::Contact => "displacement and contact force",
+            Loop::Rotation => "displacement and rotation",
+            Loop::Heat => "rotation and temperature",
+            Loop::AxialForce => "displacement and axial force",
+        })
+    }
+}
+
+/// The contraction factor of the fixed point: that of the largest of the four loops.
+///
+/// * `obstacles`: `None` without contact.
+/// * `lengths`: length of each element.
+/// * `u`: the displacement at the nodes, from which the axial force is taken.
+pub fn contraction(
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+    lengths: &[f64],
+    scheme: &Scheme,
+    dt: f64,
+    u: &[f64],
+) -> (f64, Loop) {
+    let n_value = beam.axial_force(slope_squared(lengths, u));
+    let contact = |obstacles| contact_contraction(beam, obstacles, lengths, scheme, dt, n_value);
+    let loops = [
+        (obstacles.map_or(0.0, contact), Loop::Contact),
+        (coupling_contraction(beam, lengths, scheme, dt, n_value), Loop::Rotation),
+        (heat_contraction(beam, lengths, scheme, dt), Loop::Heat),
+        (axial_contraction(beam, lengths, scheme, dt, n_value, u), Loop::AxialForce),
+    ];
+    loops.into_iter().fold((0.0, Loop::Contact), |most, next| if next.0 > most.0 { next } else { most })
+}
+
+/// `mass M + stiffness K`, with its factorisation.
+struct Operator {
+    mass: f64,
+    stiffness: f64,
+    factor: TridiagonalFactor,
+}
+
+impl Operator {
+    /// For the nodes 1..=last; `None` if it is not positive definite.
+    fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
+        let mut factor = TridiagonalFactor::new(last);
+        factor.factorize(lengths, mass, stiffness, 0.0).ok().map(|()| Self { mass, stiffness, factor })
+    }
+
+    /// Solves for the nodes, zero where the value is prescribed.
+    fn solve(&self, x: &mut [f64]) {
+        x[0] = 0.0;
+        let last = x.len() - 1;
+        self.factor.solve_in_place(x);
+        if self.factor.last() < last {
+            x[last] = 0.0;
+        }
+    }
+}
+
+/// The largest eigenvalue of `b² outer⁻¹ C inner⁻¹ Cᵀ`, by power iteration.
+fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f64 {
+    let n = lengths.len();
     // A load at the tip starts in the layer there and contains every mode.
     let mut v = vec![0.0; n + 1];
     v[n] = 1.0;
-    of_u.solve_in_place(&mut v);
+    outer.solve(&mut v);
     let (mut w, mut image) = (vec![0.0; n + 1], vec![0.0; n + 1]);
     let mut factor = 0.0;
     for _ in 0..ITERATIONS {
-        let size = (kappa * l2_squared(lengths, &v) + stiffness_u * slope_squared(lengths, &v)).sqrt();
+        let size = (outer.mass * l2_squared(lengths, &v) + outer.stiffness * slope_squared(lengths, &v)).sqrt();
         v.iter_mut().for_each(|v| *v /= size);
-        to_rotation(s, &v, &mut w);
-        of_phi.solve_in_place(&mut w);
-        to_displacement(s, &w, &mut image);
-        // The quotient (V, s C W)/(V, A_u V).
+        transposed_coupling(b, &v, &mut w);
+        inner.solve(&mut w);
+        coupling(b, &w, &mut image);
+        // The quotient (v, b C w)/(v, outer v).
         let quotient: f64 = v.iter().zip(&image).map(|(v, image)| v * image).sum();
-        image[0] = 0.0;
-        of_u.solve_in_place(&mut image);
+        outer.solve(&mut image);
         std::mem::swap(&mut v, &mut image);
         let change = (quotient - factor).abs();
         factor = quotient;
@@ -101,19 +221,18 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     factor
 }
 
-/// `w = s Cᵀ v`, zero at the clamped node.
-fn to_rotation(s: f64, v: &[f64], w: &mut [f64]) {
+/// `w = s Cᵀ v`.
+fn transposed_coupling(s: f64, v: &[f64], w: &mut [f64]) {
     w.fill(0.0);
     for i in 0..v.len() - 1 {
         let shear = 0.5 * s * (v[i + 1] - v[i]);
         w[i] += shear;
         w[i + 1] += shear;
     }
-    w[0] = 0.0;
 }
 
 /// `v = s C w`.
-fn to_displacement(s: f64, w: &[f64], v: &mut [f64]) {
+fn coupling(s: f64, w: &[f64], v: &mut [f64]) {
     v.fill(0.0);
     for i in 0..w.len() - 1 {
         let stress = 0.5 * s * (w[i] + w[i + 1]);
@@ -182,6 +301,43 @@ mod tests {
             last = factor;
         }
         assert!((last - limit).abs() <= 1e-3 * limit, "{last} for {limit}");
+    }
+
+    #[test]
+    fn the_factors_of_heat_and_axial_force_are_those_of_waves_and_layers() {
+        let lengths = [1e-3; 1000];
+        let bent: Vec<f64> = (0..=1000).map(|i| (f64::from(i) * 1e-3).powi(2)).collect();
+        let beam = Beam { zeta: 0.1, a: 1.0, rho: 1.0, ..Beam::default() };
+        for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
+            for dt in [1e-3_f64, 1e-4] {
+                let wave = dt / (scheme.inertia.sqrt() + (2.0 * beam.zeta + dt).sqrt()).powi(2);
+                let heat = heat_contraction(&beam, &lengths, &scheme, dt);
+                assert!((heat - wave).abs() <= 0.01 * wave, "{heat} for {wave}");
+                let layer = 4.0 * dt.powf(1.5) / (scheme.inertia * beam.zeta).sqrt();
+                let axial = axial_contraction(&beam, &lengths, &scheme, dt, 0.0, &bent);
+                assert!((axial - layer).abs() <= 0.03 * layer, "{axial} for {layer}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_largest_loop_is_named() {
+        let lengths = [0.02; 50];
+        let largest = |beam: Beam, obstacles: Option<Obstacles>, slope: f64| {
+            let u: Vec<f64> = (0..=50).map(|i| slope * f64::from(i) / 50.0).collect();
+            contraction(&beam, obstacles.as_ref(), &lengths, &EULER_CRANK_NICOLSON, 1e-2, &u)
+        };
+        let obstacles = Some(Obstacles::default());
+        let (hot, stiff) = (Beam { a: 20.0, ..Beam::default() }, Beam { rho: 1e3, ..Beam::default() });
+        for (beam, obstacles, slope, factor, of) in [
+            (Beam::default(), obstacles, 0.0, 3.038, Loop::Contact),
+            (Beam::default(), None, 0.0, 5.08e-4, Loop::Rotation),
+            (hot, None, 0.0, 1.843, Loop::Heat),
+            (stiff, None, 1.0, 0.44232, Loop::AxialForce),
+        ] {
+            let (found, named) = largest(beam, obstacles, slope);
+            assert!(named == of && (found - factor).abs() <= 1e-3 * factor, "{named}: {found} for {factor}");
+        }
     }
 
     #[test]

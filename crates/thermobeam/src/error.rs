@@ -1,5 +1,6 @@
 //! The errors of a simulation: what failed, where and when, and what to change.
 
+use crate::contraction::Loop;
 use crate::mesh::MeshError;
 use crate::parameters::ParameterError;
 use thiserror::Error;
@@ -21,8 +22,9 @@ pub struct StepError {
 pub enum StepFailure {
     /// The increments of the iteration do not decrease.
     #[error(
-        "the iteration diverges: expected a contraction factor below 1, found {contraction:.3e} (increment \
-         {increment:.3e} after {iterations} iterations): take a smaller dt, a larger epsilon, or the solver \"newton\""
+        "the iteration diverges in the loop of {of}: expected a contraction factor below 1, found {contraction:.3e} \
+         (increment {increment:.3e} after {iterations} iterations): take a smaller dt, {}or the solver \"newton\"",
+        if *of == Loop::Contact { "a larger epsilon, " } else { "" }
     )]
     Diverged {
         /// Number of iterations done.
@@ -31,6 +33,8 @@ pub enum StepFailure {
         increment: f64,
         /// Ratio of the last two increments.
         contraction: f64,
+        /// The loop with the largest factor.
+        of: Loop,
     },
     /// The increments decrease, but not below the tolerance within the allowed number of iterations.
     #[error(

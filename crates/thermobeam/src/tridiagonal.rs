@@ -56,6 +56,11 @@ impl TridiagonalFactor {
         }
     }
 
+    /// The last node.
+    pub(crate) fn last(&self) -> usize {
+        self.inverse.len() - 1
+    }
+
     /// Entry (last, last) of the inverse matrix, the reciprocal of the last pivot.
     pub fn last_of_inverse(&self) -> f64 {
         self.inverse[self.inverse.len() - 1]

@@ -19,7 +19,8 @@
 //! Divided by `1 - ρ_k^(-s p)` and with the s-th root taken they are A(h_k) for k = 1..m-1, polluted by the powers that A itself has, and by no more
 //! than 1 + r / (s p) times as much. [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure, scatter and
 //! round-off. With one ratio ρ the divisor is the same for all k and the rate does not depend on it; otherwise p is the number for which the rate read is p.
-//! A rate that is too high makes the divisors of small ratios too large, which lowers the rate: there is one such number. The same over dt for B and q.
+//! The rate read grows with the p assumed, but slowly: its derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ. So there is one such
+//! number. The same over dt for B and q.
 //!
 //! *Where.* At the finest dt, and for q at the finest h: there scatter and round-off of the other contribution are least, and so are terms such
 //! as `h^i dt^k`, which (a) does not have.

@@ -9,7 +9,7 @@
 //!
 //! * The start: initial data that break the condition at x = 1 make u(1, t) like t^(3/2). The error has its peak inside the first
 //!   steps, which `restart_dt` alone makes shorter, and in the element at x = 1, which is split.
-//! * Steps: during an impact, of duration (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
+//! * Steps: at the peak of an impact, of the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
 //!   which ends of steps do not show. The degree q helps between impacts, short steps within.
 //! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; its width is √(ζ t) after the time t.
 

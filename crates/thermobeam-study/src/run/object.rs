@@ -146,7 +146,7 @@ fn failure(ended: &RunError) -> Failure {
 
 fn kind(failure: &StepFailure) -> (&'static str, Numbers) {
     match *failure {
-        StepFailure::Diverged { iterations, increment, contraction } => {
+        StepFailure::Diverged { iterations, increment, contraction, .. } => {
             ("diverged", Numbers::Iteration { iterations, increment, contraction })
         }
         StepFailure::IterationLimit { iterations, increment, contraction } => {

@@ -22,7 +22,7 @@ const DT: f64 = 0.02;
 /// Growth of the steps of a scene that does not say.
 const GROWTH: f64 = 1.5;
 
-/// First step of a scene that does not say, in units of the duration of an impact.
+/// First step of a scene that does not say, in units of the time scale of an impact's peak.
 const RESTART: f64 = 0.2;
 
 const DG_KEYS: [&str; 8] = ["scheme", "degree", "dt", "restart_dt", "growth", "t_end", "tolerance", "max_iterations"];
@@ -182,7 +182,7 @@ pub(super) fn default_stepping(beam: &Beam, obstacles: Option<&Obstacles>, t_end
     dg::Stepping { dt, restart_dt: first_step(beam, obstacles, dt), growth: GROWTH, ..dg::Stepping::default() }
 }
 
-/// A fifth of the duration of an impact, and at most dt.
+/// A fifth of the time scale of an impact's peak, and at most dt.
 fn first_step(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64) -> f64 {
     let impact = obstacles.map_or(dt, |obstacles| obstacles.impact_time(beam.zeta));
     (RESTART * impact).min(dt)

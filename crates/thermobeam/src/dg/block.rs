@@ -69,7 +69,8 @@ fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
 
 /// Replaces a matrix by its inverse, by Gauss-Jordan elimination without pivoting.
 ///
-/// The matrices here have a symmetric part without negative eigenvalues, so that no pivot is negative.
+/// While the elastic energy with the axial force held is positive, the symmetric part of the matrices here has no negative
+/// eigenvalue, and no pivot is negative.
 ///
 /// # Errors
 /// The first pivot that is not.

@@ -70,7 +70,7 @@ pub struct Stepping {
 }
 
 impl Default for Stepping {
-    /// For the paper's beam: an impact takes (ε √ζ)^(2/3) = 5e-3.
+    /// For the paper's beam: the peak of an impact has the time scale (ε √ζ)^(2/3) = 5e-3.
     fn default() -> Self {
         Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
     }

@@ -9,7 +9,8 @@
 //! point N = -1). So S is convex and f strictly concave between neighbouring poles:
 //!
 //! * above the largest pole S decreases and f increases to ∞: exactly one root;
-//! * between two poles, and in each interval below N = -1: none, two, or one double root, decided by the maximum of f;
+//! * between two poles: none, two, or one double root, decided by the maximum of f;
+//! * in an interval below N = -1: the same, but next to -1, where S stays finite, exactly one root if f(-1⁻) > 0;
 //! * below β: none, since ρS >= 0.
 //!
 //! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by

@@ -11,6 +11,7 @@
 //!
 //! The increment is measured in the norm of (3.14). The convergence is analysed in [`contraction`](crate::contraction).
 
+use crate::contraction::{Loop, contraction};
 use crate::error::StepFailure;
 use crate::norms::TheoremSquares;
 use crate::norms::slope_squared;
@@ -107,10 +108,18 @@ impl FixedPoint {
         let iterations = self.settings.max_iterations;
         // NaN, after a single iteration, does not indicate divergence.
         if contraction >= STALLED {
-            Err(StepFailure::Diverged { iterations, increment, contraction })
+            Err(StepFailure::Diverged { iterations, increment, contraction, of: self.largest_loop() })
         } else {
             Err(StepFailure::IterationLimit { iterations, increment, contraction })
         }
+    }
+
+    /// The loop that multiplies errors most at the level that the step starts from, in contact if the last iterate is.
+    fn largest_loop(&self) -> Loop {
+        let Case { beam, dt, lengths, obstacles } = &self.case;
+        let tip = self.u_before[lengths.len()];
+        let touched = obstacles.as_ref().filter(|obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0);
+        contraction(beam, touched, lengths, &self.scheme, *dt, &self.old.u).1
     }
 
     /// Sets the initial iterate to the previous level, (4.1).

@@ -47,8 +47,8 @@
 //! r decreases from 0.76 (s = 1/√2, ω = 1) to 0, and |r'| < 0.7 < 0.87 < |sin s| at every root with s >= 1; for s < 1,
 //! |cos s| > r. So each interval of length π/2 between neighbouring zeros of sin s and cos s contains exactly one root, and
 //! it is simple; this includes the first interval, which is searched from s = 1. The i-th frequency is computed in its
-//! own interval. High frequencies come in pairs, ω ≈ (n - 1/2)π ∓ 0.44/ω, at which the determinant itself has nearly
-//! double roots: a scan of its sign would miss them.
+//! own interval. High frequencies come in pairs, ω ≈ (n - 1/2)π + (1/8 ∓ cos(1/2)/2)/ω, that is -0.314/ω and +0.564/ω (s is
+//! ω - 1/(8ω)), at which the determinant itself has nearly double roots: a scan of its sign would miss them.
 //!
 //! ```
 //! use thermobeam::vibration::{DampedMode, Mode};

@@ -108,3 +108,17 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
         }
     }
 }
+
+/// The scheme is not L-stable: a step that is long against all periods multiplies u by (ζ - τ/2)/(ζ + τ/2) for q = 0.
+#[test]
+fn stiff_modes_are_damped_by_viscosity_alone() {
+    let mode = Mode::new(0);
+    for (zeta, factor) in [(10.0, -40.0 / 60.0), (0.01, -49.99 / 50.01), (50.0, 0.0)] {
+        let beam = Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 };
+        let initial =
+            Initial { u: Box::new(move |x| mode.u(x)), phi: Box::new(move |x| mode.phi(x)), ..Initial::at_rest(0.0) };
+        let problem = Problem { beam, obstacles: None, mesh: Mesh::uniform(1).unwrap(), degree: 10, initial };
+        let long = Stepping { degree: 0, dt: 100.0, restart_dt: 100.0, ..Stepping::default() };
+        close(crate::scenes::tip(&advanced(problem, long, 100.0), Field::U), factor * mode.u(1.0), 1e-3);
+    }
+}

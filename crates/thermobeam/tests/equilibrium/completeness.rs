@@ -164,3 +164,12 @@ fn small_heat_load_splits_each_buckled_pair() {
         }
     }
 }
+
+/// Next to N = -1 the sum S(N) stays finite, so that there may be one root alone.
+#[test]
+fn below_minus_one_there_may_be_one_state() {
+    let beam = Beam { beta: -2.0, a: 1.0, theta_a: 0.5, rho: 1.0, ..Beam::default() };
+    let below: Vec<f64> =
+        equilibria(&beam, None).unwrap().iter().map(|state| state.n_value).filter(|n| *n < -1.0).collect();
+    assert!(below.len() == 1 && (below[0] + 1.98964).abs() < 5e-6, "{below:?}");
+}

@@ -3,7 +3,7 @@
 use crate::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
-use thermobeam::contraction::{contact_contraction, coupling_contraction};
+use thermobeam::contraction::{Loop, contact_contraction, coupling_contraction, heat_contraction};
 use thermobeam::error::StepFailure;
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -56,7 +56,8 @@ fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
         let before = simulation.level();
         let error = simulation.advance().unwrap_err();
         assert_eq!((error.step, error.t), (1, dt));
-        let StepFailure::Diverged { iterations, increment, contraction } = error.failure else { panic!("{error}") };
+        let StepFailure::Diverged { iterations, increment, contraction, of } = error.failure else { panic!("{error}") };
+        assert_eq!(of, Loop::Contact);
         assert_eq!(iterations, 1000);
         assert!(increment > 1e-3 && contraction >= 1.0, "{increment} {contraction}");
         assert_eq!((simulation.step(), simulation.t()), (0, 0.0));
@@ -112,5 +113,28 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
             let lowest = if dt < 1.0 { 0.0 } else { 0.97 };
             assert!((lowest..1.03).contains(&(measured / exact)), "{}: {measured} for {exact}", scheme.name);
         }
+    }
+}
+
+/// Without obstacles a large a makes the iteration diverge, and a larger ε is no advice.
+#[test]
+fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
+    let mesh = uniform(50);
+    for (a, diverges) in [(20.0, true), (10.0, false)] {
+        let mut initial = Initial::at_rest(&mesh, 0.0);
+        initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
+        let beam = Beam { a, ..Beam::default() };
+        let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
+        let factor = heat_contraction(&beam, &[0.02; 50], &EULER_CRANK_NICOLSON, 1e-2);
+        // A hundred iterations: more of them would overflow.
+        let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
+        let outcome = simulate(&problem, Stepping { settings, ..stepping(1e-2) }).advance();
+        assert_eq!((outcome.is_err(), factor > 1.0), (diverges, diverges), "{factor}");
+        let Err(error) = outcome else { continue };
+        let StepFailure::Diverged { contraction, of, .. } = error.failure else { panic!("{error}") };
+        assert_eq!(of, Loop::Heat);
+        assert!((contraction - factor).abs() <= 0.03 * factor, "{contraction} for {factor}");
+        let said = error.to_string();
+        assert!(said.contains("rotation and temperature") && !said.contains("epsilon"), "{said}");
     }
 }

@@ -77,7 +77,7 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
             let settings = Settings { tolerance: 1e-300, max_iterations, ..stepping.settings };
             let error = simulate(&problem, Stepping { settings, dt: 0.1, ..stepping }).advance().unwrap_err();
             let (StepFailure::IterationLimit { iterations, increment, contraction }
-            | StepFailure::Diverged { iterations, increment, contraction }) = error.failure
+            | StepFailure::Diverged { iterations, increment, contraction, .. }) = error.failure
             else {
                 panic!("{stepping:?}: {error}")
             };

@@ -17,8 +17,9 @@ const HIGHEST_ORDER: f64 = 64.0;
 
 /// Roache's index of the finest of three values: `F |q_(m-1) - q_m| / (ρ^p - 1)`.
 ///
-/// Sources: ASME V&V 20-2009, section 2; P. J. Roache, *Verification and Validation in Computational Science and Engineering*, Hermosa 1998. The order that
-/// is used, `min(max(1/2, observed), order)`: W. L. Oberkampf, C. J. Roy, *Verification and Validation in Scientific Computing*, Cambridge 2010, section 8.6.
+/// Sources: ASME V&V 20-2009, section 2; P. J. Roache, *Verification and Validation in Computational Science and Engineering*, Hermosa 1998. W. L. Oberkampf,
+/// C. J. Roy, *Verification and Validation in Scientific Computing*, Cambridge 2010, section 8.6, use the formal order with F = 1.25 where the observed order
+/// confirms it, and `min(max(1/2, observed), order)` with F = 3 otherwise. Here that minimum is used in both cases, which is never less cautious.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gci {
     /// Observed order of the three finest values.

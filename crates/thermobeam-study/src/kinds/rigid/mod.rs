@@ -10,7 +10,7 @@
 //! P' + I^½ P = 1,   P(0) = 0,      t* = (ε √ζ)^(2/3),
 //! ```
 //!
-//! so that an impact takes the time t*, its peak penetration is 0.858 v (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
+//! so that the peak of an impact has the time scale t*, its penetration is 0.858 v (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
 //!
 //! | quantity | order in ε | why |
 //! | --- | --- | --- |
@@ -18,7 +18,7 @@
 //! | the same on a fixed mesh with a fixed dt, once t* < dt | 1 | the step averages the force, which then has a limit |
 //! | penetration at rest | 1 | the force at rest has a limit |
 //!
-//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails exactly where the time
+//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails about where the time
 //! step no longer resolves the impact. Newton's iterations do not depend on ε.
 
 mod judge;

@@ -47,4 +47,13 @@ mod tests {
         let slope = (penetration(tau + 1e-5) - penetration(tau - 1e-5)) / 2e-5;
         assert!((slope + half_integral - 1.0).abs() < 1e-6);
     }
+
+    /// Not the model of a contact that ends: after its peak the force falls like the root of time.
+    #[test]
+    fn the_penetration_of_the_half_space_has_no_end() {
+        let largest = (0..4000).map(|k| penetration(1.5 + f64::from(k) * 1e-4)).fold(0.0, f64::max);
+        assert!((largest - 0.858).abs() < 1e-3 && (largest - penetration(1.65)).abs() < 1e-4, "{largest}");
+        assert!((penetration(5.0) - 0.182).abs() < 1e-3, "{}", penetration(5.0));
+        assert!((1..50).all(|k| penetration(0.1 * f64::from(k)) > 0.0));
+    }
 }

@@ -200,7 +200,6 @@ impl<T: Lane, const B: usize> Forward<'_, T, B> {
 }
 
 /// -R with its third component negated, the right-hand side of the symmetric system.
-/// The nodal quantities of the iterate x.
 #[inline(always)]
 fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
     let mut right = residual;
@@ -208,6 +207,7 @@ fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
     right
 }
 
+/// The nodal quantities of the iterate x.
 #[inline(always)]
 fn nodal<T: Lane, const B: usize>(s: &Scalars<T>, m: T, x: [T; B], old: [T; B], velocity: [T; B]) -> Nodal<T, B> {
     let half_u = x[0].mul_add(s.half_dt, old[0]);

@@ -81,6 +81,14 @@ fn hidden_terms_and_wrong_limits_rarely_pass_and_no_coarse_level_excuses_one() {
 }
 
 #[test]
+fn constants_are_held_and_too_high_a_least_order_rarely_passes() {
+    for row in &sheet(&RULE, "claims").rows {
+        let [too_much, .., holds, _, fails, wrong] = row.values[..] else { panic!("{row:?}") };
+        assert!(too_much <= 0.02 && holds >= 0.95 && fails <= 0.005 && wrong <= 0.005, "{row:?}");
+    }
+}
+
+#[test]
 fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
     let grids = of_grids(60, 5).expect("usable settings");
     for row in &grids[0].rows {

@@ -97,6 +97,14 @@ mod tests {
         assert_eq!(least(2.0, |h| h * h + 0.004 * h), Reason::Departs);
         assert_eq!(least(2.0, |h| h.powi(3) + 0.002 * h), Reason::FallsAway);
         assert_eq!(least(2.0, |_| f64::NAN), Reason::NonFiniteError);
+        // The levels together say 1.81 to 2.00, the finest pair 1.79.
+        let mut levels = vec![Level { step: 0.125, error: 0.1 }];
+        for rate in [1.95, 1.9, 1.95, 1.9, 1.95, 1.88, 1.79] {
+            let Level { step, error } = levels[levels.len() - 1];
+            levels.push(Level { step: 0.5 * step, error: error * 0.5_f64.powf(rate) });
+        }
+        let judge = Judge::new(0.2).expect("a tolerance");
+        assert_eq!(at_least(judge.judge(&levels, 2.0)).kind, Reason::LastPair);
     }
 
     #[test]

@@ -24,6 +24,7 @@ const CIRCLES: [(&str, &[&[&str]]); 5] = [
         &[
             &["error/design", "kinds/controls/sensitivity", "kinds/controls/untested", "kinds/convergence"],
             &["error/evaluator", "error/reference"],
+            &["run/driver", "run/history", "run/motion", "run/simulate", "run/tally"],
             &["kinds/bifurcation/judge", "kinds/bifurcation/report"],
             &["kinds/energy/file", "kinds/energy/runs"],
             &["kinds/exact_experiments/judge", "kinds/exact_experiments/report"],

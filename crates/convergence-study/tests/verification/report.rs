@@ -236,7 +236,7 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
         "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
     let page = with(&studies, |findings| findings.readme());
     assert!(page.contains(&format!("**fail**: {together}\n")), "{page}");
-    assert!(page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low\n"), "{page}");
+    assert!(page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n"), "{page}");
 }
 
 #[test]
@@ -246,7 +246,8 @@ fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
     finished.outcome.verdict = Verdict::Fail;
     let reasons = not_passed(&[finished]).remove(0).reasons;
-    assert_eq!(reasons, ["L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite"]);
+    assert_eq!(reasons[0], "L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite (non-finite)");
+    assert!(reasons.len() == 2 && reasons[1].starts_with("non-finite: "), "{reasons:?}");
 }
 
 /// Errors of several names, each of its order, on levels of which each name may lack some.

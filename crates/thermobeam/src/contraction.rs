@@ -12,8 +12,7 @@
 //!
 //! c is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
 //! `midpoint`.
-use std::fmt;
-
+pub use crate::error::Loop;
 use crate::norms::{l2_squared, slope_squared};
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::{ContactRule, Scheme};
@@ -118,30 +117,6 @@ pub fn axial_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64,
     let mut moved = bent.clone();
     of_u.factor.solve_in_place(&mut moved);
     beam.rho * dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
-}
-
-/// A loop by which an error of an iterate returns to its field.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Loop {
-    /// Of the free end and the contact force.
-    Contact,
-    /// Of displacement and rotation.
-    Rotation,
-    /// Of rotation and temperature.
-    Heat,
-    /// Of displacement and axial force.
-    AxialForce,
-}
-
-impl fmt::Display for Loop {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Loop::Contact => "displacement and contact force",
-            Loop::Rotation => "displacement and rotation",
-            Loop::Heat => "rotation and temperature",
-            Loop::AxialForce => "displacement and axial force",
-        })
-    }
 }
 
 /// The contraction factor of the fixed point: that of the largest of the four loops.

@@ -1,6 +1,7 @@
 //! The errors of a simulation: what failed, where and when, and what to change.
 
-use crate::contraction::Loop;
+use std::fmt;
+
 use crate::mesh::MeshError;
 use crate::parameters::ParameterError;
 use thiserror::Error;
@@ -151,6 +152,30 @@ pub enum SetupError {
         /// The values allowed, in words.
         allowed: &'static str,
     },
+}
+
+/// A loop by which an error of an iterate returns to its field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loop {
+    /// Of the free end and the contact force.
+    Contact,
+    /// Of displacement and rotation.
+    Rotation,
+    /// Of rotation and temperature.
+    Heat,
+    /// Of displacement and axial force.
+    AxialForce,
+}
+
+impl fmt::Display for Loop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Loop::Contact => "displacement and contact force",
+            Loop::Rotation => "displacement and rotation",
+            Loop::Heat => "rotation and temperature",
+            Loop::AxialForce => "displacement and axial force",
+        })
+    }
 }
 
 #[cfg(test)]

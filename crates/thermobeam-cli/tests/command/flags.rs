@@ -20,7 +20,7 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["explain", "too-low"], 0, "explain.json"),
     (&["rates", "rates.csv", "--order", "2"], 0, "rates.json"),
     (&["compare", "record.json", "record.json"], 0, "compare.json"),
-    (&["report", "record.json"], 0, "results.json"),
+    (&["report", "reported/results.json"], 0, "results.json"),
     (&["run", "scene.toml"], 0, "run.json"),
     (&["equilibria", "scene.toml"], 0, "equilibria.json"),
     (&["sweep", "sweep.toml"], 0, "results.jsonl"),
@@ -40,7 +40,7 @@ fn place(folder: &Folder) -> PathBuf {
     }
     let swept = ended(thermobeam().args(["sweep", "sweep.toml", "--out", "swept"]).current_dir(&root));
     assert_eq!(swept.status, Some(0), "{}", swept.stderr);
-    let arguments = ["study", "studies/short.toml", "--format", "json"];
+    let arguments = ["study", "studies/short.toml", "--format", "json", "--out", "reported"];
     let record = ended(thermobeam().args(arguments).current_dir(&root));
     fs::write(root.join("record.json"), record.stdout).expect("a file");
     root

@@ -20,7 +20,8 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["explain", "too-low"], 0, "explain.json"),
     (&["rates", "rates.csv", "--order", "2"], 0, "rates.json"),
     (&["compare", "record.json", "record.json"], 0, "compare.json"),
-    (&["report", "reported/results.json"], 0, "results.json"),
+    // Its object is about the report; the record is the file that it was given.
+    (&["report", "reported/results.json"], 0, "index.html"),
     (&["run", "scene.toml"], 0, "run.json"),
     (&["equilibria", "scene.toml"], 0, "equilibria.json"),
     (&["sweep", "sweep.toml"], 0, "results.jsonl"),

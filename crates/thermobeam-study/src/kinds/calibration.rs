@@ -202,21 +202,18 @@ fn table(sheet: &Sheet) -> Table {
     }
 }
 
+/// What is drawn of a row.
+type Points<'p> = &'p dyn Fn(&Sheet, &Row) -> Vec<(f64, f64)>;
+
 /// What each rule pays for the true claims that it passes, and how often a term of lower order goes unnoticed.
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
-    let figure =
-        |key: &str, caption: &str, x_label: &str, y: &str, points: &dyn Fn(&Sheet, &Row) -> Vec<(f64, f64)>| {
-            let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-            let series = sheet.rows.iter().map(|row| Series { label: row.name.clone(), points: points(sheet, row) });
-            let history = History {
-                title: Some(sheet.title.clone()),
-                x_label: x_label.to_owned(),
-                y: Axis::linear(y),
-                series: series.collect(),
-                ..History::default()
-            };
-            Some(Figure { file: format!("{id}-{key}.svg"), caption: caption.to_owned(), svg: plots::history(&history) })
-        };
+    let figure = |key: &str, caption: &str, x_label: &str, y: &str, points: Points<'_>| {
+        let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
+        let series = sheet.rows.iter().map(|row| Series { label: row.name.clone(), points: points(sheet, row) });
+        let history =
+            History { x_label: x_label.to_owned(), y: Axis::linear(y), series: series.collect(), ..History::default() };
+        Some(Figure { file: format!("{id}-{key}.svg"), caption: caption.to_owned(), svg: plots::history(&history) })
+    };
     let trade = |_: &Sheet, row: &Row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()
     };

@@ -82,8 +82,11 @@ struct Whole {
 /// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of [`PAIRS`].
 type Answer = Vec<(String, f64)>;
 
+/// The numbers that a list of pairs stands for.
+type Listed = fn(&[[f64; 2]]) -> Answer;
+
 /// Keys of an answer whose values are lists of pairs, and the numbers that each list stands for.
-const PAIRS: [(&str, fn(&[[f64; 2]]) -> Answer); 3] = [
+const PAIRS: [(&str, Listed); 3] = [
     ("history", |pairs| pairs.iter().map(|[t, u]| (format!("u(1, {t})"), *u)).collect()),
     ("contact", |pairs| listed("contacts", ["begin of contact", "end of contact"], pairs)),
     ("steady", |pairs| listed(STEADY, ["u(1) of steady state", "unstable directions of steady state"], pairs)),

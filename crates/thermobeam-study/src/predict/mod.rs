@@ -1,6 +1,6 @@
 //! How large an error is, and what makes it as small as wanted: both against a run of any order whose own error is known.
 //!
-//! * [`reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
+//! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
 //!   p + 4 and to half the steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
 //! * [`choice`]: the cheapest run with the error asked for, and what the scene's own scheme would need.

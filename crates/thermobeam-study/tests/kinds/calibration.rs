@@ -27,7 +27,7 @@ fn each_share_can_be_too_large_or_too_small() {
         let bounded = study.judge(&sound).checks.len() - 1;
         assert_eq!(failing(&all(2.0)) + failing(&all(0.0)), bounded, "{name}: each is bounded on one side");
         assert_eq!(failing(&all(f64::NAN)), bounded, "{name}: a share of nothing is none");
-        assert_eq!(failing(&|found: &mut Vec<Sheet>| found.clear()) > 0, true);
+        assert!(failing(&|found: &mut Vec<Sheet>| found.clear()) > 0);
         for case in 0..sound.len() {
             let mut failed = sound.clone();
             failed[case].found = Err(CaseFailure { reason: "planted".into() });

@@ -341,6 +341,8 @@ fn tidy(request: &Request) -> Result<(), VerificationError> {
             atomic::remove_leftovers(&request.baseline())?;
         }
         atomic::remove_leftovers(&local.join("provenance.json"))?;
+        // What a run killed while it tried the folder has left.
+        atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
         let whole = |tier| Scope::Tier(tier, vec![]);
         let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
         scopes.iter().try_for_each(|scope| scope.report_folder(reports).tidy())

@@ -38,6 +38,9 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
     written.map_err(naming)
 }
 
+/// The file that [`prepare_folder`] tries a folder with, and removes.
+pub(crate) const PROBE: &str = "probe";
+
 /// Makes the folder, with those above it, and proves that files can be written to it.
 ///
 /// # Errors
@@ -45,13 +48,18 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     let naming = |error: io::Error| naming(folder, &error);
     fs::create_dir_all(folder).map_err(naming)?;
-    probe(&folder.join("probe")).map_err(naming)
+    probe(&folder.join(PROBE)).map_err(naming)
 }
 
 /// Proves that a file of this name can be made. It makes one beside it: another process may be writing the file itself.
 fn probe(path: &Path) -> io::Result<()> {
     let beside = name_beside(path)?;
-    fs::write(&beside, "").and_then(|()| fs::remove_file(&beside))
+    fs::write(&beside, "")?;
+    match fs::remove_file(&beside) {
+        // Another process has tidied up.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        removed => removed,
+    }
 }
 
 /// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.

@@ -90,6 +90,7 @@ fn what_a_killed_run_has_left_is_cleared_away_even_by_a_run_of_another_scope() {
         ("reports/local/workshop/quick/staging/README.md", "half"),
         ("reports/local/workshop/full/staging/figures/x.svg", "half"),
         ("reports/local/.provenance.json.77-3", "half"),
+        ("reports/.probe.77-3", "half"),
         ("studies/.baseline.json.77-3", "half"),
     ] {
         let path = root.join(name);

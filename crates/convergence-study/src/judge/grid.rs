@@ -60,7 +60,7 @@
 //!     A_M^s = D + D' + D'' + ...,   D = d ρ^(-s q_1),   D' = D ρ^(-s q_2), ...     q_j = p + (q_last - p) φ^j,    φ = (q_last - p) / (q_before - p)
 //! ```
 //!
-//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 where there is one rate), and B_N the same. What is left of `e^s - A_M^s - B_N^s` is told as a share λ of
+//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 where there is one rate), and B_N the same. What is left of `e^s - A_M^s - B_N^s` is stated as a share λ of
 //! `s e^s`: of the error itself, where that is small. It is known up to what φ = 1/2 instead, or a tenth of the correction, would change, and [`MISFITS_OF_REST`] times the misfit.
 //!
 //! | λ | verdict |

@@ -3,7 +3,7 @@
 //! 1. All files that differ from those of the former set are written into the folder `staging` of the workshop.
 //! 2. `staging` is renamed to `pending`. From this moment on the new set counts.
 //! 3. Its files are moved to their places, files of the former set alone are removed, and the manifest, which lists the
-//!    set, is moved last. An interruption is made up for by doing all of this step again.
+//!    set, is moved last. After an interruption the whole step is repeated.
 //!
 //! Files that no manifest lists are never touched. (Exchanging the folder as a whole would lose what others write to it
 //! meanwhile.) A lock, which the operating system frees even after a crash, keeps two runs apart.

@@ -15,7 +15,7 @@ pub(super) struct Lengths {
 /// Halvings of `restart_dt`: down to 6e-8 of it.
 const HALVINGS: i32 = 24;
 
-/// Rungs of a ladder at most: a growth that would need more is as good as none.
+/// Most rungs of a ladder: larger growth factors change nothing.
 pub(super) const MAX_RUNGS: usize = 1000;
 
 impl Lengths {

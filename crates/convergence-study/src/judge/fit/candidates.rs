@@ -7,7 +7,7 @@ use super::{Level, Quantiles, line::logarithms};
 /// Exponents r of the polluted candidates.
 ///
 /// Pollution of a scheme of integer orders has r = 1 (the next power), 2 (symmetric formulas), 3, 4; 3/2 and 3/4 serve the mixed cases. 1/2 and 1/3,
-/// singularities and boundary layers, are there for doubt's sake: without them wrong claims pass ten times as often (0.6 instead of 0.06 %).
+/// singularities and boundary layers, guard against overconfidence: without them wrong claims pass ten times as often (0.6 instead of 0.06 %).
 pub const POLLUTION_EXPONENTS: [f64; 8] = [1.0 / 3.0, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
 
 /// Exponents s of the scatter: residuals of log e are expected to be proportional to h^s.

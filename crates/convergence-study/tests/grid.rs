@@ -13,7 +13,7 @@ fn halved(first: f64, levels: usize) -> Vec<f64> {
 fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl Fn(f64, f64) -> f64) -> GridVerdict {
     let points: Vec<[f64; 2]> = h.iter().flat_map(|&h| dt.iter().map(move |&dt| [h, dt])).collect();
     let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
-    let space = Claim { order: claims[0], tolerance };
+    let space = Claim::new(claims[0], tolerance);
     let columns = vec![GridColumn { name: "L2".to_owned(), space, time: claims[1], errors }];
     Grid { points, times: dt.len(), columns, model: Model::Either }.judge()
 }
@@ -179,7 +179,7 @@ fn steps_that_differ_within_a_row_are_no_grid() {
     let mut points: Vec<[f64; 2]> = h.iter().flat_map(|&h| dt.iter().map(move |&dt| [h, dt])).collect();
     let errors = points.iter().map(|[h, dt]| h + dt).collect();
     points[7][1] *= 1.01;
-    let space = Claim { order: 1.0, tolerance: 0.1 };
+    let space = Claim::new(1.0, 0.1);
     let columns = vec![GridColumn { name: "L2".to_owned(), space, time: 1.0, errors }];
     let verdict = Grid { points, times: 5, columns, model: Model::Either }.judge();
     assert!(verdict.rates.is_empty() && verdict.checks[0].verdict == Verdict::Inconclusive, "{verdict:?}");
@@ -192,7 +192,7 @@ fn squares_that_theory_claims_must_fit_better_than_the_sum() {
     let points: Vec<[f64; 2]> = h.iter().flat_map(|&h| dt.iter().map(move |&dt| [h, dt])).collect();
     let model = |error: fn(f64, f64) -> f64| {
         let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
-        let space = Claim { order: 1.0, tolerance: 0.1 };
+        let space = Claim::new(1.0, 0.1);
         let columns = vec![GridColumn { name: "L2".to_owned(), space, time: 1.0, errors }];
         Grid { points: points.clone(), times: 5, columns, model: Model::Squares }.judge()
     };

@@ -4,13 +4,13 @@
 
 use std::error::Error;
 
-use convergence_study::study::{Axis, FromFile as _, Header, run_here};
+use convergence_study::study::{Axis, Claim, FromFile as _, Header, run_here};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::tables::{Expectation, Manufactured, Norm, Product, Refine};
+use thermobeam_study::kinds::tables::{Manufactured, Norm, Product, Refine};
 
 const TOML: &str = r#"
     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
@@ -47,7 +47,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         exact,
         refine,
         control: None,
-        expect: vec![Expectation { norm: Norm::Superclose, order: 2.0, tolerance: 0.02 }],
+        expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
     })
 }
 

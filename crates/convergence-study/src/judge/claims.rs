@@ -2,8 +2,53 @@
 //!
 //! `RULE.md` has a paragraph on each, `judge::calibration` how often it errs.
 
+use std::fmt;
+
 use super::fit::Level;
-use super::verdict::{RateVerdict, Reason};
+use super::verdict::{Judge, RateVerdict, Reason};
+
+/// What theory claims of an error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Claim {
+    /// The order.
+    pub order: f64,
+    /// How far the rate may be from it, above or below.
+    pub tolerance: f64,
+    /// Whether the order is the least one, so that no rate is too high.
+    pub at_least: bool,
+    /// Between which two numbers the constant lies, if that is claimed.
+    pub constant: Option<[f64; 2]>,
+}
+
+impl Claim {
+    /// An order within a tolerance.
+    pub const fn new(order: f64, tolerance: f64) -> Self {
+        Self { order, tolerance, at_least: false, constant: None }
+    }
+
+    /// The rate of these levels, held against all that is claimed. (The tolerance of `judge` is not asked.)
+    pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
+        let rate = judge.judge(levels, self.order);
+        let rate = if self.at_least { at_least(rate) } else { rate };
+        self.constant.map_or(rate.clone(), |between| with_constant(levels, rate, between))
+    }
+}
+
+impl fmt::Display for Claim {
+    /// `2 ± 0.1`, `at least 2 ± 0.1`, with the constant after it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let least = if self.at_least { "at least " } else { "" };
+        write!(f, "{least}{} ± {}", self.order, self.tolerance)?;
+        self.constant.map_or(Ok(()), |[least, most]| write!(f, ", constant {least} to {most}"))
+    }
+}
+
+/// An order as people write it: `2`, or `>= 2` where it is the least one; `None` where it is neither.
+pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
+    let least = text.trim().strip_prefix(">=");
+    let order = least.unwrap_or(text).trim().parse::<f64>().ok()?;
+    (order > 0.0 && order.is_finite()).then_some((order, least.is_some()))
+}
 
 /// Half-width of the interval of a constant, in half-widths of the interval of the rate over the finest refinement: it then holds the constant of
 /// errors with noise and pollution at least 9 times in 10 for any number of levels.

@@ -160,27 +160,19 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
             Expected::Error(name(&section.require("error", allowed)?, allowed)?)
         }
     };
-    let (order, more) = claimed(section, grid || matches!(expected, Expected::Value(_)))?;
+    let (claim, more) = claimed(section, grid || matches!(expected, Expected::Value(_)))?;
     let time = match section.get("order_dt") {
         Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
         Some(field) => field.positive()?,
-        None => order,
+        None => claim.order,
     };
-    let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
-    let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
-    let tolerance = match section.get("tolerance") {
-        // There is no rate that it could be about.
-        None if more.exact.is_some() => DEFAULT_TOLERANCE,
-        Some(field) if more.exact.is_some() => return Err(field.refuse("tolerance beside exact", "exact alone")),
-        _ => section.require("tolerance", &narrow)?.number_where(&narrow, is_narrow)?,
-    };
-    Ok(Expectation { expected, claim: Claim { order, tolerance }, time, more })
+    Ok(Expectation { expected, claim, time, more })
 }
 
-/// The order, and what is claimed in its place or beside it.
+/// What is claimed, and of what: a rate over steps or over degrees, or no error at all.
 ///
 /// * `plain`: whether nothing but an order can be claimed: of values, and of grids.
-fn claimed(section: &Section<'_>, plain: bool) -> Result<(f64, More), InputError> {
+fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, More), InputError> {
     let claims = ["order", "factor", "exact"].map(|key| section.get(key));
     let other = claims[1..].iter().flatten().next().cloned().or(section.get("constant"));
     if let Some(field) = other.filter(|_| plain) {
@@ -189,35 +181,28 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(f64, More), InputError
     if let [_, Some(field), Some(_)] | [Some(_), Some(field), _] | [Some(_), _, Some(field)] = &claims {
         return Err(field.refuse_as_written("one of order, factor and exact"));
     }
-    let mut more = More::default();
-    if let Some(field) = section.get("constant") {
-        let allowed = "two numbers > 0, the smaller first, beside order";
-        let ends: Vec<f64> = field.items(allowed)?.iter().map(Field::positive).collect::<Result<_, _>>()?;
-        match ends[..] {
-            [least, most] if least < most && claims[0].is_some() => more.constant = Some([least, most]),
-            _ => return Err(field.refuse_as_written(allowed)),
-        }
-    }
     if let [_, _, Some(field)] = &claims {
-        return Ok((1.0, More { exact: Some(field.positive()?), ..more }));
-    }
-    let [order, factor, _] = claims;
-    more.by_degree = factor.is_some();
-    let field =
-        order.or(factor).map_or_else(|| section.require("order", "a number > 0, or a text such as \">= 2\""), Ok)?;
-    let number = match field.text() {
-        Ok(text) if !plain => {
-            more.at_least = true;
-            let number = text.trim().strip_prefix(">=").and_then(|number| number.trim().parse::<f64>().ok());
-            let number = number.filter(|number| *number > 0.0 && number.is_finite());
-            number.ok_or_else(|| field.refuse_as_written("a number > 0, or a text such as \">= 2\""))?
+        if section.get("tolerance").is_some() {
+            return Err(section.refuse("tolerance", "tolerance beside exact", "exact alone"));
         }
-        _ => field.positive()?,
-    };
-    if more.by_degree && number <= 1.0 {
-        return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
+        // There is no rate that a tolerance could be about.
+        return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), More { exact: Some(field.positive()?), ..More::default() }));
     }
-    Ok((if more.by_degree { order_of_factor(number) } else { number }, more))
+    if let Some(field) = claims[0].as_ref().filter(|_| plain) {
+        field.positive()?;
+    }
+    let key = if claims[1].is_some() { "factor" } else { "order" };
+    let mut claim = Claim::read(section, key)?;
+    if let Some(field) = &claims[1] {
+        if claim.order <= 1.0 {
+            return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
+        }
+        claim.order = order_of_factor(claim.order);
+    }
+    let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
+    let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
+    claim.tolerance = section.require("tolerance", &narrow)?.number_where(&narrow, is_narrow)?;
+    Ok((claim, More { by_degree: claims[1].is_some(), exact: None }))
 }
 
 /// A name as answers have it, which control characters are never part of.

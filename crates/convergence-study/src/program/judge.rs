@@ -4,7 +4,6 @@ use super::answer::{Answer, Expected};
 use super::refine::Resolution;
 use super::{Expectation, Program, values};
 use crate::judge::claims;
-use crate::judge::verdict::RateVerdict;
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
@@ -67,12 +66,12 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
     // The next level takes as many times longer as the last one did, and at least twice as long.
     let cost = last * (last / before).max(2.0);
     let levels = levels(study, ran);
-    let rates = [judged(study, &levels), values::judge(study, ran, &levels.refinements).rates].concat();
+    let rates = [levels.judge(), values::judge(study, ran, &levels.refinements).rates].concat();
     Some(until_decided::next(&rates, ran.len(), cost, seconds.iter().sum(), budget))
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let (mut rates, mut checks) = (judged(study, levels), exact(study, ran));
+    let (mut rates, mut checks) = (levels.judge(), exact(study, ran));
     let id = &study.header.id;
     let mut figures = vec![];
     // The figure is one over h.
@@ -105,21 +104,6 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
 /// Whether n is a degree.
 fn by_degree(study: &Program) -> bool {
     study.expect.iter().any(|expectation| expectation.more.by_degree)
-}
-
-/// The rates of the errors, each held against all that is claimed of it.
-fn judged(study: &Program, levels: &Levels) -> Vec<(String, RateVerdict)> {
-    let more = |(name, rate): (String, RateVerdict)| {
-        let is_of = |expectation: &&Expectation| expectation.expected == Expected::Error(name.clone());
-        let more = study.expect.iter().find(is_of).map(|expectation| expectation.more).unwrap_or_default();
-        let rate = if more.at_least { claims::at_least(rate) } else { rate };
-        let rate = match (more.constant, levels.of(&name)) {
-            (Some(between), Some(points)) => claims::with_constant(&points, rate, between),
-            _ => rate,
-        };
-        (name, rate)
-    };
-    levels.judge().into_iter().map(more).collect()
 }
 
 /// A check for each error that is claimed to be none.

@@ -83,12 +83,8 @@ pub struct Program {
 /// What a table `[[expect]]` claims beside an order within a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct More {
-    /// The order is the least one.
-    at_least: bool,
     /// The order is that of a factor a degree, n being the degree.
     by_degree: bool,
-    /// Between which numbers the constant lies.
-    constant: Option<[f64; 2]>,
     /// No error is larger; nothing else is claimed.
     exact: Option<f64>,
 }
@@ -189,9 +185,9 @@ impl Kind for Program {
         let order = |Expectation { expected, claim, time, more }: &Expectation| {
             let time = if self.refine.grid { format!(" in h, {time} in dt") } else { String::new() };
             let name = format!("{} {}", expected.what(), expected.name());
-            let least = if more.at_least { "at least " } else { "" };
+            let least = if claim.at_least { "at least " } else { "" };
             let constant =
-                more.constant.map(|[least, most]| format!(", constant {least} to {most}")).unwrap_or_default();
+                claim.constant.map(|[least, most]| format!(", constant {least} to {most}")).unwrap_or_default();
             match more.exact {
                 Some(bound) => format!("{name} at most {bound}"),
                 None if more.by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),

@@ -69,7 +69,7 @@ fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn>
 
 /// `None` where nothing is claimed of the value. A level without a result makes the verdict fail; the estimate is that of the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
-    let Claim { order, tolerance } = column.claim?;
+    let Claim { order, tolerance, .. } = column.claim?;
     let level = |(level, value): (&Refinement, &Option<f64>)| Some(Value { step: level.step, value: (*value)? });
     let values: Vec<Value> = refinements.iter().zip(&column.errors).filter_map(level).collect();
     let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);

@@ -57,7 +57,7 @@ where
     ///
     /// * `tolerance`: how far the rate may be from the order, above or below; 0 < tolerance < 0.5.
     pub fn claiming(mut self, error: &'static str, order: f64, tolerance: f64) -> Self {
-        self.claims.push((error, Claim { order, tolerance }));
+        self.claims.push((error, Claim::new(order, tolerance)));
         self
     }
 
@@ -133,7 +133,7 @@ where
 
     fn details(&self) -> Vec<(String, String)> {
         let labels: Vec<&str> = self.levels.iter().map(|(refinement, _)| refinement.label.as_str()).collect();
-        let order = |(name, Claim { order, tolerance }): &(&str, Claim)| format!("{name} {order} ± {tolerance}");
+        let order = |(name, Claim { order, tolerance, .. }): &(&str, Claim)| format!("{name} {order} ± {tolerance}");
         let orders: Vec<String> = self.claims.iter().map(order).collect();
         vec![("orders claimed".to_owned(), orders.join(", ")), ("levels".to_owned(), labels.join(", "))]
     }

@@ -74,7 +74,7 @@ impl Grid {
             let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
             let squares = self.model == Model::Squares || misfits[1] <= misfits[0];
             let adding = if squares { Adding::Squares } else { Adding::Plain };
-            let Claim { order, tolerance } = column.space;
+            let Claim { order, tolerance, .. } = column.space;
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
             match errors.judge(adding, [order, column.time], tolerance) {

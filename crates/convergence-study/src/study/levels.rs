@@ -8,6 +8,7 @@ use super::case::{Ran, by_reason};
 use super::outcome::{Check, LevelErrors, Quantity, Table};
 #[cfg(feature = "reports")]
 use super::outcome::{Figure, Outcome};
+pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 #[cfg(feature = "reports")]
@@ -24,15 +25,6 @@ pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// The same for an observed rate.
 pub const RATE_TOLERANCE: f64 = 1e-4;
-
-/// What theory claims of an error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Claim {
-    /// The order.
-    pub order: f64,
-    /// How far the rate may be from it, above or below.
-    pub tolerance: f64,
-}
 
 /// One error on every level, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,11 +114,6 @@ pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
     /// The levels that have a result.
-    /// The levels of the error of this name that have a result; `None` where there is no such error.
-    pub(crate) fn of(&self, name: &str) -> Option<Vec<Level>> {
-        self.columns.iter().find(|column| column.name == name).map(|column| self.points(column))
-    }
-
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
         let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
         self.refinements.iter().enumerate().filter_map(level).collect()
@@ -154,11 +141,11 @@ impl Levels {
     pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
         let verdict = |column: &ErrorColumn| {
-            let Claim { order, tolerance } = column.claim?;
+            let claim = column.claim?;
             let points = self.points(column);
             // A tolerance that no verdict can be based on; readers of study files refuse it before.
-            let judged = Judge::new(tolerance).map(|judge| settings(judge).judge(&points, order));
-            let judged = judged.unwrap_or_else(|_| verdict::judge(&points, order, tolerance));
+            let judged = Judge::new(claim.tolerance).map(|judge| claim.judge(&settings(judge), &points));
+            let judged = judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
             Some((column.name.clone(), judged.among(&labels, &self.has_result(column))))
         };
         self.columns.iter().filter_map(verdict).collect()
@@ -357,7 +344,7 @@ mod tests {
         let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
         let judged = |count: usize, tolerance: f64| {
             let errors = refinements.iter().take(count).map(|level| Some(level.step * level.step)).collect();
-            let claim = Some(Claim { order: 2.0, tolerance });
+            let claim = Some(Claim::new(2.0, tolerance));
             let columns = vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }];
             let levels = Levels { axis: Axis::Space, refinements: refinements.clone(), columns };
             levels.judge().remove(0).1
@@ -377,7 +364,7 @@ mod tests {
         let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
         let errors =
             refinements.iter().zip(factors).map(|(level, factor)| Some(factor * level.step * level.step)).collect();
-        let claim = Some(Claim { order: 2.0, tolerance: 0.1 });
+        let claim = Some(Claim::new(2.0, 0.1));
         Levels {
             axis: Axis::Space,
             refinements,

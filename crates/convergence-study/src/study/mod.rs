@@ -6,6 +6,7 @@
 
 mod axis;
 pub mod case;
+mod claim;
 mod errors_over_levels;
 pub mod grid;
 pub mod header;

@@ -361,7 +361,7 @@ impl AnyOrder {
         let column = |(look, (name, order, of)): (usize, ClaimOf)| ErrorColumn {
             name,
             errors: ran.iter().map(|ran| ran.ok().map(of)).collect(),
-            claim: Some(Claim { order: order as f64, tolerance: series.tolerance }),
+            claim: Some(Claim::new(order as f64, series.tolerance)),
             look,
         };
         let refinement = |ran: &Run| {

@@ -25,7 +25,7 @@
 //!
 //! [[expect]]
 //! norm = "theorem-3.4"
-//! order = 1.0
+//! order = 1.0                 # or ">= 1"; `constant = [0.9, 1.1]` beside it: C of C h^p
 //! tolerance = 0.05
 //! ```
 
@@ -38,8 +38,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use super::controls::untested;
 use super::prelude::*;
 use super::tables::{
-    Control, Expectation, Manufactured, Norms, Refine, control, expectations, manufactured, norm_levels, not_finite,
-    refine,
+    Control, Manufactured, Norm, Norms, Refine, control, expectations, manufactured, norm_levels, not_finite, refine,
 };
 use super::terms;
 use crate::error::design::{Disagreement, Prepared};
@@ -78,7 +77,7 @@ pub struct Convergence {
     /// The solver's own coefficients, where they differ: then the study must fail.
     pub control: Option<Control>,
     /// The orders expected; at least one, each norm once.
-    pub expect: Vec<Expectation>,
+    pub expect: Vec<(Norm, Claim)>,
 }
 
 impl FromFile for Convergence {
@@ -95,7 +94,15 @@ impl FromFile for Convergence {
         let refine = refine(root)?;
         let exact = manufactured(root, &beam, refine.t_end)?;
         let control = control(root, beam, obstacles)?;
-        Ok(Self { header, beam, obstacles, exact, refine, control, expect: expectations(root)? })
+        let expect = expectations(root)?;
+        if refine.grid && expect.iter().any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance)) {
+            return Err(root.refuse(
+                "expect",
+                "a least order or a constant",
+                "orders alone, for a grid has one in h and in dt",
+            ));
+        }
+        Ok(Self { header, beam, obstacles, exact, refine, control, expect })
     }
 }
 
@@ -144,9 +151,10 @@ impl Kind for Convergence {
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let orders = self.expect.iter().map(|&Expectation { norm, order, tolerance }| {
-            (format!("{}, order {order} ± {tolerance}", norm.name()), format!("{}.", terms::text(norm)))
-        });
+        let orders = self
+            .expect
+            .iter()
+            .map(|&(norm, claim)| (format!("{}, order {claim}", norm.name()), format!("{}.", terms::text(norm))));
         [("what is done".to_owned(), self.design())].into_iter().chain(orders).collect()
     }
 
@@ -192,10 +200,10 @@ impl Convergence {
     /// The verdict over a grid of (h, dt): squares of space and time error add, and each order is judged by itself.
     fn judge_grid(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels, completion: Check) -> Outcome {
         // The same order is expected in h and in dt.
-        let column = |&Expectation { norm, order, tolerance }: &Expectation| GridColumn {
+        let column = |&(norm, claim): &(Norm, Claim)| GridColumn {
             name: norm.name().to_owned(),
-            space: Claim { order, tolerance },
-            time: order,
+            space: claim,
+            time: claim.order,
             errors: ran.iter().map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm])).collect(),
         };
         let grid = Grid {

@@ -225,7 +225,7 @@ impl EndStates {
             let column = |look: usize, field: &str, error: fn(&Fields) -> f64| ErrorColumn {
                 name: format!("{}: {field}", ends.scene.name),
                 errors: ends.ends.iter().map(|end| end.map(|end| error(&end.error))).collect(),
-                claim: Some(Claim { order: ORDER, tolerance: self.tolerance }),
+                claim: Some(Claim::new(ORDER, self.tolerance)),
                 look,
             };
             [column(2 * k, "u", |fields| fields.u), column(2 * k + 1, "φ", |fields| fields.phi)]

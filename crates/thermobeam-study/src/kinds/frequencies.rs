@@ -67,6 +67,7 @@ impl FromFile for Frequencies {
         let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
         // A mesh has twice as many frequencies, of which the upper ones approximate nothing.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
+        let claim = Claim::read(&section, "order")?;
         Ok(Self {
             header,
             first: section.get("first").map_or(Ok(1), |field| field.count(1..=count))?,
@@ -74,7 +75,7 @@ impl FromFile for Frequencies {
             degree,
             map: mesh_map(&section, &elements, None)?,
             elements,
-            claim: Claim { order: section.positive("order")?, tolerance: section.positive("tolerance")? },
+            claim: Claim { tolerance: section.positive("tolerance")?, ..claim },
         })
     }
 }

@@ -1,19 +1,23 @@
 //! Levels that are added until it is decided.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use convergence_study::judge::verdict::Verdict;
+use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::study::{FromFile, Outcome, run_here};
 use thermobeam_study::kinds::convergence::Convergence;
 
-/// The outcome of the study of Theorem 3.4 in h with these elements and this tolerance.
+/// The study of Theorem 3.4 in h.
+fn file() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/theorem-3.4-space.toml")
+}
+
+/// Its outcome with these elements and this tolerance.
 fn outcome(elements: &str, tolerance: &str) -> Outcome {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/theorem-3.4-space.toml");
-    let text = std::fs::read_to_string(&file).unwrap();
+    let text = std::fs::read_to_string(file()).unwrap();
     let listed = text.lines().find(|line| line.starts_with("elements = ")).unwrap();
     assert!(text.contains("tolerance = 0.002"));
     let text = text.replace(listed, elements).replace("tolerance = 0.002", tolerance);
-    run_here(&Convergence::parse(&text, &file).unwrap())
+    run_here(&Convergence::parse(&text, &file()).unwrap())
 }
 
 #[test]
@@ -44,4 +48,40 @@ fn a_budget_ends_a_study_without_a_verdict() {
     assert_eq!((spent.verdict, spent.levels.len()), (Verdict::Inconclusive, 4));
     let told = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
     assert!(spent.summary.ends_with(told), "{}", spent.summary);
+}
+
+#[test]
+fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
+    let elements = "elements = [16, 32, 64, 128]";
+    let claimed = |claim: &str| {
+        let outcome = outcome(elements, &format!("tolerance = 0.25\n{claim}"));
+        let rate = outcome.rates.iter().find(|(norm, _)| norm == "theorem-3.4").unwrap();
+        (rate.1.kind, rate.1.constant.unwrap())
+    };
+    let (kind, constant) = claimed("");
+    assert_eq!(kind, Reason::Agrees);
+    let between = |least: f64, most: f64| claimed(&format!("constant = [{}, {}]", least * constant, most * constant)).0;
+    assert_eq!(between(0.5, 2.0), Reason::Agrees);
+    assert_eq!(between(2.0, 4.0), Reason::ConstantOff);
+    let least = |order: &str| {
+        let text = std::fs::read_to_string(file()).unwrap();
+        let text = text.replace("order = 1.0\ntolerance = 0.002", &format!("order = {order}\ntolerance = 0.2"));
+        run_here(&Convergence::parse(&text, &file()).unwrap()).verdict
+    };
+    assert_eq!((least("\">= 0.5\""), least("\">= 1.5\"")), (Verdict::Pass, Verdict::Fail));
+}
+
+#[test]
+fn a_claim_that_is_no_order_is_refused() {
+    let refused = |from: &str, to: &str| {
+        let text = std::fs::read_to_string(file()).unwrap();
+        assert!(text.contains(from));
+        Convergence::parse(&text.replacen(from, to, 1), &file()).err().expect("a refusal").to_string()
+    };
+    for to in ["order = \"<= 1\"", "order = \">= 0\"", "order = \"1\"", "order = -1"] {
+        let message = refused("order = 1.0", to);
+        assert!(message.contains("order") && message.contains("number > 0"), "{message}");
+    }
+    let message = refused("order = 1.0", "order = 1.0\nconstant = [2.0, 1.0]");
+    assert!(message.contains("constant") && message.contains("the smaller first"), "{message}");
 }

@@ -174,7 +174,7 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<Task, Found>]) -> Outco
         columns: vec![ErrorColumn {
             name: "buckling force of P1 elements".to_owned(),
             errors: forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect(),
-            claim: Some(Claim { order: 2.0, tolerance: study.tolerance }),
+            claim: Some(Claim::new(2.0, study.tolerance)),
             look: 0,
         }],
     };

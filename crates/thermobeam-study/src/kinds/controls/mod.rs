@@ -138,12 +138,12 @@ fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence
 ///
 /// * `levels`: elements, steps and errors of each level, coarse to fine.
 fn verdicts<'a>(spec: &'a Convergence, levels: &'a [((usize, usize), Norms)]) -> impl Iterator<Item = Verdict> + 'a {
-    spec.expect.iter().map(move |expectation| {
+    spec.expect.iter().map(move |&(norm, claim)| {
         let level = |((elements, steps), errors): &((usize, usize), Norms)| Level {
             step: spec.step(*elements, *steps),
-            error: errors[expectation.norm],
+            error: errors[norm],
         };
-        judge(&levels.iter().map(level).collect::<Vec<_>>(), expectation.order, expectation.tolerance).verdict
+        judge(&levels.iter().map(level).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
     })
 }
 

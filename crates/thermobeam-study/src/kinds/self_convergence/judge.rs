@@ -128,7 +128,7 @@ fn differences(
     let column = |observable: Observable| {
         let claim = study.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim);
         let difference = |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
-        let smooth = Claim { order: observable.order(study.axis, study.order_in_time()), tolerance: SHOWN_TOLERANCE };
+        let smooth = Claim::new(observable.order(study.axis, study.order_in_time()), SHOWN_TOLERANCE);
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {name}", observable.name()),
             errors: (0..count).map(difference).collect(),

@@ -18,23 +18,9 @@ pub(crate) use manufactured::manufactured;
 pub use refine::{Perturbation, Refine};
 pub(crate) use refine::{mapped_mesh, mesh_map, refine};
 
-/// The order that theory gives for a norm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Expectation {
-    /// The norm.
-    pub norm: Norm,
-    /// The order, > 0.
-    pub order: f64,
-    /// How far the observed rate may be from it, above or below, > 0.
-    pub tolerance: f64,
-}
-
 /// All tables `[[expect]]`: in which norm which order.
-pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<Expectation>, InputError> {
-    let norms = Norm::ALL.map(|norm| (norm.name(), norm));
-    let claims = claims(root, "norm", &norms)?;
-    let expectation = |(norm, Claim { order, tolerance })| Expectation { norm, order, tolerance };
-    Ok(claims.into_iter().map(expectation).collect())
+pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
+    claims(root, "norm", &Norm::ALL.map(|norm| (norm.name(), norm)))
 }
 
 /// All tables `[[expect]]`: of what which order, each once.
@@ -51,13 +37,14 @@ pub(crate) fn claims<T: Copy + PartialEq>(
     let mut claims: Vec<(T, Claim)> = vec![];
     for item in field.items(&allowed)? {
         let section = item.section()?;
-        section.allow(&[key, "order", "tolerance"])?;
+        section.allow(&[key, "order", "constant", "tolerance"])?;
         let of = section.require(key, &names)?.choice(choices)?;
         if claims.iter().any(|(earlier, _)| *earlier == of) {
             let name = choices.iter().find(|(_, choice)| *choice == of).map_or("", |(name, _)| name);
             return Err(section.refuse(key, format!("\"{name}\" a second time"), format!("each {key} once")));
         }
-        claims.push((of, Claim { order: section.positive("order")?, tolerance: section.positive("tolerance")? }));
+        let claim = Claim::read(&section, "order")?;
+        claims.push((of, Claim { tolerance: section.positive("tolerance")?, ..claim }));
     }
     if claims.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(claims) }
 }
@@ -68,7 +55,7 @@ pub(crate) fn claims<T: Copy + PartialEq>(
 /// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` where the case failed.
 pub(crate) fn norm_levels<'r>(
     refine: &Refine,
-    expect: &[Expectation],
+    expect: &[(Norm, Claim)],
     step: impl Fn(usize, usize) -> f64,
     ran: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
 ) -> Levels {
@@ -76,10 +63,7 @@ pub(crate) fn norm_levels<'r>(
     let column = |norm: Norm| ErrorColumn {
         name: norm.name().to_owned(),
         errors: ran.clone().map(|(_, errors)| errors.map(|errors| errors[norm])).collect(),
-        claim: expect
-            .iter()
-            .find(|expectation| expectation.norm == norm)
-            .map(|&Expectation { order, tolerance, .. }| Claim { order, tolerance }),
+        claim: expect.iter().find(|(of, _)| *of == norm).map(|(_, claim)| *claim),
         look: norm as usize,
     };
     Levels {

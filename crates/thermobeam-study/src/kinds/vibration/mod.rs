@@ -17,9 +17,7 @@ use thermobeam::solve::Level;
 use thermobeam::vibration::Mode;
 
 use super::prelude::*;
-use super::tables::{
-    Expectation, Norm, Norms, Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine,
-};
+use super::tables::{Norm, Norms, Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
 use crate::error::design;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
@@ -55,7 +53,7 @@ pub struct Vibration {
     modes: Vec<Vibrating>,
     heat: Vec<Cooling>,
     refine: Refine,
-    expect: Vec<Expectation>,
+    expect: Vec<(Norm, Claim)>,
 }
 
 /// A vibration.

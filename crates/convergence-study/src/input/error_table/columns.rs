@@ -1,79 +1,39 @@
 //! Which column is the step and which are errors: by their numbers, and by their names where the numbers leave it open.
 
 use std::collections::HashSet;
-use std::f64::consts::LN_2;
 
+use super::column::{Found, limit};
 use super::names::{self, Word, reciprocal};
-use super::number::{Number, halves, number};
-use super::text::{Cell, Grid};
-use super::{Column, RateTable};
+use super::number::{halves, number};
+use super::text::Grid;
+use super::{Choice, Column, RateTable};
 use crate::input::{Complaint, InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::{counted, plain_text};
 
-/// Which columns of a table are meant; by default their numbers decide.
-///
-/// A column is named as in the table, with or without its unit, or by its number from 1.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Choice {
-    /// The column of the step, or of the count that it is computed from.
-    pub step: Option<String>,
-    /// The columns of errors.
-    pub columns: Option<Vec<String>>,
-    /// Columns of values, which tend to a limit that is not zero.
-    pub values: Vec<String>,
-    /// Names for all columns, in place of those in the table.
-    pub names: Option<Vec<String>>,
-    /// Columns of which an order is claimed by name: none of them is taken for the step.
-    pub claimed: Vec<String>,
-    /// Dimension D > 0 of what a count counts: h = count^(-1/D).
-    pub dim: Option<f64>,
-    /// The command that reads the table, for advice; empty for none.
-    pub command: String,
-}
-
 /// Most names that a message lists.
 const LISTED: usize = 12;
-/// Largest relative difference of two ratios that are the same, by their digits.
-const SAME: f64 = 1e-5;
-/// How far numbers that tend to a limit are from each other at most, as a ratio.
-const NEAR: f64 = 1.5;
 /// Rates are looked for among as many columns on either side.
 const NEIGHBOURS: usize = 40;
 
 /// A grid and what is asked of it.
 struct Reader<'g, 't> {
-    grid: &'g Grid<'t>,
+    grid: Grid<'t>,
     file: &'g str,
     choice: &'g Choice,
-    /// As messages show them.
-    names: Vec<String>,
-    words: Vec<Word>,
-    /// Column by column.
-    numbers: Vec<Vec<Option<Number>>>,
-    /// Which columns `--columns`, `--values` and `--order` name.
-    claimed: HashSet<usize>,
-}
-
-/// The column of the step, the step of each row, and the rows from coarse to fine.
-struct Steps {
-    column: usize,
-    of: Vec<f64>,
-    order: Vec<usize>,
+    /// The columns of the grid.
+    columns: Vec<Found>,
 }
 
 /// What a column that nobody has chosen holds.
-enum Kind {
+#[derive(PartialEq)]
+enum Holds {
     Error,
-    /// The limit.
-    Value(f64),
-    /// No error, and why.
-    Other(&'static str),
-    /// Rates, of which column.
-    Rates(usize),
+    Value,
+    Other,
     /// Perhaps an error that does not fall.
-    Doubtful(&'static str),
+    Doubtful,
 }
 
 /// Columns by what they hold.
@@ -87,25 +47,36 @@ struct Sorted {
 }
 
 /// Reads the step and the errors that are meant.
-pub(super) fn read(grid: &Grid<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let width = grid.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
-    let found: Vec<String> = grid.names.iter().map(|cell| names::shown(cell.text)).collect();
-    let nameless = vec![String::new(); grid.misfit.unwrap_or(width)];
-    let names = choice.names.clone().unwrap_or(if found.is_empty() { nameless } else { found });
-    let has_comma = grid.decimal_comma && {
-        let mut cells = grid.rows.iter().flat_map(|row| &row.cells);
-        cells.any(|cell| cell.text.contains(',') && number(cell.text, true).is_some())
-    };
+pub(super) fn read(grid: Grid<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
+    let width = grid.rows.iter().map(Vec::len).max().unwrap_or(0);
+    let names = choice.names.clone().unwrap_or_else(|| match grid.names[..] {
+        [] => vec![String::new(); grid.misfit.unwrap_or(width)],
+        _ => grid.names.iter().map(|name| names::shown(name)).collect(),
+    });
+    let has_comma =
+        grid.decimal_comma && grid.rows.iter().flatten().any(|cell| cell.contains(',') && number(cell, true).is_some());
     // `1.024` among decimal commas may be 1024.
     let value = |text: &str| number(text, grid.decimal_comma).filter(|_| !(has_comma && text.contains('.')));
-    let of = |k: usize| grid.rows.iter().map(|row| value(row.cells.get(k)?.text)).collect();
-    let words = names.iter().map(|name| Word::of(name)).collect();
-    let shown = |(k, name): (usize, &String)| if name.is_empty() { format!("column {}", k + 1) } else { name.clone() };
-    let shown: Vec<String> = names.iter().enumerate().map(shown).collect();
-    let wanted = choice.columns.iter().flatten().chain(&choice.claimed).chain(&choice.values);
-    let claimed = wanted.filter_map(|name| names::position(shown.iter().map(String::as_str), name)).collect();
-    let numbers = (0..width).map(of).collect();
-    let reader = Reader { grid, file, choice, names: shown, words, numbers, claimed };
+    let column = |(k, name): (usize, &String)| {
+        let numbers: Vec<_> = grid.rows.iter().map(|row| value(row.get(k)?)).collect();
+        let word = Word::of(name);
+        let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(1)) && grid.rows.len() > 1;
+        Found {
+            name: if name.is_empty() { format!("column {}", k + 1) } else { name.clone() },
+            word,
+            halves: halves(&numbers),
+            numbers,
+            is_claimed: false,
+            is_index: may_count && grid.counts_rows(k),
+        }
+    };
+    let mut columns: Vec<Found> = names.iter().enumerate().map(column).collect();
+    for name in choice.columns.iter().flatten().chain(&choice.claimed).chain(&choice.values) {
+        if let Some(k) = names::position(columns.iter().map(|column| column.name.as_str()), name) {
+            columns[k].is_claimed = true;
+        }
+    }
+    let reader = Reader { grid, file, choice, columns };
     reader.check(width)?;
     reader.read()
 }
@@ -117,80 +88,98 @@ impl Reader<'_, '_> {
             let line = self.grid.text.lines().find(|line| !line.trim().is_empty());
             let found = line.map(|line| format!("no row of numbers, but `{}`", shorten(line.trim())));
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
-            return Err(self.error(line.map(|_| (1, 0)), expected, found.as_deref().unwrap_or("an empty table")));
+            let at = line.map(|_| &self.grid.text[..0]);
+            return Err(self.error(at, expected, found.as_deref().unwrap_or("an empty table")));
         }
-        if let Some(row) = self.grid.rows.iter().find(|row| row.cells.len() != self.names.len()) {
+        let count = self.columns.len();
+        if let Some(row) = self.grid.rows.iter().find(|row| row.len() != count) {
             let example = (1..).map(|k| format!("c{k}"));
-            let is_even = self.grid.rows.iter().all(|row| row.cells.len() == width);
-            let command = self.command(|choice| choice.names = Some(example.take(width).collect()));
-            let found = counted(row.cells.len(), "cell") + if is_even { &command } else { "" };
-            let at = (row.line, row.cells.first().map_or(0, |cell| cell.start));
-            return Err(self.error(
-                Some(at),
-                &format!("{}, one for each name", counted(self.names.len(), "cell")),
-                &found,
-            ));
+            let is_even = self.grid.rows.iter().all(|row| row.len() == width);
+            let command = self.choice.command(|choice| choice.names = Some(example.take(width).collect()));
+            let found = counted(row.len(), "cell") + if is_even { &command } else { "" };
+            let expected = format!("{}, one for each name", counted(count, "cell"));
+            return Err(self.error(row.first().copied(), &expected, &found));
         }
-        if let Some(k) = self.names.iter().position(|name| name.contains(char::is_control)) {
-            let found = format!("`{}`", shorten(&self.names[k]));
+        if let Some(k) = self.columns.iter().position(|column| column.name.contains(char::is_control)) {
+            let found = format!("`{}`", shorten(&self.columns[k].name));
             return Err(self.error(Some(self.above(k)), "a name without control characters", &found));
         }
         if width < 2 {
-            return Err(self.error(Some(self.above(0)), "a column of steps and at least one of errors", "one column"));
+            return Err(self.refuse("a column of steps and at least one of errors", "one column"));
         }
         Ok(())
     }
 
-    fn read(&self) -> Result<RateTable, InputError> {
-        let (column, how) = self.step()?;
-        let dim = self.dim(column)?;
-        let of =
-            (0..self.grid.rows.len()).map(|row| self.step_at(row, column, dim)).collect::<Result<Vec<f64>, _>>()?;
-        // The judge wants the coarsest level first.
-        let mut order: Vec<usize> = (0..of.len()).collect();
-        order.sort_by(|a, b| of[*b].total_cmp(&of[*a]));
-        let steps = Steps { column, of, order };
-        self.each_step_once(&steps)?;
-        let Sorted { errors, values, others, .. } = self.sorted(&steps)?;
-        let is_exact = self.regular(column).is_some() || dim.is_some();
-        let step_halves = if is_exact { vec![0.0; steps.of.len()] } else { halves(&self.numbers[column]) };
-        let read = |&k: &usize| {
-            let halves = halves(&self.numbers[k]);
-            let levels = steps.order.iter().map(|&row| Ok(Level { step: steps.of[row], error: self.must(row, k)? }));
-            let ordered = |halves: &[f64]| steps.order.iter().map(|row| halves[*row]).collect();
-            let levels = levels.collect::<Result<_, InputError>>()?;
-            Ok(Column {
-                name: self.names[k].clone(),
-                levels,
-                halves: ordered(&halves),
-                step_halves: ordered(&step_halves),
-            })
-        };
+    fn read(mut self) -> Result<RateTable, InputError> {
+        let (step, how) = self.step()?;
+        let dim = self.dim(step)?;
+        let steps = self.sort(step, dim)?;
+        let Sorted { errors, values, others, .. } = self.sorted(step, &steps)?;
         let mut seen = HashSet::new();
-        if let Some(&twice) = errors.iter().chain(&values).find(|k| !seen.insert(&self.names[**k])) {
-            let again = |(k, name): (usize, &String)| {
-                if self.names[..k].contains(name) { format!("{name}_{}", k + 1) } else { name.clone() }
-            };
-            let numbered = self.names.iter().enumerate().map(|name| again(name).replace(',', ";")).collect();
-            let command = self.command(|choice| choice.names = Some(numbered));
-            let found = format!("`{}` a second time{command}", shorten(&self.names[twice]));
-            return Err(self.error(Some(self.above(twice)), "each name once", &found));
+        if let Some(&twice) = errors.iter().chain(&values).find(|k| !seen.insert(&self.columns[**k].name)) {
+            return Err(self.twice(twice));
         }
-        let step = self.label(column, dim);
-        let quoted = |columns: &[usize]| listed(columns.iter().map(|k| format!("`{}`", self.names[*k])));
-        let part = |what: &str, list: String| if list.is_empty() { list } else { format!("; {what}: {list}") };
+        let is_exact = self.columns[step].regular().is_some() || dim.is_some();
+        let step_halves = if is_exact { vec![0.0; steps.len()] } else { self.columns[step].halves.clone() };
+        let read = |&k: &usize| {
+            let Found { name, halves, .. } = &self.columns[k];
+            let level = |(row, step): (usize, &f64)| Ok(Level { step: *step, error: self.must(row, k)? });
+            let levels = steps.iter().enumerate().map(level).collect::<Result<_, InputError>>()?;
+            Ok(Column { name: name.clone(), levels, halves: halves.clone(), step_halves: step_halves.clone() })
+        };
+        let quoted = |columns: &[usize]| listed(columns.iter().map(|k| format!("`{}`", self.columns[*k].name)));
         let left_out = listed(others.iter().map(|(name, why)| format!("`{name}` ({why})")));
         let parts = [("errors", quoted(&errors)), ("values", quoted(&values)), ("left out", left_out)];
-        let reading = format!("step: `{step}`{how}") + &parts.map(|(what, list)| part(what, list)).concat();
+        let parts = parts.iter().filter(|(_, list)| !list.is_empty()).map(|(what, list)| format!("; {what}: {list}"));
+        let label = self.label(step, dim);
+        let reading = format!("step: `{label}`{how}{}", parts.collect::<String>());
         let columns = errors.iter().map(read).collect::<Result<_, InputError>>()?;
         let values = values.iter().map(read).collect::<Result<_, InputError>>()?;
-        Ok(RateTable { step, columns, values, not_errors: others, reading, is_guessed: !how.is_empty() })
+        Ok(RateTable { step: label, columns, values, not_errors: others, reading, is_guessed: !how.is_empty() })
     }
 
-    /// * `place`: the line, and a byte of it.
-    fn error(&self, place: Option<(usize, usize)>, expected: &str, found: &str) -> InputError {
+    /// The step of each row; puts the rows into the order of the steps, the coarsest level first, as the judge wants it.
+    fn sort(&mut self, column: usize, dim: Option<f64>) -> Result<Vec<f64>, InputError> {
+        let what = if dim.is_some() { "a count" } else { "a step" };
+        let step = |row: usize| {
+            let value = self.must(row, column)?;
+            let is_step = value > 0.0 && value.is_finite();
+            let step = dim.map_or(value, |dim| value.powf(-1.0 / dim));
+            is_step.then_some(step).ok_or_else(|| self.at(row, column, &format!("{what}, a finite number > 0")))
+        };
+        let steps = (0..self.grid.rows.len()).map(step).collect::<Result<Vec<f64>, _>>()?;
+        let mut order: Vec<usize> = (0..steps.len()).collect();
+        order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
+        self.grid.rows = order.iter().map(|row| std::mem::take(&mut self.grid.rows[*row])).collect();
+        for Found { numbers, halves, .. } in &mut self.columns {
+            *numbers = order.iter().map(|row| numbers[*row]).collect();
+            *halves = order.iter().map(|row| halves[*row]).collect();
+        }
+        let steps: Vec<f64> = order.iter().map(|row| steps[*row]).collect();
+        if let Some(row) = steps.windows(2).position(|two| two[0] == two[1]) {
+            let [before, cell] = [row, row + 1].map(|row| self.grid.rows[row][column]);
+            let [first, second] = [before, cell].map(|cell| self.grid.place(cell).line);
+            let found = format!("`{}` = {cell} in lines {first} and {second}", self.columns[column].name);
+            return Err(self.error(Some(cell), "each step once: give one table at a time", &found));
+        }
+        Ok(steps)
+    }
+
+    fn twice(&self, column: usize) -> InputError {
+        let again = |(k, name): (usize, &String)| {
+            let is_again = self.columns[..k].iter().any(|earlier| earlier.name == *name);
+            if is_again { format!("{name}_{}", k + 1) } else { name.clone() }.replace(',', ";")
+        };
+        let numbered = self.columns.iter().map(|column| &column.name).enumerate().map(again).collect();
+        let command = self.choice.command(|choice| choice.names = Some(numbered));
+        let found = format!("`{}` a second time{command}", shorten(&self.columns[column].name));
+        self.error(Some(self.above(column)), "each name once", &found)
+    }
+
+    /// * `at`: a piece of the text.
+    fn error(&self, at: Option<&str>, expected: &str, found: &str) -> InputError {
         let reason = format!("expected {expected}, found {found}");
-        let place = place.map(|(line, byte)| self.grid.place(line, byte));
+        let place = at.map(|piece| self.grid.place(piece));
         InputError {
             file: self.file.to_owned(),
             place,
@@ -199,9 +188,9 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The place of a name.
-    fn above(&self, column: usize) -> (usize, usize) {
-        (self.grid.line.max(1), self.grid.names.get(column).map_or(0, |cell| cell.start))
+    /// The name above a column, or where the text begins.
+    fn above(&self, column: usize) -> &str {
+        self.grid.names.get(column).copied().unwrap_or(&self.grid.text[..0])
     }
 
     /// A complaint about the row of names.
@@ -210,69 +199,38 @@ impl Reader<'_, '_> {
     }
 
     fn at(&self, row: usize, column: usize, expected: &str) -> InputError {
-        let Cell { start, text } = self.grid.rows[row].cells[column];
-        let place = Some((self.grid.rows[row].line, start));
-        let field = Some(self.names[column].clone());
-        InputError { field, ..self.error(place, expected, &format!("`{}`", shorten(text))) }
-    }
-
-    /// The command with a choice that was changed, on a line of its own; empty where no command is known.
-    fn command(&self, change: impl FnOnce(&mut Choice)) -> String {
-        let mut choice = self.choice.clone();
-        change(&mut choice);
-        if choice.command.is_empty() {
-            return String::new();
-        }
-        let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
-        let quoted =
-            |text: String| if text.chars().all(is_plain) { text } else { format!("'{}'", text.replace('\'', "'\\''")) };
-        let list = |list: Vec<String>| Some(list.join(",")).filter(|list| !list.is_empty());
-        let dim = choice.dim.map(|dim| dim.to_string());
-        let (names, columns) = (choice.names.and_then(list), choice.columns.and_then(list));
-        let values = list(choice.values);
-        let options = [("names", names), ("step", choice.step), ("dim", dim), ("columns", columns), ("values", values)];
-        let option = |(name, value): (&str, Option<String>)| {
-            value.map_or(String::new(), |value| format!(" --{name} {}", quoted(value)))
-        };
-        format!("\n  {}{}", choice.command, options.map(option).concat())
+        let cell = self.grid.rows[row][column];
+        let field = Some(self.columns[column].name.clone());
+        InputError { field, ..self.error(Some(cell), expected, &format!("`{}`", shorten(cell))) }
     }
 
     fn named(&self, columns: &[usize]) -> Vec<String> {
-        columns.iter().map(|k| self.names[*k].clone()).collect()
-    }
-
-    fn value(&self, row: usize, column: usize) -> Option<f64> {
-        self.numbers[column][row].map(|number| number.value)
-    }
-
-    /// All numbers of a column, if it has no other cells.
-    fn values(&self, column: usize) -> Option<Vec<f64>> {
-        self.numbers[column].iter().map(|number| number.map(|number| number.value)).collect()
+        columns.iter().map(|k| self.columns[*k].name.clone()).collect()
     }
 
     fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        self.value(row, column).ok_or_else(|| {
-            let text = self.grid.rows[row].cells[column].text;
-            let expected = match text {
-                _ if text.len() > 1 && text.chars().all(|c| c == '*') => {
-                    "a number; Fortran writes stars where the field is too narrow"
+        self.columns[column].value(row).ok_or_else(|| {
+            let cell = self.grid.rows[row][column];
+            let more = match cell {
+                _ if cell.len() > 1 && cell.chars().all(|c| c == '*') => {
+                    "; Fortran writes stars where the field is too narrow"
                 }
-                _ if text.contains(',') && self.grid.decimal_comma => {
-                    "a number; its comma may be that of decimals or of thousands"
+                _ if cell.contains(',') && self.grid.decimal_comma => {
+                    "; its comma may be that of decimals or of thousands"
                 }
-                _ if number(text, true).is_some() => {
-                    "a number; its point may be that of decimals or of thousands, for others have decimal commas"
+                _ if number(cell, true).is_some() => {
+                    "; its point may be that of decimals or of thousands, for others have decimal commas"
                 }
-                _ => "a number",
+                _ => "",
             };
-            self.at(row, column, expected)
+            self.at(row, column, &format!("a number{more}"))
         })
     }
 
     /// The column of that name, or of that number from 1.
     fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
-        let names = || self.names.iter().map(String::as_str);
-        let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.names.len());
+        let names = || self.columns.iter().map(|column| column.name.as_str());
+        let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.columns.len());
         names::position(names(), wanted).or_else(numbered).ok_or_else(|| {
             let suggestion = nearest(wanted, names().take(LISTED)).map(str::to_owned);
             let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
@@ -285,85 +243,87 @@ impl Reader<'_, '_> {
         if let Some(wanted) = &self.choice.step {
             return Ok((self.find(wanted, "--step")?, String::new()));
         }
-        let free = |k: &usize| !self.claimed.contains(k) && !self.is_constant(*k);
-        let of = |wanted: &dyn Fn(Word) -> bool| {
-            (0..self.names.len()).filter(|k| wanted(self.words[*k]) && free(k)).collect::<Vec<_>>()
+        let of = |wanted: fn(Word) -> bool| -> Vec<usize> {
+            let is_free = |column: &Found| wanted(column.word) && !column.is_claimed && !column.is_constant();
+            (0..self.columns.len()).filter(|k| is_free(&self.columns[*k])).collect()
         };
-        let steps = of(&|word| word == Word::Step);
+        let steps = of(|word| word == Word::Step);
         if let Some((&first, others)) = steps.split_first() {
-            if let Some(other) = others.iter().find(|k| !self.is_in_proportion(first, **k)) {
-                let commands = self.with_step(first) + &self.with_step(*other);
-                return Err(
-                    self.refuse("one column of steps, or --step COLUMN", &(self.named(&steps).join(", ") + &commands))
-                );
+            if let Some(other) = others.iter().find(|k| !self.columns[first].is_in_proportion(&self.columns[**k])) {
+                let found = self.named(&steps).join(", ") + &self.with_step(first) + &self.with_step(*other);
+                return Err(self.refuse("one column of steps, or --step COLUMN", &found));
             }
-            let alike = listed(others.iter().map(|k| format!("`{}`", self.names[*k])));
+            let alike = listed(others.iter().map(|k| format!("`{}`", self.columns[*k].name)));
             return Ok((first, if alike.is_empty() { alike } else { format!(", in proportion to {alike}") }));
         }
-        let rank = |k: &usize| if let Word::Count(rank) = self.words[*k] { rank } else { u8::MAX };
-        if let Some(count) = of(&|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
+        let rank = |k: &usize| if let Word::Count(rank) = self.columns[*k].word { rank } else { u8::MAX };
+        if let Some(count) = of(|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
             return Ok((count, String::new()));
         }
         // The only column of unknown name that falls by regular ratios; of several the first, unless another has a
         // smaller ratio.
-        let first = (0..self.names.len()).find(|k| !self.is_index(*k));
-        let unknown = of(&|word| word == Word::Unknown).into_iter();
-        let regular: Vec<(usize, f64)> = unknown.filter_map(|k| Some((k, self.regular(k)?))).collect();
+        let first = self.columns.iter().position(|column| !column.is_index);
+        let unknown = of(|word| word == Word::Unknown);
+        let regular = unknown.iter().filter_map(|k| Some((*k, self.columns[*k].regular()?)));
+        let regular: Vec<(usize, f64)> = regular.collect();
         if let Some((&(k, ratio), others)) = regular.split_first()
             && (others.is_empty() || Some(k) == first)
             && others.iter().all(|(_, other)| *other >= ratio)
         {
             return Ok((k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
         }
-        let described = |k: usize| match self.words[k] {
-            _ if self.is_index(k) => format!("`{}` (the number of the row)", self.names[k]),
-            Word::Logarithm => format!("`{}` (give the values, not their logarithms)", self.names[k]),
-            Word::Step => format!("`{}` (the same in each row)", self.names[k]),
-            _ => format!("`{}`", self.names[k]),
+        let described = |column: &Found| {
+            let why = match column.word {
+                _ if column.is_index => " (the number of the row)",
+                Word::Logarithm => " (give the values, not their logarithms)",
+                Word::Step => " (the same in each row)",
+                _ => "",
+            };
+            format!("`{}`{why}", column.name)
         };
         let may_be = |k: &usize| {
-            free(k)
-                && self.words[*k] == Word::Unknown
-                && self.values(*k).is_some()
-                && !self.names[*k].contains(['^', '²'])
+            let column = &self.columns[*k];
+            unknown.contains(k) && column.values().is_some() && !column.name.contains(['^', '²'])
         };
         let command = first.filter(may_be).map_or(String::new(), |k| self.with_step(k));
-        let found = listed((0..self.names.len()).map(described));
+        let found = listed(self.columns.iter().map(described));
         Err(self.refuse("a column of steps: add `h`, or name it with --step", &(found + &command)))
     }
 
     /// The command with a column for the step.
     fn with_step(&self, column: usize) -> String {
-        let name = self.names[column].trim_start_matches("column ").to_owned();
+        let name = self.columns[column].name.trim_start_matches("column ").to_owned();
         let dim = if self.is_count(column) { Some(1.0) } else { self.choice.dim };
-        self.command(|choice| (choice.step, choice.dim) = (Some(name), dim))
+        self.choice.command(|choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
     /// The dimension for a column that counts; `None` for a step.
     fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
-        let (name, word) = (&self.names[step], self.words[step]);
+        let Found { name, word, .. } = &self.columns[step];
         let is_edge = reciprocal(name).is_some()
             || matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt");
         let is_count = self.is_count(step);
-        let with = |dim: Option<f64>| self.command(|choice| choice.dim = dim);
+        let with = |dim: Option<f64>| self.choice.command(|choice| choice.dim = dim);
         match self.choice.dim {
-            _ if word == Word::Logarithm => Err(self.refuse("the values, not their logarithms", &format!("`{name}`"))),
-            Some(dim) if is_count && is_edge && dim != 1.0 => Err(self
-                .refuse("no --dim but 1", &format!("`{name}`, which is known to be of one dimension{}", with(None)))),
-            Some(dim) if is_count || word == Word::Unknown => Ok(Some(dim)),
-            Some(_) => Err(self
-                .refuse("no --dim, which is for counts such as `cells`", &format!("the step `{name}`{}", with(None)))),
+            _ if *word == Word::Logarithm => Err(self.refuse("the values, not their logarithms", &format!("`{name}`"))),
+            Some(dim) if is_count && is_edge && dim != 1.0 => {
+                let found = format!("`{name}`, which is known to be of one dimension{}", with(None));
+                Err(self.refuse("no --dim but 1", &found))
+            }
+            Some(dim) if is_count || *word == Word::Unknown => Ok(Some(dim)),
+            Some(_) => {
+                let found = format!("the step `{name}`{}", with(None));
+                Err(self.refuse("no --dim, which is for counts such as `cells`", &found))
+            }
             None if !is_count => Ok(None),
             None if is_edge && matches!(word, Word::Count(_)) => Ok(Some(1.0)),
             None => {
-                let mut commands = with(Some(1.0));
-                if !matches!(word, Word::Count(1) | Word::Step) && !commands.is_empty() {
-                    commands += &format!(
-                        "  # along an edge{}  # all, in the plane{}  # all, in space",
-                        with(Some(2.0)),
-                        with(Some(3.0))
-                    );
-                }
+                let [edge, plane, space] = [1.0, 2.0, 3.0].map(|dim| with(Some(dim)));
+                let commands = match word {
+                    Word::Count(1) | Word::Step => edge,
+                    _ if edge.is_empty() => edge,
+                    _ => format!("{edge}  # along an edge{plane}  # all, in the plane{space}  # all, in space"),
+                };
                 let expected =
                     format!("--dim D for h = {name}^(-1/D), with D = 1 for cells along an edge, or --step COLUMN");
                 Err(self.refuse(&expected, &format!("the count `{name}` and no step{commands}")))
@@ -374,21 +334,18 @@ impl Reader<'_, '_> {
     /// Whether a column counts: by its name, or because it has whole numbers that grow where errors fall.
     fn is_count(&self, column: usize) -> bool {
         let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
-        let Some(values) = self.values(column) else { return false };
-        // How many of the others fall where it falls, less those that grow.
+        let Some(values) = self.columns[column].values() else { return false };
+        // How many columns fall where it falls, less those that grow or, as it does, cannot tell.
         let alike = |k: usize| {
-            let others = self
-                .values(k)
-                .filter(|others| k != column && !is_whole(others) && others.iter().all(|other| *other > 0.0));
-            let signs = others.iter().flat_map(|others| values.windows(2).zip(others.windows(2)));
-            signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum()
+            let others = self.columns[k].values()?;
+            if k == column || is_whole(&others) || others.iter().any(|other| !(*other > 0.0)) {
+                return Some(-1.0);
+            }
+            let signs = values.windows(2).zip(others.windows(2));
+            Some(signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum())
         };
-        let together = || {
-            (0..self.names.len().min(NEIGHBOURS))
-                .map(|k| if self.values(k).is_some() { alike(k) } else { 0.0 })
-                .sum::<f64>()
-        };
-        match self.words[column] {
+        let together = || (0..self.columns.len().min(NEIGHBOURS)).filter_map(alike).sum::<f64>();
+        match self.columns[column].word {
             Word::Count(_) => true,
             _ if !is_whole(&values) || values.iter().all(|value| *value == 1.0) => false,
             Word::Step => together() < 0.0,
@@ -397,7 +354,7 @@ impl Reader<'_, '_> {
     }
 
     fn label(&self, step: usize, dim: Option<f64>) -> String {
-        let name = &self.names[step];
+        let name = &self.columns[step].name;
         match dim {
             Some(1.0) => reciprocal(name).map_or_else(|| format!("1/{name}"), str::to_owned),
             Some(dim) => format!("{name}^(-1/{dim})"),
@@ -405,103 +362,38 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The step of a row, a finite number > 0.
-    fn step_at(&self, row: usize, column: usize, dim: Option<f64>) -> Result<f64, InputError> {
-        let value = self.must(row, column)?;
-        if !(value > 0.0 && value.is_finite()) {
-            let what = if dim.is_some() { "a count" } else { "a step" };
-            return Err(self.at(row, column, &format!("{what}, a finite number > 0")));
-        }
-        Ok(dim.map_or(value, |dim| value.powf(-1.0 / dim)))
-    }
-
-    fn each_step_once(&self, steps: &Steps) -> Result<(), InputError> {
-        let Some(twice) = steps.order.windows(2).find(|two| steps.of[two[0]] == steps.of[two[1]]) else {
-            return Ok(());
-        };
-        let rows = [twice[0], twice[1]].map(|row| &self.grid.rows[row]);
-        let cell = rows[1].cells[steps.column];
-        let found =
-            format!("`{}` = {} in lines {} and {}", self.names[steps.column], cell.text, rows[0].line, rows[1].line);
-        Err(self.error(Some((rows[1].line, cell.start)), "each step once: give one table at a time", &found))
-    }
-
-    fn is_constant(&self, column: usize) -> bool {
-        let first = self.value(0, column);
-        first.is_some()
-            && self.numbers[column].len() > 1
-            && self.numbers[column].iter().all(|number| number.map(|number| number.value) == first)
-    }
-
-    fn is_index(&self, column: usize) -> bool {
-        let may_be = matches!(self.words[column], Word::Unknown | Word::Cost | Word::Count(1));
-        may_be && self.grid.rows.len() > 1 && self.grid.counts_rows(column)
-    }
-
-    /// The least ratio by which a column falls or grows, if they all are the same or its numbers whole multiples or
-    /// parts of one of them.
-    fn regular(&self, column: usize) -> Option<f64> {
-        let mut values = self.values(column)?;
-        values.sort_by(f64::total_cmp);
-        let (least, most) = (*values.first()?, *values.last()?);
-        let half = halves(&self.numbers[column]).into_iter().fold(0.0, f64::max);
-        let same = SAME.max(2.0 * half / least).min(0.02);
-        let ratios: Vec<f64> = values.windows(2).map(|two| two[1] / two[0]).collect();
-        let ratio = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_whole = |multiple: f64| (multiple / multiple.round() - 1.0).abs() < SAME;
-        let is_regular = ratios.iter().all(|one| (one / ratio - 1.0).abs() < same)
-            || values.iter().all(|value| is_whole(most / value))
-            || values.iter().all(|value| is_whole(value / least));
-        (ratios.len() > 1 && is_regular && ratio > 1.0 && ratio.is_finite() && least > 0.0).then_some(ratio)
-    }
-
-    /// Whether two columns are the steps of one mesh in several directions, or of space and time.
-    fn is_in_proportion(&self, column: usize, other: usize) -> bool {
-        let (Some(a), Some(b)) = (self.values(column), self.values(other)) else { return false };
-        a.iter().zip(&b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
-    }
-
     /// The columns of errors, those of values, and the others, each with the reason.
-    fn sorted(&self, steps: &Steps) -> Result<Sorted, InputError> {
+    fn sorted(&self, step: usize, steps: &[f64]) -> Result<Sorted, InputError> {
         let chosen = |wanted: &[String], option: &str| {
             wanted.iter().map(|name| self.find(name, option)).collect::<Result<Vec<usize>, _>>()
         };
         let mut found = Sorted { values: chosen(&self.choice.values, "--values")?, ..Sorted::default() };
         let wanted = chosen(self.choice.columns.as_deref().unwrap_or_default(), "--columns")?;
-        let mut seen = HashSet::from([steps.column]);
+        let mut seen = HashSet::from([step]);
         for k in wanted.iter().chain(&found.values) {
-            let complain =
-                |expected: &str, found: &str| Err(self.refuse(expected, &format!("{found}`{}`", self.names[*k])));
-            if *k == steps.column {
-                return complain("errors for --columns", "the step ");
-            } else if !seen.insert(*k) {
-                return complain("each column of --columns and --values once", "twice ");
-            } else if self.words[*k] == Word::Logarithm {
-                return complain("the values, not their logarithms", "");
-            }
+            let (expected, what) = match self.columns[*k].word {
+                _ if *k == step => ("errors for --columns", "the step "),
+                _ if !seen.insert(*k) => ("each column of --columns and --values once", "twice "),
+                Word::Logarithm => ("the values, not their logarithms", ""),
+                _ => continue,
+            };
+            return Err(self.refuse(expected, &format!("{what}`{}`", self.columns[*k].name)));
         }
         if self.choice.columns.is_some() {
             return Ok(Sorted { errors: wanted, ..found });
         }
         found.others.clone_from(&self.grid.left_out);
-        for k in (0..self.names.len()).filter(|k| !seen.contains(k)) {
-            let why = match self.kind(k, steps)? {
-                Kind::Error => {
-                    found.errors.push(k);
-                    continue;
-                }
-                Kind::Rates(error) => format!("the rates of `{}`", self.names[error]),
-                Kind::Other(why) => why.to_owned(),
-                Kind::Doubtful(why) => {
-                    found.doubtful.push(k);
-                    why.to_owned()
-                }
-                Kind::Value(limit) => {
-                    found.limits.push(k);
-                    format!("tends to {}: a value, not an error", plain_text(limit))
-                }
-            };
-            found.others.push((self.names[k].clone(), why));
+        for k in (0..self.columns.len()).filter(|k| !seen.contains(k)) {
+            let (kind, why) = self.kind(k, step, steps)?;
+            match kind {
+                Holds::Error => found.errors.push(k),
+                Holds::Value => found.limits.push(k),
+                Holds::Doubtful => found.doubtful.push(k),
+                Holds::Other => {}
+            }
+            if kind != Holds::Error {
+                found.others.push((self.columns[k].name.clone(), why));
+            }
         }
         self.doubts(&found).map_or(Ok(found), Err)
     }
@@ -510,150 +402,90 @@ impl Reader<'_, '_> {
     /// errors.
     fn doubts(&self, found: &Sorted) -> Option<InputError> {
         let Sorted { errors, values, limits, doubtful, others } = found;
-        let columns = |columns: &[usize]| self.command(|choice| choice.columns = Some(self.named(columns)));
+        let columns = |columns: &[usize]| self.choice.command(|choice| choice.columns = Some(self.named(columns)));
         if errors.is_empty() && values.is_empty() {
             let is_open =
-                |k: &usize| matches!(self.words[*k], Word::Unknown | Word::Error) && self.value(0, *k).is_none();
-            if let Some(k) = (0..self.names.len()).find(is_open) {
+                |column: &Found| matches!(column.word, Word::Unknown | Word::Error) && column.value(0).is_none();
+            if let Some(k) = self.columns.iter().position(is_open) {
                 return self.must(0, k).err();
             }
             let command = match (&limits[..], &doubtful[..]) {
                 ([], []) => String::new(),
                 ([], [first, ..]) => columns(&[*first]),
-                (limits, _) => self.command(|choice| choice.values = self.named(limits)),
+                (limits, _) => self.choice.command(|choice| choice.values = self.named(limits)),
             };
             let quoted = listed(others.iter().map(|(name, why)| format!("`{name}` ({why})")));
             return Some(self.refuse("a column of errors, or --columns LIST", &(quoted + &command)));
         }
-        let is_named =
-            errors.iter().any(|k| self.words[*k] == Word::Error || self.claimed.contains(k)) || !values.is_empty();
-        let name = &self.names[*doubtful.first().filter(|_| !is_named)?];
-        let why = others.iter().find(|(other, _)| other == name).map_or("", |(_, why)| why);
-        let commands = columns(errors) + &columns(&[errors.as_slice(), doubtful].concat());
-        Some(
-            self.refuse(
-                "--columns LIST to say which columns are errors",
-                &format!("`{name}`, which is {why}{commands}"),
-            ),
-        )
-    }
-
-    /// What a column holds, by its numbers, coarsest level first, and then by its name.
-    fn kind(&self, k: usize, steps: &Steps) -> Result<Kind, InputError> {
-        let word = self.words[k];
-        let numbers: Vec<Option<f64>> = steps.order.iter().map(|row| self.value(*row, k)).collect();
-        let there: Vec<f64> = numbers.iter().flatten().copied().collect();
-        let is_known = match word {
-            _ if self.claimed.contains(&k) => Some(Kind::Error),
-            _ if there.is_empty() => Some(Kind::Other("no number")),
-            _ if self.is_index(k) => Some(Kind::Other("the number of the row")),
-            _ if self.is_constant(k) && !matches!(word, Word::Error | Word::Unknown) => {
-                Some(Kind::Other("the same in each row"))
-            }
-            _ => self.rates_of(k, steps).map(Kind::Rates),
-        };
-        let by_name = || match word {
-            Word::Logarithm => Some(Kind::Other("a logarithm")),
-            Word::Step => Some(Kind::Other("a step")),
-            Word::Count(_) => Some(Kind::Other("a count")),
-            Word::Cost => Some(Kind::Other("a cost")),
-            Word::Rate => Some(Kind::Other("a rate")),
-            Word::Unknown if numbers[0].is_none() && there.len() + 1 == numbers.len() => {
-                Some(Kind::Other("no number on the coarsest level"))
-            }
-            _ => None,
-        };
-        if let Some(kind) = is_known.or_else(by_name) {
-            return Ok(kind);
-        }
-        if let Some(missing) = numbers.iter().position(Option::is_none) {
-            let is_text = 2 * there.len() < numbers.len() && word != Word::Error;
-            return if is_text {
-                Ok(Kind::Other("words"))
-            } else {
-                self.must(steps.order[missing], k).map(|_| Kind::Error)
-            };
-        }
-        let (first, last) = (there[0], there[there.len() - 1]);
-        let falls = 2 * there.windows(2).filter(|two| two[1] < two[0]).count() >= there.len() - 1 && last < first;
-        let is_short = there.len() < 3 || there.iter().any(|value| value.is_nan());
-        let is_whole = there.iter().all(|value| value.fract() == 0.0);
-        Ok(match word {
-            Word::Error => Kind::Error,
-            Word::MaybeRate => {
-                if falls && last <= 0.6 * first {
-                    Kind::Error
-                } else {
-                    Kind::Other("a rate")
-                }
-            }
-            _ if is_short => Kind::Error,
-            _ if self.is_constant(k) => Kind::Doubtful("the same in each row"),
-            _ if is_whole && !falls => Kind::Doubtful("whole numbers that do not fall"),
-            _ if self.is_in_proportion(steps.column, k) => Kind::Doubtful("in proportion to the step"),
-            _ => match limit(&there).filter(|_| !is_whole) {
-                Some(limit) => Kind::Value(limit),
-                None if falls => Kind::Error,
-                None => Kind::Doubtful("growing or standing still where the step falls"),
-            },
-        })
-    }
-
-    /// The error whose rates or reductions a column has, to its digits, on the finer or on the coarser level of each
-    /// two.
-    fn rates_of(&self, column: usize, steps: &Steps) -> Option<usize> {
-        let (order, last) = (&steps.order, steps.order.len() - 1);
-        if last < 2 {
+        let is_named = |k: &usize| self.columns[*k].word == Word::Error || self.columns[*k].is_claimed;
+        if errors.iter().any(is_named) || !values.is_empty() {
             return None;
         }
-        let half = 1.2 * halves(&self.numbers[column]).into_iter().fold(0.0, f64::max);
-        let matches = |error: usize, shift: usize, measure: usize| {
-            let halves = halves(&self.numbers[error]);
-            let same = |k: usize| {
-                let [coarse, fine] = [order[k], order[k + 1]];
-                let (above, below) = (self.value(coarse, error)?, self.value(fine, error)?);
-                let doubt = halves[coarse] / above + halves[fine] / below;
-                let unit = [(steps.of[coarse] / steps.of[fine]).ln(), LN_2][measure % 2];
-                let logarithm = (above / below).ln();
-                let (value, doubt) =
-                    if measure < 2 { (logarithm / unit, doubt / unit) } else { (above / below, doubt * above / below) };
-                Some(
-                    (self.value(order[k + shift], column)? - value).abs()
-                        <= (half + doubt).min(0.25) + SAME * value.abs(),
-                )
-            };
-            (0..last).all(|k| same(k) == Some(true))
-        };
-        let falls = |k: &usize| {
-            self.values(*k).is_some_and(|values| {
-                values.iter().all(|value| *value > 0.0) && values[order[last]] < 0.7 * values[order[0]]
-            })
-        };
-        // Three rates are proof enough; two need a name, or an end without one.
-        let is_end =
-            |row: usize| self.value(row, column).is_none_or(|value| !value.is_finite() || value == 0.0 || value == 1.0);
-        let may = |shift: &usize| {
-            last > 2 || self.words[column].is_rate() || is_end(order[if *shift == 1 { 0 } else { last }])
-        };
+        let name = &self.columns[*doubtful.first()?].name;
+        let why = others.iter().find(|(other, _)| other == name).map_or("", |(_, why)| why);
+        let commands = columns(errors) + &columns(&[errors.as_slice(), doubtful].concat());
+        let found = format!("`{name}`, which is {why}{commands}");
+        Some(self.refuse("--columns LIST to say which columns are errors", &found))
+    }
+
+    /// What a column holds, by its numbers and then by its name; where it is no error, why.
+    fn kind(&self, k: usize, step: usize, steps: &[f64]) -> Result<(Holds, String), InputError> {
+        let column = &self.columns[k];
+        let numbers: Vec<f64> = column.numbers.iter().flatten().map(|number| number.value).collect();
+        let missing = column.numbers.iter().position(Option::is_none);
+        let other = |why: &str| Ok((Holds::Other, why.to_owned()));
+        let error = || Ok((Holds::Error, String::new()));
+        match column.word {
+            _ if column.is_claimed => return error(),
+            _ if numbers.is_empty() => return other("no number"),
+            _ if column.is_index => return other("the number of the row"),
+            Word::Error | Word::Unknown => {}
+            _ if column.is_constant() => return other("the same in each row"),
+            _ => {}
+        }
+        if let Some(rates) = self.rates_of(k, step, steps) {
+            return other(&format!("the rates of `{}`", self.columns[rates].name));
+        }
+        match (column.word, missing) {
+            (Word::Logarithm, _) => return other("a logarithm"),
+            (Word::Step, _) => return other("a step"),
+            (Word::Count(_), _) => return other("a count"),
+            (Word::Cost, _) => return other("a cost"),
+            (Word::Rate, _) => return other("a rate"),
+            (Word::Unknown, Some(0)) if numbers.len() + 1 == steps.len() => {
+                return other("no number on the coarsest level");
+            }
+            (Word::Error, None) => return error(),
+            (word, Some(_)) if word != Word::Error && 2 * numbers.len() < steps.len() => return other("words"),
+            (_, Some(row)) => return self.must(row, k).map(|_| (Holds::Error, String::new())),
+            (_, None) => {}
+        }
+        let (first, last) = (numbers[0], numbers[numbers.len() - 1]);
+        let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count() >= numbers.len() - 1 && last < first;
+        let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
+        let doubtful = |why: &str| Ok((Holds::Doubtful, why.to_owned()));
+        match column.word {
+            Word::MaybeRate if !(falls && last <= 0.6 * first) => other("a rate"),
+            Word::MaybeRate => error(),
+            _ if numbers.len() < 3 || numbers.iter().any(|value| value.is_nan()) => error(),
+            _ if column.is_constant() => doubtful("the same in each row"),
+            _ if is_whole && !falls => doubtful("whole numbers that do not fall"),
+            _ if self.columns[step].is_in_proportion(column) => doubtful("in proportion to the step"),
+            _ => match limit(&numbers).filter(|_| !is_whole) {
+                Some(limit) => Ok((Holds::Value, format!("tends to {}: a value, not an error", plain_text(limit)))),
+                None if falls => error(),
+                None => doubtful("growing or standing still where the step falls"),
+            },
+        }
+    }
+
+    /// The error whose rates or reductions a column has, to its digits.
+    fn rates_of(&self, column: usize, step: usize, steps: &[f64]) -> Option<usize> {
         // Those before it, the nearest first, and those behind.
         let before = (column.saturating_sub(NEIGHBOURS)..column).rev();
-        let near = before.chain(column + 1..(column + NEIGHBOURS).min(self.names.len()));
-        let mut errors = near.filter(|k| *k != steps.column && falls(k));
-        errors.find(|error| {
-            [1, 0].into_iter().filter(may).any(|shift| (0..3).any(|measure| matches(*error, shift, measure)))
-        })
+        let mut near = before.chain(column + 1..(column + NEIGHBOURS).min(self.columns.len()));
+        near.find(|k| *k != step && self.columns[column].are_rates_of(&self.columns[*k], steps))
     }
-}
-
-/// What numbers tend to, where it is near the last of them and not zero.
-pub fn limit(numbers: &[f64]) -> Option<f64> {
-    let [.., a, b, c] = *numbers else { return None };
-    let shrinks = (c - b) / (b - a);
-    let limit = if shrinks.abs() < 0.95 { c + (c - b) * shrinks / (1.0 - shrinks) } else { c };
-    let sizes = || numbers.iter().map(|value| value.abs());
-    let is_near = sizes().fold(0.0, f64::max) < NEAR * sizes().fold(f64::INFINITY, f64::min) && b != c;
-    let settles = b != a && shrinks.abs() < 0.95 && limit / c > 0.7;
-    (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite()).then_some(limit)
 }
 
 /// Names in a message, not too many of them.

@@ -17,6 +17,8 @@
 //! doubt is refused, with the
 //! command that works. `NaN` and `inf` are errors; a column with one of them fails.
 
+mod choice;
+mod column;
 mod columns;
 mod digits;
 pub(crate) mod names;
@@ -29,7 +31,8 @@ use std::path::Path;
 
 use crate::input::{self, InputError};
 use crate::judge::verdict::{Judge, RateVerdict};
-pub use columns::{Choice, limit};
+pub use choice::Choice;
+pub use column::limit;
 pub use digits::Column;
 use text::Grid;
 
@@ -85,7 +88,7 @@ impl RateTable {
     /// # Errors
     /// As [`RateTable::read_with`], but for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        columns::read(&Grid::read(&text::plain(text)), file_name, choice)
+        columns::read(Grid::read(&text::plain(text)), file_name, choice)
     }
 
     /// Judges every column of errors against its order.

@@ -3,46 +3,21 @@
 use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs;
-use crate::input::Place;
+use crate::input::{Place, Source};
 
-/// What stands between two separators, without blanks and quotes around it, and the byte of its line where it begins.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cell<'t> {
-    pub(super) start: usize,
-    pub(super) text: &'t str,
-}
-
-/// Nothing where a name or a number could be.
-const NONE: Cell<'_> = Cell { start: 0, text: "" };
-
-/// A row and its line, from 1.
-#[derive(Debug, Clone)]
-pub(super) struct Row<'t> {
-    pub(super) line: usize,
-    pub(super) cells: Vec<Cell<'t>>,
-}
-
-/// A table as it is written.
+/// A table as it is written. Names and cells are pieces of its text, which tell their places.
 #[derive(Debug, Default)]
 pub(super) struct Grid<'t> {
     pub(super) text: &'t str,
-    /// Line of the names, from 1, and a name for each column, empty for none.
-    pub(super) line: usize,
-    pub(super) names: Vec<Cell<'t>>,
-    pub(super) rows: Vec<Row<'t>>,
+    /// A name for each column, empty for none.
+    pub(super) names: Vec<&'t str>,
+    pub(super) rows: Vec<Vec<&'t str>>,
     /// Whether a comma in a cell is that of a number.
     pub(super) decimal_comma: bool,
     /// What is no column of the table, with the reason.
     pub(super) left_out: Vec<(String, String)>,
     /// How many words stand above the rows, where they are not one for each column.
     pub(super) misfit: Option<usize>,
-}
-
-/// A line that may have names: its number, and where the text behind a comment mark begins.
-struct Head<'t> {
-    line: usize,
-    text: &'t str,
-    before: usize,
 }
 
 /// Marks that begin a comment.
@@ -137,7 +112,7 @@ fn without_stamp(line: &str) -> &str {
 }
 
 /// The cells of a line: between separators, outside of quotes and not behind a backslash; between blanks without one.
-fn split(line: &str, separator: Option<char>) -> Vec<Cell<'_>> {
+fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     let separates =
         |c: char| c == BEHIND || separator.map_or(c.is_whitespace() || c == '|', |separator| c == separator);
     // A row of LaTeX without the rules before it and what ends it.
@@ -145,12 +120,11 @@ fn split(line: &str, separator: Option<char>) -> Vec<Cell<'_>> {
     let line = if is_latex { line.find("\\\\").map_or(line, |end| &line[..end]) } else { line };
     let rules = ["\\hline", "\\toprule", "\\midrule", "\\addlinespace"];
     let rule = rules.iter().filter_map(|rule| line.find(rule).map(|at| at + rule.len())).filter(|_| is_latex).max();
-    let first = rule.unwrap_or(0);
-    let (mut cells, mut start) = (vec![], first);
+    let (mut cells, mut start, first) = (vec![], rule.unwrap_or(0), rule.unwrap_or(0));
     let (mut quoted, mut escaped) = (false, false);
     for (at, c) in line.char_indices().skip_while(|(at, _)| *at < first).chain([(line.len(), BEHIND)]) {
         if separates(c) && (at == line.len() || !(quoted || escaped)) {
-            cells.push(cell(line, start, at));
+            cells.push(cell(&line[start..at]));
             start = (at + c.len_utf8()).min(line.len());
         } else if c == '"' && (quoted || line[start..at].trim().is_empty()) {
             quoted = !quoted;
@@ -162,14 +136,14 @@ fn split(line: &str, separator: Option<char>) -> Vec<Cell<'_>> {
         cells.truncate(cells.len() - usize::from(line.ends_with('|') && cells.len() > 1));
         cells.drain(..usize::from(line.starts_with('|') && cells.len() > 1));
     }
-    cells.retain(|cell| separator.is_some() || !cell.text.is_empty());
+    cells.retain(|cell| separator.is_some() || !cell.is_empty());
     cells
 }
 
-fn cell(line: &str, start: usize, end: usize) -> Cell<'_> {
-    let text = line[start..end].trim();
-    let start = end - line[start..end].trim_start().len();
-    Cell { start, text: text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim() }
+/// A cell without blanks and quotes around it; of blanks alone their end.
+fn cell(text: &str) -> &str {
+    let text = text.trim_start().trim_end();
+    text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim()
 }
 
 /// The separator of a table: the first that leaves no two numbers in a cell of its first row.
@@ -180,8 +154,8 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
         is_number(line.split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c)).next().unwrap_or_default())
     };
     let line = lines.clone().find(leads).or_else(|| lines.next_back())?;
-    let holds_two = |cell: &Cell<'_>| {
-        let numbers: Vec<bool> = cell.text.split_whitespace().map(is_number).collect();
+    let holds_two = |cell: &&str| {
+        let numbers: Vec<bool> = cell.split_whitespace().map(is_number).collect();
         numbers.windows(2).any(|two| two[0] && two[1])
     };
     let cells = |separator: char| split(line, Some(separator));
@@ -197,12 +171,18 @@ fn is_rule(line: &str) -> bool {
 }
 
 /// The types of columns as data frames write them below the names, or units.
-fn is_type(cell: &Cell<'_>) -> bool {
-    let text = cell.text.to_lowercase();
+fn is_type(cell: &&str) -> bool {
+    let text = cell.to_lowercase();
     let known = ["f", "i", "u", "int", "float", "double", "bigint", "str"];
     known.contains(&text.trim_end_matches(|c: char| c.is_ascii_digit()))
         || (text.starts_with(['[', '<']) && text.ends_with([']', '>']))
         || is_dash(&text)
+}
+
+/// A line above the rows, without the marks of a comment.
+struct Head<'t> {
+    text: &'t str,
+    is_comment: bool,
 }
 
 impl<'t> Grid<'t> {
@@ -213,47 +193,53 @@ impl<'t> Grid<'t> {
         }
         let mut grid = Self { text, ..Self::default() };
         let is_comment = |line: &str| line.trim_start().starts_with(COMMENTS);
-        let content = text.lines().filter(|line| !line.trim().is_empty() && !is_rule(line) && !is_comment(line));
-        let separator = separator(content);
+        let lines = || text.lines().filter(|line| !line.trim().is_empty() && (is_comment(line) || !is_rule(line)));
+        let separator = separator(lines().filter(|line| !is_comment(line)));
         grid.decimal_comma = separator != Some(',');
         let mut heads: Vec<Head<'t>> = vec![];
-        for (k, text) in text.lines().enumerate() {
-            let before = text.len() - text.trim_start().trim_start_matches(COMMENTS).len();
-            let head = Head { line: k + 1, text, before: if is_comment(text) { before } else { 0 } };
-            let is_cut = separator == Some('&') && !text.contains('&');
-            if head.before > 0 && grid.rows.is_empty() {
-                heads.push(head);
-            } else if !(head.before > 0 || text.trim().is_empty() || is_rule(text) || is_cut) {
-                grid.add(head, separator, &mut heads);
+        for line in lines() {
+            if is_comment(line) && grid.rows.is_empty() {
+                heads.push(Head { text: line.trim_start().trim_start_matches(COMMENTS), is_comment: true });
+            } else if !is_comment(line) && (separator != Some('&') || line.contains('&')) && !grid.add(line, separator)
+            {
+                heads.push(Head { text: line, is_comment: false });
             }
         }
         if grid.rows.is_empty() {
             return pairs::read(text, false).unwrap_or(grid);
         }
         let spans = grid.fill_gaps(separator);
-        if let Some((line, names)) = numbered(&heads, spans.len()).or_else(|| grid.fit(&heads, separator, &spans)) {
-            (grid.line, grid.names) = (line, names);
+        if let Some(names) = numbered(&heads, spans.len()).or_else(|| grid.fit(&heads, separator, &spans)) {
+            grid.names = names;
         } else if !grid.turn() {
-            let mut words = heads.iter().filter(|head| head.before == 0).map(|head| split(head.text, separator).len());
+            let mut words = heads.iter().filter(|head| !head.is_comment).map(|head| split(head.text, separator).len());
             grid.misfit = words.rfind(|words| *words > 1);
         }
         grid
     }
 
-    /// Where a byte of a line is.
-    pub(super) fn place(&self, line: usize, byte: usize) -> Place {
-        let text = self.text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
-        Place { line, column: text.get(..byte).map_or(byte, |before| before.chars().count()) + 1 }
+    /// The byte of the text where a piece of it begins.
+    fn offset(&self, piece: &str) -> usize {
+        (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }
 
-    /// Adds a line to the rows, if it is one, or to the lines above them that may have names.
-    fn add(&mut self, head: Head<'t>, separator: Option<char>, heads: &mut Vec<Head<'t>>) {
-        let is_number = |cell: &Cell<'_>| number(cell.text, separator != Some(',')).is_some();
+    /// Where a piece of the text begins.
+    pub(super) fn place(&self, piece: &str) -> Place {
+        Source { file: "", text: self.text }.place(self.offset(piece))
+    }
+
+    /// The byte at which the line of a piece begins.
+    fn line_start(&self, piece: &str) -> usize {
+        self.text[..self.offset(piece)].rfind('\n').map_or(0, |end| end + 1)
+    }
+
+    /// Adds a line to the rows, if it is one; whether it is, or comes behind rows.
+    fn add(&mut self, line: &'t str, separator: Option<char>) -> bool {
+        let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
         // A row without the comment behind it.
-        let end = head.text.find(" #").unwrap_or(head.text.len());
-        let cells = split(&head.text[..end], separator);
+        let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
         let numbers = cells.iter().filter(|cell| is_number(cell)).count();
-        let begins = cells.iter().filter(|cell| cell.text.starts_with(|c: char| c.is_ascii_digit())).count();
+        let begins = cells.iter().filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit())).count();
         let is_row = cells.first().is_some_and(is_number)
             || if separator.is_none() {
                 numbers > 1 && numbers + 1 >= cells.len()
@@ -261,114 +247,132 @@ impl<'t> Grid<'t> {
                 numbers > 0 && cells.len() > 1
             };
         if is_row || (!self.rows.is_empty() && 2 * begins >= cells.len()) {
-            self.rows.push(Row { line: head.line, cells });
-        } else if self.rows.is_empty() {
-            heads.push(head);
+            self.rows.push(cells);
         }
+        !self.rows.is_empty()
     }
 
     /// Makes columns of rows: a word before each and none above, or two rows of numbers.
     fn turn(&mut self) -> bool {
-        let width = self.rows[0].cells.len();
-        let named = usize::from(self.rows.iter().all(|row| number(row.cells[0].text, true).is_none()));
+        let width = self.rows[0].len();
+        let named = usize::from(self.rows.iter().all(|row| number(row[0], true).is_none()));
         // Numbers with one ratio are those of a step.
-        let is_even = |cells: Vec<Cell<'_>>| {
-            let numbers: Vec<f64> = cells.iter().filter_map(|cell| Some(number(cell.text, true)?.value)).collect();
+        let is_even = |cells: Vec<&str>| {
+            let numbers: Vec<f64> = cells.iter().filter_map(|cell| Some(number(cell, true)?.value)).collect();
             numbers.len() > 2
                 && numbers.windows(3).all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
         };
-        let first = || self.rows.iter().filter_map(|row| row.cells.first().copied()).collect();
-        let is_turned =
-            named == 1 || self.rows.len() == 2 || (is_even(self.rows[0].cells.clone()) && !is_even(first()));
-        if self.rows.len() < 2 || width < 3 || !is_turned || self.rows.iter().any(|row| row.cells.len() != width) {
+        let column = |k: usize| self.rows.iter().map(|row| row[k]).collect::<Vec<_>>();
+        let is_turned = named == 1 || self.rows.len() == 2 || (is_even(self.rows[0].clone()) && !is_even(column(0)));
+        if self.rows.len() < 2 || width < 3 || !is_turned || self.rows.iter().any(|row| row.len() != width) {
             return false;
         }
-        let rows = std::mem::take(&mut self.rows);
-        self.line = rows[0].line;
-        self.names = rows.iter().take(named * rows.len()).map(|row| row.cells[0]).collect();
-        let row = |k: usize| Row { line: self.line, cells: rows.iter().map(|row| row.cells[k]).collect() };
-        self.rows = (named..width).map(row).collect();
+        let names = if named == 1 { column(0) } else { vec![] };
+        (self.rows, self.names) = ((named..width).map(column).collect(), names);
         true
     }
 
-    /// Puts the cells of shorter rows into the columns below which they stand, and empty ones between them; the bytes
-    /// that each column takes.
+    /// Puts the cells of shorter rows into the columns below which they stand, and empty ones between them; the bytes of a
+    /// line that each column takes.
     fn fill_gaps(&mut self, separator: Option<char>) -> Vec<[usize; 2]> {
         // Where the rate of the coarsest level is left blank its row is shorter than the others.
-        let width = self.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
-        let end = |cell: &Cell<'_>| cell.start + cell.text.len().max(1);
+        let width = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let mut spans = vec![[usize::MAX, 0]; width];
-        for row in self.rows.iter().filter(|row| row.cells.len() == width) {
-            for (span, cell) in spans.iter_mut().zip(&row.cells) {
-                *span = [span[0].min(cell.start), span[1].max(end(cell))];
+        for row in self.rows.iter().filter(|row| row.len() == width) {
+            let start = self.line_start(row[0]);
+            for (span, cell) in spans.iter_mut().zip(row) {
+                let at = self.offset(cell) - start;
+                *span = [span[0].min(at), span[1].max(at + cell.len().max(1))];
             }
         }
-        for row in self.rows.iter_mut().filter(|row| separator.is_none() && row.cells.len() < width) {
-            let below = |span: &[usize; 2]| {
-                row.cells.iter().copied().filter(|cell| cell.start < span[1] && span[0] < end(cell)).collect::<Vec<_>>()
+        let filled = |row: &Vec<&'t str>| {
+            let start = self.line_start(row.first()?);
+            let line = self.text[start..].lines().next()?;
+            let is_below = |cell: &&str, span: &[usize; 2]| {
+                let at = self.offset(cell) - start;
+                at < span[1] && span[0] < at + cell.len().max(1)
             };
-            let found: Vec<Vec<Cell<'t>>> = spans.iter().map(below).collect();
-            if found.iter().all(|cells| cells.len() < 2) && found.iter().map(Vec::len).sum::<usize>() == row.cells.len()
-            {
-                row.cells = spans
-                    .iter()
-                    .zip(found)
-                    .map(|(span, cells)| cells.first().copied().unwrap_or(Cell { start: span[0], text: "" }))
-                    .collect();
-            }
-        }
+            let below = |span: &[usize; 2]| row.iter().copied().filter(|cell| is_below(cell, span)).collect::<Vec<_>>();
+            let found: Vec<Vec<&'t str>> = spans.iter().map(below).collect();
+            let is_clear = found.iter().all(|cells| cells.len() < 2) && found.iter().flatten().count() == row.len();
+            let blank = |span: &[usize; 2]| line.get(span[0]..span[0]).unwrap_or(&line[line.len()..]);
+            let cell = |(span, cells): (_, &Vec<&'t str>)| cells.first().copied().unwrap_or_else(|| blank(span));
+            is_clear.then(|| spans.iter().zip(&found).map(cell).collect())
+        };
+        let is_short = |row: &Vec<&str>| separator.is_none() && row.len() < width;
+        let fill = |row: &Vec<&'t str>| if is_short(row) { filled(row) } else { None };
+        self.rows = self.rows.iter().map(|row| fill(row).unwrap_or_else(|| row.clone())).collect();
         spans
     }
 
     /// The nearest line above the rows that has a name for each column; a comment where no other has.
-    fn fit(&self, heads: &[Head<'t>], separator: Option<char>, spans: &[[usize; 2]]) -> Option<(usize, Vec<Cell<'t>>)> {
+    fn fit(&self, heads: &[Head<'t>], separator: Option<char>, spans: &[[usize; 2]]) -> Option<Vec<&'t str>> {
         let width = spans.len();
         let dashed: Vec<bool> = (0..width).map(|column| self.holds_rates(column)).collect();
         let first = usize::from(self.counts_rows(0));
         let masks = [(0, false), (0, true), (first, false), (first, true)]
             .map(|(first, rates)| -> Vec<bool> { (0..width).map(|k| k >= first && !(rates && dashed[k])).collect() });
-        let mut below: Option<Cell<'t>> = None;
-        let rows = heads.iter().rev().filter(|head| head.before == 0);
-        for head in rows.chain(heads.iter().rev().filter(|head| head.before > 0)) {
+        let mut below: Option<&'t str> = None;
+        let (comments, others): (Vec<_>, Vec<_>) = heads.iter().rev().partition(|head| head.is_comment);
+        for head in others.into_iter().chain(comments) {
             // A comment may be separated in another way than the rows: `# h, L2` above columns of blanks.
             let others = [Some(','), Some(';'), Some('\t')];
-            for other in others.iter().filter(|_| head.before > 0).chain([&separator]) {
-                let mut cells = split(&head.text[head.before..], *other);
-                cells.iter_mut().for_each(|cell| cell.start += head.before);
-                let is_finite =
-                    |cell: &Cell<'_>| number(cell.text, false).is_some_and(|number| number.value.is_finite());
-                if split(head.text, None).iter().all(is_type) || cells.iter().any(is_finite) {
+            for other in others.iter().filter(|_| head.is_comment).chain([&separator]) {
+                let mut cells = split(head.text, *other);
+                let is_finite = |cell: &&str| number(cell, false).is_some_and(|number| number.value.is_finite());
+                let is_of_types = !head.is_comment && split(head.text, None).iter().all(is_type);
+                if is_of_types || cells.iter().any(is_finite) {
                     continue;
                 }
-                if let ([only], true, 0) = (&cells[..], width > 1, head.before) {
-                    below = Some(*only);
-                } else if let Some(index) = below.filter(|_| cells.len() + 1 == width && head.before == 0) {
+                if let ([only], true, false) = (&cells[..], width > 1, head.is_comment) {
+                    below = Some(only);
+                } else if let Some(index) = below.filter(|_| cells.len() + 1 == width && !head.is_comment) {
                     cells.insert(0, index);
                 }
                 let is_fit = |mask: &&Vec<bool>| {
                     // Above blanks words may be parts of names: then none stands above rates but theirs.
-                    let is_rate =
-                        || cells.iter().zip(&dashed).all(|(cell, dash)| !dash || Word::of(cell.text).is_rate());
+                    let is_rate = || cells.iter().zip(&dashed).all(|(cell, dash)| !dash || Word::of(cell).is_rate());
                     mask.iter().filter(|named| **named).count() == cells.len()
                         && (mask.contains(&false) || other.is_some() || is_rate())
                 };
                 let fitted = masks.iter().find(is_fit).map(|mask| {
                     let mut cells = cells.iter().copied();
-                    mask.iter().map(|named| if *named { cells.next().unwrap_or(NONE) } else { NONE }).collect()
+                    let mut name = |named: &bool| if *named { cells.next() } else { None };
+                    mask.iter().map(|named| name(named).unwrap_or(&head.text[..0])).collect()
                 });
+                let above = || if other.is_none() { self.above(&cells, spans, &dashed) } else { None };
                 let all = || Some(cells.clone()).filter(|cells| cells.len() == width);
-                let above = || if other.is_none() { above(head.text, &cells, spans, &dashed) } else { None };
                 if let Some(names) = fitted.or_else(above).or_else(all) {
-                    return Some((head.line, names));
+                    return Some(names);
                 }
             }
         }
         None
     }
 
+    /// Names of several words above columns, some of which hold rates: each word belongs to the nearest column with a name.
+    fn above(&self, words: &[&'t str], spans: &[[usize; 2]], dashed: &[bool]) -> Option<Vec<&'t str>> {
+        let start = self.line_start(words.first()?);
+        let has_rate = words.iter().any(|word| Word::of(word).is_rate());
+        let named: Vec<usize> = (0..spans.len()).filter(|k| has_rate || !dashed[*k]).collect();
+        let mut names = vec![&self.text[start..start]; spans.len()];
+        for word in words {
+            let at = self.offset(word);
+            // A name stands above the rates behind its column, too.
+            let distance = |k: &usize| {
+                let last = (*k + 1..spans.len()).take_while(|k| dashed[*k] && !has_rate).last().unwrap_or(*k);
+                spans[*k][0].saturating_sub(at + word.len() - start).max((at - start).saturating_sub(spans[last][1]))
+            };
+            let name = &mut names[*named.iter().min_by_key(|k| distance(k))?];
+            let from = if name.is_empty() { at } else { self.offset(name) };
+            *name = cell(&self.text[from..at + word.len()]);
+        }
+        named.iter().skip(1).all(|k| !names[*k].is_empty()).then_some(names)
+    }
+
     /// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
     pub(super) fn counts_rows(&self, column: usize) -> bool {
-        let value = |row: &Row<'_>| row.cells.get(column).and_then(|cell| cell.text.parse::<i64>().ok());
+        let value = |row: &Vec<&str>| row.get(column).and_then(|cell| cell.parse::<i64>().ok());
         let Some(values) = self.rows.iter().map(value).collect::<Option<Vec<i64>>>() else { return false };
         let (first, last) = (values[0], values[values.len() - 1]);
         matches!(first.min(last), 0 | 1) && values.windows(2).all(|two| two[1] - two[0] == (last - first).signum())
@@ -377,7 +381,7 @@ impl<'t> Grid<'t> {
     /// Whether a column may hold rates without a name: a dash in the first row or the last, and few decimals in all
     /// others.
     fn holds_rates(&self, column: usize) -> bool {
-        let cells: Vec<&str> = self.rows.iter().map(|row| row.cells.get(column).map_or("", |cell| cell.text)).collect();
+        let cells: Vec<&str> = self.rows.iter().map(|row| row.get(column).copied().unwrap_or_default()).collect();
         let is_rate = |text: &&str| {
             text.split_once('.').is_some_and(|(_, decimals)| decimals.len() < 5 && !text.contains(['e', 'E']))
         };
@@ -386,36 +390,13 @@ impl<'t> Grid<'t> {
     }
 }
 
-/// Names of several words above columns, some of which hold rates: each word belongs to the nearest column with a name.
-fn above<'t>(line: &'t str, words: &[Cell<'t>], spans: &[[usize; 2]], dashed: &[bool]) -> Option<Vec<Cell<'t>>> {
-    let has_rate = words.iter().any(|word| Word::of(word.text).is_rate());
-    let named: Vec<usize> = (0..spans.len()).filter(|k| has_rate || !dashed[*k]).collect();
-    let mut names = vec![NONE; spans.len()];
-    for word in words {
-        let end = word.start + word.text.len();
-        // A name stands above the rates behind its column, too.
-        let distance = |k: &usize| {
-            let last = (*k + 1..spans.len()).take_while(|k| dashed[*k] && !has_rate).last().unwrap_or(*k);
-            spans[*k][0].saturating_sub(end).max(word.start.saturating_sub(spans[last][1]))
-        };
-        let name = &mut names[*named.iter().min_by_key(|k| distance(k))?];
-        *name = if name.text.is_empty() { *word } else { cell(line, name.start, end) };
-    }
-    named.iter().skip(1).all(|k| !names[*k].text.is_empty()).then_some(names)
-}
-
-/// The names of `# 1: cells`, `# 2: dofs`, ..., and the line of the first; `None` where they are not as many as
-/// columns.
-fn numbered<'t>(heads: &[Head<'t>], width: usize) -> Option<(usize, Vec<Cell<'t>>)> {
-    let name = |head: &Head<'t>| {
-        let (number, name) = head.text[head.before..].split_once(':')?;
-        Some((
-            number.trim().parse::<usize>().ok()?,
-            cell(head.text, head.text.len() - name.len(), head.text.len()),
-            head.line,
-        ))
-    };
-    let named: Vec<_> = heads.iter().filter(|head| head.before > 0).filter_map(name).collect();
-    let in_order = named.len() == width && named.iter().enumerate().all(|(k, (number, ..))| *number == k + 1);
-    in_order.then(|| (named[0].2, named.iter().map(|(_, name, _)| *name).collect()))
+/// The names of `# 1: cells`, `# 2: dofs`, ...; `None` where they are not as many as columns.
+fn numbered<'t>(heads: &[Head<'t>], width: usize) -> Option<Vec<&'t str>> {
+    let comments = heads.iter().filter(|head| head.is_comment);
+    let numbered = comments.filter_map(|head| {
+        let (number, name) = head.text.split_once(':')?;
+        Some((number.trim().parse::<usize>().ok()?, cell(name)))
+    });
+    let (numbers, names): (Vec<usize>, Vec<&str>) = numbered.unzip();
+    (names.len() == width && numbers.into_iter().eq(1..=width)).then_some(names)
 }

@@ -1,27 +1,21 @@
 //! Convergence studies of any numerical code: rates with intervals, verdicts, a baseline, reports.
 //!
-//! # The rule
+//! # In a test
 //!
-//! [`judge`] knows neither norm nor scheme, only steps and errors.
+//! [`assert_order`] judges errors that are there, [`levels()`](levels()) makes a study of a function that computes them.
 //!
 //! ```
-//! use convergence_study::judge::verdict::{Verdict, judge_pairs};
-//!
-//! // The midpoint rule for the integral of exp, claimed to be of second order; then, of fourth.
-//! let error = |n: i32| {
-//!     let h = 1.0 / f64::from(n);
-//!     let sum: f64 = (0..n).map(|i| h * ((f64::from(i) + 0.5) * h).exp()).sum();
-//!     (h, (sum - 1f64.exp_m1()).abs())
+//! // The midpoint rule for the integral of exp: of second order.
+//! let error = |n: usize| {
+//!     let h = 1.0 / n as f64;
+//!     let sum: f64 = (0..n).map(|i| h * ((i as f64 + 0.5) * h).exp()).sum();
+//!     (sum - 1f64.exp_m1()).abs()
 //! };
-//! let errors = [4, 8, 16, 32, 64].map(error);
-//! assert_eq!(judge_pairs(errors, 2.0, 0.05).verdict, Verdict::Pass);
-//! assert_eq!(judge_pairs(errors, 4.0, 0.05).verdict, Verdict::Fail);
+//! convergence_study::levels([4, 8, 16, 32, 64], error).claim("error", 2.0).assert_passes();
 //! ```
 //!
-//! # From levels to a report
-//!
-//! [`ErrorsOverLevels`](study::ErrorsOverLevels) makes a study of a function that computes errors, and
-//! [`run_and_report`](verify::run_and_report) writes the report on it: see the example `heat_equation` and the README.
+//! [`judge`] is the rule: it knows neither norm nor scheme, only steps and errors. [`report`](verify::report) writes the report on a study
+//! that has run: see the example `heat_equation` and the README.
 //!
 //! # From a file to a report
 //!
@@ -34,10 +28,10 @@
 //! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
-//! # Without reports
+//! # Features
 //!
-//! With `default-features = false` there are [`text`], [`judge`], [`input`], [`study`] and [`run`]: verdicts, tables of errors, and
-//! studies on all threads, whose outcomes have no figures. The feature `reports` adds all but the command line, `command-line` that.
+//! With `default-features = false` there are [`text`], [`judge`], [`study`] and [`run`]: verdicts, and studies on all threads, whose outcomes
+//! have no figures. The feature `files` adds [`input`] and studies that files describe, `reports` all but the command line, `command-line` that.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
 //! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
@@ -49,6 +43,7 @@ pub mod cli;
 pub mod compare;
 #[cfg(feature = "reports")]
 pub mod explain;
+#[cfg(feature = "files")]
 pub mod input;
 pub mod judge;
 #[cfg(feature = "reports")]
@@ -66,6 +61,9 @@ pub mod study;
 pub mod text;
 #[cfg(feature = "reports")]
 pub mod verify;
+
+pub use run::assert_order;
+pub use study::levels;
 
 /// The programs of the README are tests.
 #[cfg(all(doctest, feature = "command-line"))]

@@ -2,9 +2,7 @@
 
 use std::fs::File;
 use std::io;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::thread;
 
 use glob::Pattern;
 use thiserror::Error;
@@ -260,23 +258,14 @@ fn bless(
     Ok(taken)
 }
 
-/// Runs studies on all threads of the machine and writes a report on them, without a baseline.
+/// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-/// * Returns the verdict with the studies; there are no changes and no blessing.
 ///
 /// # Errors
-/// [`VerificationError`].
-pub fn run_and_report(
-    project: &Project,
-    studies: &[Box<dyn Study>],
-    folder: &Path,
-) -> Result<Verification, VerificationError> {
-    let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let finished = run::run(studies, jobs, &|_| {})?;
-    let verdict = verdict(&finished, &[]);
-    publish(project, record(&finished, project.command), jobs.get(), folder)?;
-    Ok(Verification { finished, changes: vec![], verdict, blessing: None, reports: folder.to_owned() })
+/// [`VerificationError::Reports`].
+pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result<(), VerificationError> {
+    publish(project, record(finished, project.command), run::available().get(), folder)
 }
 
 /// The record of studies that have run without a baseline.

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use convergence_study::input::error_table::RateTable;
+use convergence_study::judge::verdict::{Judge, Verdict};
 
 /// The message about a table.
 #[track_caller]
@@ -95,4 +96,16 @@ fn a_number_is_read_as_it_is_written() {
     {
         assert_eq!(read(cell), None, "{cell}");
     }
+}
+
+#[test]
+fn the_order_of_the_rows_does_not_matter() {
+    let rows = ["0.1,1.01e-1", "0.05,5.02e-2", "0.025,2.505e-2", "0.0125,1.2512e-2"];
+    let judged = |rows: Vec<&str>| {
+        let table = RateTable::parse(&format!("h,e\n{}\n", rows.join("\n")), "table").expect("a table");
+        table.judge(&Judge::new(0.05).expect("a tolerance"), |_| 1.0)
+    };
+    let (down, up) = (judged(rows.to_vec()), judged(rows.iter().rev().copied().collect()));
+    assert_eq!(down, up);
+    assert_eq!(down[0].1.verdict, Verdict::Pass);
 }

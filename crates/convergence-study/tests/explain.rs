@@ -6,7 +6,7 @@ use std::path::Path;
 use convergence_study::explain::{contents, meant, study, term, terms};
 use convergence_study::input::{InputError, Section};
 use convergence_study::project::{Project, Term};
-use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refinement, Study, erased};
+use convergence_study::study::{Axis, Claim, Header, KindRow, Study, erased, levels};
 
 const KIND: KindRow = KindRow {
     name: "quadrature",
@@ -28,9 +28,8 @@ const PROJECT: Project = Project {
 };
 
 fn read(header: Header, _: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
-    let levels = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
-    let study = ErrorsOverLevels::new(header, Axis::Space, levels, |&n| Ok(vec![("l2", 1.0 / n as f64)]));
-    Ok(erased(study.claiming("l2", 1.0, 0.05)))
+    let study = levels([4, 8, 16, 32, 64], |n| [("l2", 1.0 / n as f64)]).counting("cells", Axis::Space);
+    Ok(erased(study.described(header).claiming("l2", Claim::new(1.0, 0.05))))
 }
 
 fn example(kind: &str) -> Box<dyn Study> {

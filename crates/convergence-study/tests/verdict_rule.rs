@@ -1,6 +1,5 @@
 //! Tables that the rule once got wrong, or showed no rate for.
 
-use convergence_study::input::error_table::RateTable;
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::{Aside, Judge, RateVerdict, Reason, SetAside, Verdict, judge, judge_pairs};
 
@@ -186,18 +185,6 @@ fn the_curve_of_a_rate_passes_through_the_finest_error_that_it_uses() {
         let there = judged.power_law().expect("a rate").error_at(step);
         assert!((there / error - 1.0).abs() < 1e-12, "{there} instead of {error}");
     }
-}
-
-#[test]
-fn the_order_of_the_rows_does_not_matter() {
-    let rows = ["0.1,1.01e-1", "0.05,5.02e-2", "0.025,2.505e-2", "0.0125,1.2512e-2"];
-    let judged = |rows: Vec<&str>| {
-        let table = RateTable::parse(&format!("h,e\n{}\n", rows.join("\n")), "table").expect("a table");
-        table.judge(&Judge::new(0.05).expect("a tolerance"), |_| 1.0)
-    };
-    let (down, up) = (judged(rows.to_vec()), judged(rows.iter().rev().copied().collect()));
-    assert_eq!(down, up);
-    assert_eq!(down[0].1.verdict, Verdict::Pass);
 }
 
 mod laws {

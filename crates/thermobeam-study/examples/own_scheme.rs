@@ -7,7 +7,8 @@
 use std::error::Error;
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile as _, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::FromFile as _;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -38,7 +39,7 @@ const STUDY: &str = r#"
 fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
     let mut study = Convergence::parse(STUDY, "my-scheme.toml".as_ref())?;
     (study.refine.scheme, study.expect[0].1.order) = (scheme, order);
-    let outcome = run_here(&study);
+    let outcome = run_one(&study).outcome;
     Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
 }
 

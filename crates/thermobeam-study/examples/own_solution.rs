@@ -4,7 +4,8 @@
 
 use std::error::Error;
 
-use convergence_study::study::{Axis, Claim, FromFile as _, Header, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::{Axis, Claim, FromFile as _, Header};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
@@ -54,7 +55,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
 fn main() -> Result<(), Box<dyn Error>> {
     let (rust, toml) = (in_rust()?, Convergence::parse(TOML, "my-own.toml".as_ref())?);
     // Cases are pure: they may run in any order, on any thread.
-    let (rust, toml) = (run_here(&rust), run_here(&toml));
+    let (rust, toml) = (run_one(&rust).outcome, run_one(&toml).outcome);
     for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
         println!("n = {:3}   superclose {error:.4e}", level.parameter("elements").unwrap_or(f64::NAN));
     }

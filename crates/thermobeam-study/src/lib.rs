@@ -14,7 +14,8 @@
 //!
 //! ```
 //! use convergence_study::judge::verdict::Verdict;
-//! use convergence_study::study::{FromFile, run_here};
+//! use convergence_study::run::run_one;
+//! use convergence_study::study::FromFile;
 //! use thermobeam_study::kinds::convergence::Convergence;
 //!
 //! let study = Convergence::parse(
@@ -27,7 +28,7 @@
 //!     "#,
 //!     "my-own.toml".as_ref(),
 //! )?;
-//! assert_eq!(run_here(&study).verdict, Verdict::Pass);
+//! assert_eq!(run_one(&study).outcome.verdict, Verdict::Pass);
 //! # Ok::<(), convergence_study::input::InputError>(())
 //! ```
 //!

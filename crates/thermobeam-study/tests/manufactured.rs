@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here};
 use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::{Norm, Norms};
@@ -82,10 +83,10 @@ fn every_defect_leaves_a_mark_that_no_refinement_removes() {
 fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     let mut study = convergence("theorem-3.4-space.toml");
     study.refine.elements = vec![64, 128, 256, 512];
-    assert_eq!(run_here(&study).verdict, Verdict::Pass);
+    assert_eq!(run_one(&study).outcome.verdict, Verdict::Pass);
     let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap() + "\n[control]\nzeta = 0.10001\n";
     study.control = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().control;
-    let outcome = run_here(&study);
+    let outcome = run_one(&study).outcome;
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.summary.contains("superclose"), "{}", outcome.summary);
 }

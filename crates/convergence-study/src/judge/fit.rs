@@ -14,18 +14,10 @@
 //! * [`rate_interval`]: several least-squares fits, with the bend and without, weighed against each other: right in both cases;
 //! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
-//! * [`fit_surface`]: a law for errors over a grid of (h, dt), to predict others.
-//!
-//! Only this module knows the statistics and the least-squares libraries.
 
 mod candidates;
 mod line;
 mod range;
-mod surface;
-
-use std::sync::LazyLock;
-
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 pub use candidates::{
     PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOW, SLOW_PENALTY, SLOWEST_POLLUTION,
@@ -33,7 +25,6 @@ pub use candidates::{
 };
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
 pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};
-pub use surface::{SurfaceError, SurfaceFit, SurfacePoint, fit_surface};
 
 /// One level of a refinement study.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,44 +35,43 @@ pub struct Level {
     pub error: f64,
 }
 
-/// Two-sided quantiles of Student's t, tabulated once per confidence: inverting the distribution costs more than a fit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Quantiles {
-    confidence: f64,
-    t: Vec<f64>,
-}
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as libraries of statistics compute them.
+const STUDENT: [f64; 30] = [
+    12.70620473617469,
+    4.302652729749467,
+    3.1824463052837046,
+    2.776445105197795,
+    2.570581835636315,
+    2.4469118511449652,
+    2.364624251592785,
+    2.3060041352041707,
+    2.2621571627982036,
+    2.2281388519862744,
+    2.200985160091634,
+    2.1788128296672054,
+    2.1603686564628095,
+    2.1447866879177897,
+    2.131449545559734,
+    2.1199052992212404,
+    2.109815577833272,
+    2.1009220402409565,
+    2.0930240544082417,
+    2.0859634472657946,
+    2.0796138447275436,
+    2.0738730679038766,
+    2.068657610418929,
+    2.0638985616278602,
+    2.059538552753143,
+    2.0555294386426555,
+    2.0518305164800905,
+    2.048407141795102,
+    2.0452296421323903,
+    2.042272456301077,
+];
 
-impl Quantiles {
-    /// Degrees of freedom that are tabulated; above, the last entry is used, which is the wider (safe) side.
-    pub const TABULATED: usize = 30;
-
-    /// * `confidence`: coverage of a two-sided interval, in (0, 1), for example 0.95.
-    /// * Returns `None` outside (0, 1), NaN included.
-    pub fn new(confidence: f64) -> Option<Self> {
-        if !(confidence > 0.0 && confidence < 1.0) {
-            return None;
-        }
-        let quantile = |dof: usize| {
-            let law = StudentsT::new(0.0, 1.0, dof as f64).ok()?;
-            Some(law.inverse_cdf(0.5 + 0.5 * confidence))
-        };
-        let t = (1..=Self::TABULATED).map(quantile).collect::<Option<Vec<f64>>>()?;
-        Some(Self { confidence, t })
-    }
-
-    /// The quantiles of all intervals: 95 %.
-    pub fn standard() -> &'static Self {
-        static STANDARD: LazyLock<Quantiles> = LazyLock::new(|| Quantiles::new(0.95).expect("a confidence"));
-        &STANDARD
-    }
-
-    /// The confidence that these quantiles stand for.
-    pub fn confidence(&self) -> f64 {
-        self.confidence
-    }
-
-    /// `t` such that a Student variable lies in [-t, t] with the confidence; infinite without degrees of freedom.
-    pub fn t(&self, dof: usize) -> f64 {
-        if dof == 0 { f64::INFINITY } else { self.t[dof.min(Self::TABULATED) - 1] }
-    }
+/// `t` such that a Student variable with so many degrees of freedom lies in [-t, t] at 95 % confidence; infinite without any.
+///
+/// Above 30 degrees of freedom the last entry of the table is used, which is the wider (safe) side.
+pub fn student_t(dof: usize) -> f64 {
+    dof.checked_sub(1).map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
 }

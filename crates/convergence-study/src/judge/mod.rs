@@ -7,4 +7,5 @@ pub mod grid;
 pub mod power_law;
 pub mod random;
 pub mod richardson;
+pub mod shown;
 pub mod verdict;

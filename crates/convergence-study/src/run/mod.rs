@@ -5,22 +5,26 @@
 //! time, is kept apart in [`Spent`].
 
 mod caught;
+mod levels;
 mod queue;
 pub mod time_limit;
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
+use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
+use crate::study::kind::plan;
 use crate::study::outcome::NotFinite;
 use crate::study::soundness;
-use crate::study::{Case, CaseFailure, Check, Header, Outcome, Plan, Study, Untested};
+use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Untested};
 use caught::caught;
 use queue::{Counter, Done, Job};
 
+pub use levels::assert_order;
 pub use queue::Progress;
 
 /// A study that has been run: one object of a record.
@@ -109,9 +113,31 @@ pub fn run(
     effort: impl Into<Effort>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
-    let Effort { jobs, case_limit } = effort.into();
     refuse_duplicates(studies)?;
-    let planned: Vec<Planned<'_>> = studies.iter().map(|study| Planned::new(study.as_ref())).collect();
+    let planned = studies.iter().map(|study| Planned::new(study.header(), || study.plan()));
+    run_planned(planned.collect(), effort.into(), progress)
+}
+
+/// Runs one study on all threads of the machine, as [`run`] does.
+///
+/// # Panics
+/// The operating system refuses the threads.
+pub fn run_one<K: Kind>(study: &K) -> Finished {
+    let planned = vec![Planned::new(study.header(), || plan(study))];
+    let finished = run_planned(planned, available().into(), &|_| {}).map(|mut finished| finished.pop());
+    finished.expect("the threads are refused").expect("a study that was run")
+}
+
+/// As many threads as the machine has processors.
+pub fn available() -> NonZeroUsize {
+    thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+fn run_planned(
+    planned: Vec<Planned<'_>>,
+    Effort { jobs, case_limit }: Effort,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
     let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
     // Threads without a case would only be started and ended.
     let pool = ThreadPoolBuilder::new().num_threads(jobs.get().min(cases.max(1))).build()?;
@@ -128,9 +154,9 @@ struct Planned<'s> {
 }
 
 impl<'s> Planned<'s> {
-    fn new(study: &'s dyn Study) -> Self {
+    fn new(header: &'s Header, plan: impl FnOnce() -> Box<dyn Plan + 's>) -> Self {
         let listed = caught(|| {
-            let plan = study.plan();
+            let plan = plan();
             let cases = plan.cases();
             (plan, cases)
         });
@@ -138,7 +164,7 @@ impl<'s> Planned<'s> {
             Ok((plan, cases)) => (Ok(plan), cases),
             Err(reason) => (Err(reason), vec![]),
         };
-        Self { header: study.header(), plan, cases }
+        Self { header, plan, cases }
     }
 }
 

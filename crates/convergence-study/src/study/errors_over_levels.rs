@@ -6,58 +6,108 @@ use super::header::Header;
 use super::kind::Kind;
 use super::levels::{self, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
-use crate::judge::verdict::Verdict;
+use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
 
 /// Errors by name, as one level has them.
-pub type NamedErrors = Vec<(&'static str, f64)>;
+pub type NamedErrors = Vec<(String, f64)>;
 
-/// A study that computes errors on every level of refinement and judges each against its claimed order.
+/// Names under which a level says its own step, where that is not 1/n.
+pub const STEPS: [&str; 2] = ["h", "dt"];
+
+/// What the function of a study may return: errors with their names, or one error alone, which is then called `error`; or a
+/// [`Result`] of it.
+pub trait IntoErrors {
+    /// The errors by name.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the computation did not complete.
+    fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
+}
+
+impl IntoErrors for f64 {
+    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+        Ok(vec![("error".to_owned(), self)])
+    }
+}
+
+impl<N: Into<String>> IntoErrors for Vec<(N, f64)> {
+    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+        Ok(self.into_iter().map(|(name, error)| (name.into(), error)).collect())
+    }
+}
+
+impl<N: Into<String>, const COUNT: usize> IntoErrors for [(N, f64); COUNT] {
+    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+        Vec::from(self).into_errors()
+    }
+}
+
+impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
+    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+        self.map_err(Into::into)?.into_errors()
+    }
+}
+
+/// A study that computes errors on every level of refinement and judges each against its claimed order; made by [`levels()`](levels()).
 ///
 /// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers that the baseline guards.
 /// Errors of which nothing is claimed are recorded only. A level that fails, or lacks an error that others have, fails the
 /// study.
-///
-/// ```
-/// use convergence_study::judge::verdict::Verdict;
-/// use convergence_study::study::{Axis, ErrorsOverLevels, Header, Refinement, run_here};
-///
-/// // The midpoint rule for the integral of exp over (0, 1).
-/// let error = |n: usize| {
-///     let h = 1.0 / n as f64;
-///     let sum: f64 = (0..n).map(|i| h * ((i as f64 + 0.5) * h).exp()).sum();
-///     (sum - 1f64.exp_m1()).abs()
-/// };
-/// let header = Header::new("midpoint-rule", "the midpoint rule is of second order");
-/// let levels = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
-/// let study = ErrorsOverLevels::new(header, Axis::Space, levels, |&n| Ok(vec![("integral", error(n))]));
-/// assert_eq!(run_here(&study.claiming("integral", 2.0, 0.05)).verdict, Verdict::Pass);
-/// ```
 #[derive(Debug, Clone)]
-pub struct ErrorsOverLevels<D, E> {
+pub struct ErrorsOverLevels<F> {
     header: Header,
     axis: Axis,
-    levels: Vec<(Refinement, D)>,
-    claims: Vec<(&'static str, Claim)>,
-    errors: E,
+    counted: String,
+    counts: Vec<usize>,
+    claims: Vec<(String, Claim)>,
+    solve: F,
 }
 
-impl<D, E> ErrorsOverLevels<D, E>
+/// A study of the errors that a function computes on each level of refinement.
+///
+/// * `counts`: what distinguishes the levels, such as the number of cells in one direction: coarse to fine.
+/// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The step is 1/count, or what `solve` returns
+///   beside the errors under one of the names [`STEPS`].
+///
+/// ```
+/// // The midpoint rule for the integral of exp over (0, 1).
+/// let solve = |n: usize| {
+///     let h = 1.0 / n as f64;
+///     let sum: f64 = (0..n).map(|i| h * ((i as f64 + 0.5) * h).exp()).sum();
+///     [("h", h), ("integral", (sum - 1f64.exp_m1()).abs())]
+/// };
+/// let study = convergence_study::levels([4, 8, 16, 32, 64], solve);
+/// study.claim("integral", 2.0).assert_passes();
+/// ```
+pub fn levels<R, F>(counts: impl IntoIterator<Item = usize>, solve: F) -> ErrorsOverLevels<F>
 where
-    D: Clone + Send + Sync,
-    E: Fn(&D) -> Result<NamedErrors, CaseFailure> + Send + Sync,
+    R: IntoErrors,
+    F: Fn(usize) -> R + Send + Sync,
 {
-    /// * `axis`: what is refined; it names the step in figures.
-    /// * `levels`: coarse to fine, each with what `errors` needs to know; see [`Refinement::counted`].
-    /// * `errors`: computes the errors of one level, each under its name; the same names on every level.
-    pub fn new(header: Header, axis: Axis, levels: impl IntoIterator<Item = (Refinement, D)>, errors: E) -> Self {
-        Self { header, axis, levels: levels.into_iter().collect(), claims: vec![], errors }
+    let header = Header::new("levels", "the errors fall with the orders claimed");
+    let counts = counts.into_iter().collect();
+    ErrorsOverLevels { header, axis: Axis::Space, counted: "n".to_owned(), counts, claims: vec![], solve }
+}
+
+impl<F> ErrorsOverLevels<F> {
+    /// The same study under a name, with a claim in words.
+    pub fn described(self, header: Header) -> Self {
+        Self { header, ..self }
     }
 
-    /// The same study with a claim: the error of this name falls like `step^order`.
-    ///
-    /// * `tolerance`: how far the rate may be from the order, above or below; 0 < tolerance < 0.5.
-    pub fn claiming(mut self, error: &'static str, order: f64, tolerance: f64) -> Self {
-        self.claims.push((error, Claim::new(order, tolerance)));
+    /// The same study with a word for what is counted, such as `cells`, and what is refined by it, which names the step in figures.
+    pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
+        Self { counted: counted.into(), axis, ..self }
+    }
+
+    /// The same study with a claim: the error of this name falls like `step^order`, within [`DEFAULT_TOLERANCE`].
+    pub fn claim(self, error: impl Into<String>, order: f64) -> Self {
+        self.claiming(error, Claim::new(order, DEFAULT_TOLERANCE))
+    }
+
+    /// The same with all that can be claimed, such as another tolerance: 0 < tolerance < 0.5.
+    pub fn claiming(mut self, error: impl Into<String>, claim: Claim) -> Self {
+        self.claims.push((error.into(), claim));
         self
     }
 
@@ -68,14 +118,36 @@ where
         levels.figure(file, None, caption, rates)
     }
 
-    fn levels(&self, ran: &[Ran<D, NamedErrors>]) -> Levels {
-        let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
+    fn label(&self, count: usize) -> String {
+        format!("{} = {count}", self.counted)
+    }
+
+    fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
+        let own = |ran: &Ran<_, NamedErrors>| {
+            ran.ok().and_then(|found| found.iter().find(|(name, _)| is_step(name)).cloned())
+        };
+        let has_own = ran.iter().any(|ran| own(ran).is_some());
+        let refinement = |ran: &Ran<usize, NamedErrors>| {
+            // Where some levels say their step, 1/n is no substitute for that of the others.
+            let other = if has_own { f64::NAN } else { 1.0 / ran.case.data as f64 };
+            let step = own(ran).map_or(other, |(_, step)| step);
+            Refinement::new(ran.case.label.clone(), &[(&self.counted, ran.case.data)], step)
+        };
+        let errors = |ran: &Ran<_, NamedErrors>| {
+            ran.ok().map(|found| found.iter().filter(|(name, _)| !is_step(name)).cloned().collect::<NamedErrors>())
+        };
+        let found: Vec<_> = ran.iter().map(errors).collect();
+        let found: Vec<_> = found.iter().map(Option::as_deref).collect();
         Levels {
             axis: self.axis,
-            refinements: self.levels.iter().map(|(refinement, _)| refinement.clone()).collect(),
+            refinements: ran.iter().map(refinement).collect(),
             columns: ErrorColumn::of(&self.claims, &found),
         }
     }
+}
+
+fn is_step(name: &str) -> bool {
+    STEPS.contains(&name)
 }
 
 /// The error of that name; NaN where there is none.
@@ -83,36 +155,33 @@ fn named(errors: &NamedErrors, name: &str) -> f64 {
     errors.iter().find(|(known, _)| *known == name).map_or(f64::NAN, |(_, error)| *error)
 }
 
-impl<D, E> Kind for ErrorsOverLevels<D, E>
+impl<R, F> Kind for ErrorsOverLevels<F>
 where
-    D: Clone + Send + Sync,
-    E: Fn(&D) -> Result<NamedErrors, CaseFailure> + Send + Sync,
+    R: IntoErrors,
+    F: Fn(usize) -> R + Send + Sync,
 {
-    type Data = D;
+    type Data = usize;
     type Found = NamedErrors;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    /// A finer level is taken to cost more: in inverse proportion to its step.
-    fn cases(&self) -> Vec<Case<D>> {
-        let case = |(refinement, data): &(Refinement, D)| Case {
-            label: refinement.label.clone(),
-            cost: 1.0 / refinement.step,
-            data: data.clone(),
-        };
-        self.levels.iter().map(case).collect()
+    /// A finer level is taken to cost more.
+    fn cases(&self) -> Vec<Case<usize>> {
+        let case = |&count: &usize| Case { label: self.label(count), cost: count as f64, data: count };
+        self.counts.iter().map(case).collect()
     }
 
-    fn run(&self, data: &D) -> Result<NamedErrors, CaseFailure> {
-        (self.errors)(data)
+    fn run(&self, count: &usize) -> Result<NamedErrors, CaseFailure> {
+        (self.solve)(*count).into_errors()
     }
 
-    fn judge(&self, ran: &[Ran<D, NamedErrors>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<usize, NamedErrors>]) -> Outcome {
         let levels = self.levels(ran);
         let rates = levels.judge();
-        let names: Vec<&str> = levels.columns.iter().map(|column| column.name.as_str()).collect();
+        let found = levels.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
+        let names: Vec<&str> = found.map(|column| column.name.as_str()).collect();
         let not_finite = |errors: &NamedErrors| {
             let names = names.iter().filter(|name| !named(errors, name).is_finite());
             names.map(|name| format!("the error `{name}`")).collect()
@@ -132,8 +201,8 @@ where
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let labels: Vec<&str> = self.levels.iter().map(|(refinement, _)| refinement.label.as_str()).collect();
-        let order = |(name, Claim { order, tolerance, .. }): &(&str, Claim)| format!("{name} {order} ± {tolerance}");
+        let labels: Vec<String> = self.counts.iter().map(|count| self.label(*count)).collect();
+        let order = |(name, claim): &(String, Claim)| format!("{name} {claim}");
         let orders: Vec<String> = self.claims.iter().map(order).collect();
         vec![("orders claimed".to_owned(), orders.join(", ")), ("levels".to_owned(), labels.join(", "))]
     }
@@ -143,20 +212,43 @@ where
 mod tests {
     use super::*;
     use crate::judge::verdict::Reason;
-    use crate::study::run_here;
+    use crate::study::run_cases_here;
 
     const COUNTS: [usize; 5] = [4, 8, 16, 32, 64];
 
+    fn judged<R: IntoErrors, F: Fn(usize) -> R + Send + Sync>(study: &ErrorsOverLevels<F>) -> Outcome {
+        study.judge(&run_cases_here(study))
+    }
+
     /// The outcome for an error of second order, claimed to be of this order, changed by `change`.
-    fn outcome(order: f64, change: impl Fn(usize, f64) -> Result<NamedErrors, CaseFailure> + Send + Sync) -> Outcome {
-        let levels = Refinement::counted("cells", COUNTS, |n| 1.0 / n as f64);
-        let errors = |&n: &usize| change(n, (n as f64).powi(-2));
-        run_here(&ErrorsOverLevels::new(Header::new("id", "c"), Axis::Space, levels, errors).claiming("e", order, 0.05))
+    fn outcome<R: IntoErrors>(order: f64, change: impl Fn(usize, f64) -> R + Send + Sync) -> Outcome {
+        let study = levels(COUNTS, |n| change(n, (n as f64).powi(-2))).counting("cells", Axis::Space);
+        judged(&study.described(Header::new("id", "c")).claiming("e", Claim::new(order, 0.05)))
+    }
+
+    #[test]
+    fn a_level_may_say_its_own_step_and_a_higher_rate_may_do() {
+        let solve = |n: usize| [("dt", 2.0 / n as f64), ("e", (n as f64).powi(-3))];
+        assert_eq!(judged(&levels(COUNTS, solve).claim("e", 2.0)).verdict, Verdict::Fail);
+        let found = judged(&levels(COUNTS, solve).claiming("e", Claim { at_least: true, ..Claim::new(2.0, 0.1) }));
+        assert_eq!((found.verdict, found.levels[0].step), (Verdict::Pass, Some(0.5)));
+        assert_eq!(found.levels[0].errors, [("e".to_owned(), 1.0 / 64.0)]);
+        let some =
+            |n: usize| if n == 8 { vec![("e", 1.0)] } else { vec![("h", 1.0 / n as f64), ("e", (n as f64).powi(-2))] };
+        assert_eq!(judged(&levels(COUNTS, some).claim("e", 2.0)).rates[0].1.kind, Reason::StepsNotDecreasing);
+        assert_eq!(judged(&levels(COUNTS, |n| (n as f64).powi(-2)).claim("error", 2.0)).verdict, Verdict::Pass);
+    }
+
+    #[test]
+    fn a_claim_about_an_error_that_no_level_has_names_those_there_are() {
+        let found = judged(&levels(COUNTS, |n| [("L2", 1.0 / n as f64), ("up", 1.0)]).claim("L3", 2.0));
+        assert_eq!((found.verdict, found.rates[0].1.kind), (Verdict::Fail, Reason::NoResult));
+        assert_eq!(found.rates[0].1.reason, "no level has an error `L3`; there are L2, up");
     }
 
     #[test]
     fn a_right_claim_passes_and_a_wrong_one_fails() {
-        let of = |order| outcome(order, |_, error| Ok(vec![("e", error), ("f", 1.0)]));
+        let of = |order| outcome(order, |_, error| [("e", error), ("f", 1.0)]);
         assert_eq!((of(2.0).verdict, of(1.0).verdict), (Verdict::Pass, Verdict::Fail));
         let right = of(2.0);
         assert_eq!(right.levels.len(), COUNTS.len());
@@ -172,7 +264,7 @@ mod tests {
     #[test]
     fn a_level_that_fails_or_lacks_an_error_fails_the_study() {
         let failure = || Err(CaseFailure { reason: "diverged".to_owned() });
-        let failed = outcome(2.0, |n, error| if n == 8 { failure() } else { Ok(vec![("e", error)]) });
+        let failed = outcome(2.0, |n, error| if n == 8 { failure() } else { Ok([("e", error)]) });
         assert_eq!(failed.verdict, Verdict::Fail);
         assert!(failed.checks[0].evidence.contains("cells = 8: diverged"), "{:?}", failed.checks);
         let told =
@@ -185,19 +277,17 @@ mod tests {
                 && rate.pairwise[2..].iter().all(|r| (r - 2.0).abs() < 1e-9)
         );
         // An error that was computed and is NaN is another thing.
-        let nan = outcome(2.0, |n, error| Ok(vec![("e", if n == 8 { f64::NAN } else { error })]));
+        let nan = outcome(2.0, |n, error| [("e", if n == 8 { f64::NAN } else { error })]);
         assert_eq!((nan.verdict, nan.rates[0].1.kind), (Verdict::Fail, Reason::NonFiniteError));
-        let lacks = |n, error| Ok(if n == 8 { vec![("e", error)] } else { vec![("e", error), ("f", 1.0)] });
+        let lacks = |n, error| if n == 8 { vec![("e", error)] } else { vec![("e", error), ("f", 1.0)] };
         let lacking = outcome(2.0, lacks);
         assert_eq!(lacking.verdict, Verdict::Fail);
         assert!(lacking.checks[0].evidence.contains("cells = 8: the error `f`"), "{:?}", lacking.checks);
-        assert_eq!(outcome(2.0, |_, error| Ok(vec![("another", error)])).verdict, Verdict::Fail);
+        assert_eq!(outcome(2.0, |_, error| [("another", error)]).verdict, Verdict::Fail);
     }
 
     #[test]
     fn a_study_that_claims_nothing_does_not_pass() {
-        let levels = Refinement::counted("cells", COUNTS, |n| 1.0 / n as f64);
-        let study = ErrorsOverLevels::new(Header::new("id", "c"), Axis::Space, levels, |_| Ok(vec![("e", 1.0)]));
-        assert_eq!(run_here(&study).verdict, Verdict::Inconclusive);
+        assert_eq!(judged(&levels(COUNTS, |_| [("e", 1.0)])).verdict, Verdict::Inconclusive);
     }
 }

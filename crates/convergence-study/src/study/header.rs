@@ -1,11 +1,7 @@
 //! The table `[study]`, which every kind of study file has.
 
-use std::path::Path;
-
-use crate::input::{self, InputError, Section};
-
 /// The kind of a study whose file has no `kind`.
-const DEFAULT_KIND: &str = "convergence";
+pub(super) const DEFAULT_KIND: &str = "convergence";
 
 /// Longest id: it is part of file names, of which some systems take 255 bytes.
 const LONGEST_NAME: usize = 100;
@@ -47,7 +43,7 @@ pub struct Header {
     /// What sort of thing is claimed, under which reports list the study; the kind where the file does not say.
     #[serde(default)]
     pub group: String,
-    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of [`Section::settings`]: the
+    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of `input::Section::settings`: the
     /// baseline keeps them, so that no claim changes unseen. Empty for a study that no file describes.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
@@ -68,42 +64,6 @@ impl Header {
             settings: Vec::new(),
         }
     }
-
-    /// Reads `[study]` of a file and nothing else.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        Self::parse(&input::read_text(path)?, &path.display().to_string())
-    }
-
-    /// Reads `[study]` of `text` and nothing else; messages refer to `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse(text, file_name, Self::from_document)
-    }
-
-    /// Reads `[study]` of a document, and takes down every value of the document.
-    ///
-    /// # Errors
-    /// As [`Header::parse`].
-    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let study = root.require("study", "a table with id, claim and tier")?.section()?;
-        study.allow(&["id", "claim", "tier", "kind", "group"])?;
-        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
-        let kind = if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() };
-        Ok(Self {
-            id: name(&study, "id")?,
-            claim: line(&study, "claim")?,
-            tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
-            group: if study.get("group").is_some() { line(&study, "group")? } else { kind.clone() },
-            kind,
-            settings: root.settings(),
-        })
-    }
 }
 
 /// What [`is_name`] asks of a name.
@@ -113,19 +73,4 @@ pub const NAME: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the firs
 pub fn is_name(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
     text.len() <= LONGEST_NAME && text.starts_with(plain) && text.chars().all(|c| plain(c) || c == '.' || c == '-')
-}
-
-fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
-    let field = study.require(key, NAME)?;
-    let text = field.text()?;
-    if is_name(text) { Ok(text.to_owned()) } else { Err(field.refuse_as_written(NAME)) }
-}
-
-/// One line of text, without control characters: it is printed to terminals and logs.
-fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
-    let allowed = "one line of text without control characters";
-    let field = study.require(key, allowed)?;
-    let text = field.text()?;
-    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
-    if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
 }

@@ -1,12 +1,10 @@
 //! A kind of study: typed for who writes one, erased for the runner.
 
-use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::case::{Case, CaseFailure, Ran};
 use super::header::Header;
 use super::outcome::Outcome;
-use crate::input::{self, InputError, Section};
 
 /// A study of one kind, read and validated: its cases, how one is computed, how all are judged.
 ///
@@ -73,40 +71,6 @@ pub struct Untested {
     pub why: String,
 }
 
-/// A kind of study that a file describes.
-pub trait FromFile: Kind + Sized {
-    /// Reads the study from the document of its file.
-    ///
-    /// * `header`: the table `[study]`, read already.
-    /// * `root`: the document.
-    /// * `folder`: the folder of the file, which names of other files are relative to.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
-
-    /// Reads a study from `text`; messages name `file`, and files that it names are looked for beside it.
-    ///
-    /// # Errors
-    /// As [`FromFile::from_document`].
-    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, |root, folder| Self::from_document(Header::from_document(root)?, root, folder))
-    }
-
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// As [`FromFile::parse`], and where the file cannot be read.
-    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
-        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
-    }
-}
-
-/// Runs all cases on this thread, one after the other, and judges them.
-pub fn run_here<K: Kind>(kind: &K) -> Outcome {
-    kind.judge(&run_cases_here(kind))
-}
-
 /// Runs all cases on this thread, one after the other.
 pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
     let run = |case: Case<K::Data>| Ran { found: kind.run(&case.data), case };
@@ -164,6 +128,12 @@ pub fn erased<'k, K: Kind + 'k>(kind: K) -> Box<dyn Study + 'k> {
     Box::new(Erased(kind))
 }
 
+/// The cases of a typed study, with a place for the result of each.
+pub(crate) fn plan<K: Kind>(kind: &K) -> Box<dyn Plan + '_> {
+    let ran = kind.cases().into_iter().map(|case| Ran { case, found: Err(never_run()) }).collect();
+    Box::new(Typed { kind, ran: Mutex::new(ran) })
+}
+
 struct Erased<K>(K);
 
 impl<K: Kind> Study for Erased<K> {
@@ -172,8 +142,7 @@ impl<K: Kind> Study for Erased<K> {
     }
 
     fn plan(&self) -> Box<dyn Plan + '_> {
-        let ran = self.0.cases().into_iter().map(|case| Ran { case, found: Err(never_run()) }).collect();
-        Box::new(Typed { kind: &self.0, ran: Mutex::new(ran) })
+        plan(&self.0)
     }
 
     fn details(&self) -> Vec<(String, String)> {

@@ -10,7 +10,7 @@ use super::outcome::{Check, LevelErrors, Quantity, Table};
 use super::outcome::{Figure, Outcome};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
-use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
+use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots::{self, Convergence, ErrorSeries};
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
@@ -81,21 +81,6 @@ impl Refinement {
         let parameters = parameters.iter().map(|(name, count)| ((*name).to_owned(), *count as f64)).collect();
         Self { label, parameters, step }
     }
-
-    /// Levels that are identified by one count each, such as cells or steps.
-    ///
-    /// * `name`: what is counted; the labels are `name = count`.
-    /// * `counts`: coarse to fine.
-    /// * `step`: the step that belongs to a count.
-    /// * Returns each level with its count.
-    pub fn counted(
-        name: &str,
-        counts: impl IntoIterator<Item = usize>,
-        step: impl Fn(usize) -> f64,
-    ) -> Vec<(Self, usize)> {
-        let level = |count: usize| (Self::new(format!("{name} = {count}"), &[(name, count)], step(count)), count);
-        counts.into_iter().map(level).collect()
-    }
 }
 
 /// Errors over levels.
@@ -113,7 +98,6 @@ pub struct Levels {
 pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
-    /// The levels that have a result.
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
         let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
         self.refinements.iter().enumerate().filter_map(level).collect()
@@ -140,13 +124,19 @@ impl Levels {
     /// The same by a rule with other settings, such as the floor below which these errors are not known.
     pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
+        let known = self.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
+        let known: Vec<&str> = known.map(|column| column.name.as_str()).collect();
         let verdict = |column: &ErrorColumn| {
             let claim = column.claim?;
             let points = self.points(column);
             // A tolerance that no verdict can be based on; readers of study files refuse it before.
             let judged = Judge::new(claim.tolerance).map(|judge| claim.judge(&settings(judge), &points));
             let judged = judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
-            Some((column.name.clone(), judged.among(&labels, &self.has_result(column))))
+            let judged = judged.among(&labels, &self.has_result(column));
+            let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
+            let unknown = || format!("no level has an error `{}`; there are {}", column.name, known.join(", "));
+            let judged = if is_unknown { judged.with_reason(Reason::NoResult, &unknown()) } else { judged };
+            Some((column.name.clone(), judged))
         };
         self.columns.iter().filter_map(verdict).collect()
     }
@@ -340,8 +330,7 @@ mod tests {
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
-        let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
-        let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
+        let refinements = halved();
         let judged = |count: usize, tolerance: f64| {
             let errors = refinements.iter().take(count).map(|level| Some(level.step * level.step)).collect();
             let claim = Some(Claim::new(2.0, tolerance));
@@ -358,10 +347,13 @@ mod tests {
         }
     }
 
+    fn halved() -> Vec<Refinement> {
+        [4, 8, 16, 32, 64].map(|n| Refinement::new(format!("cells = {n}"), &[("cells", n)], 1.0 / n as f64)).into()
+    }
+
     /// Errors of the second order on five levels, times these factors.
     fn scattered(factors: [f64; 5]) -> Levels {
-        let counted = Refinement::counted("cells", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
-        let refinements: Vec<Refinement> = counted.into_iter().map(|(level, _)| level).collect();
+        let refinements = halved();
         let errors =
             refinements.iter().zip(factors).map(|(level, factor)| Some(factor * level.step * level.step)).collect();
         let claim = Some(Claim::new(2.0, 0.1));

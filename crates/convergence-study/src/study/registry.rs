@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use super::from_file::FromFile;
 use super::header::Header;
-use super::kind::{FromFile, Study, erased};
+use super::kind::{Study, erased};
 use crate::input::{self, InputError, Section};
 use crate::text::visible;
 

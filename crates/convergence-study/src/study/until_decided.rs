@@ -4,6 +4,7 @@
 //! Looking again costs few wrong passes: the rule answers for its interval at every look, and a claim that is off fails at one of them.
 //! `rule-calibration` has the row that measures it. A fixed number of levels at most keeps that so.
 
+#[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
@@ -94,6 +95,7 @@ fn fewer(levels: &Levels, rates: &Rates) -> Vec<(String, usize)> {
 }
 
 /// Whether a list of counts is left to the study.
+#[cfg(feature = "files")]
 pub fn is_auto(field: &Field<'_>) -> bool {
     field.text().is_ok_and(|text| text == "auto")
 }
@@ -106,6 +108,7 @@ pub fn is_auto(field: &Field<'_>) -> bool {
 ///
 /// # Errors
 /// [`InputError`] where only some lists are, or `"auto"` stands beside `grid = true`, or a budget without it.
+#[cfg(feature = "files")]
 pub fn budget(
     section: &Section<'_>,
     counts: &[&str],

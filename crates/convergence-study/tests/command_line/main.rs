@@ -12,7 +12,7 @@ use convergence_study::cli;
 use convergence_study::input::{InputError, Section};
 use convergence_study::program;
 use convergence_study::project::Project;
-use convergence_study::study::{Axis, ErrorsOverLevels, Header, KindRow, Refinement, Study, erased};
+use convergence_study::study::{Claim, Header, KindRow, Study, erased, levels};
 use tempfile::TempDir;
 
 use changes::{
@@ -41,10 +41,9 @@ const PROJECT: Project = Project {
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
-    let levels = Refinement::counted("n", [4, 8, 16, 32, 64], |n| 1.0 / n as f64);
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
-    let error = move |&n: &usize| Ok(vec![("error", (n as f64).powf(-exponent))]);
-    Ok(erased(ErrorsOverLevels::new(header, Axis::Space, levels, error).claiming("error", order, 0.05)))
+    let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
+    Ok(erased(study.described(header).claiming("error", Claim::new(order, 0.05))))
 }
 
 type Test = (&'static str, fn());

@@ -2,11 +2,11 @@
 
 use convergence_study::judge::fit::{
     Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOW_PENALTY, SLOWEST_POLLUTION, fit_line,
-    rate_interval,
+    rate_interval, student_t,
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::{HALVED, UNEVEN, levels, quantiles};
+use crate::{HALVED, UNEVEN, levels};
 
 /// What ordinary least squares says of `y` = X c.
 pub(crate) struct Regression {
@@ -56,7 +56,7 @@ fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
     let rate = fit.coefficients[1];
     let pair = variance.sqrt() * deviations[m - 2].hypot(deviations[m - 1]) / ratio;
     let correction = ((rate - finest).abs() - pair).max(0.0);
-    let student = quantiles().t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
+    let student = student_t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
     let mut half_width = SAFETY * (student + correction);
     if m == 3 {
         // Rates p + c (h_k^r - h_k+1^r) / log(h_k / h_k+1): two equations for p and c.
@@ -108,9 +108,9 @@ fn lines_are_those_of_linear_regression() {
             let x: Vec<f64> = data.iter().map(|level| level.step.ln()).collect();
             let y: Vec<f64> = data.iter().map(|level| level.error.ln()).collect();
             let reference = regression(&[vec![1.0; m], x], &y);
-            let line = fit_line(&data, &quantiles()).expect("regular");
+            let line = fit_line(&data).expect("regular");
             let variance = reference.rss / (m - 2) as f64;
-            let half = quantiles().t(m - 2) * (variance * reference.inverse[(1, 1)]).sqrt();
+            let half = student_t(m - 2) * (variance * reference.inverse[(1, 1)]).sqrt();
             let [intercept, slope] = [reference.coefficients[0], reference.coefficients[1]];
             let expected = [slope, intercept, variance.sqrt(), slope - half, slope + half];
             let found = [line.slope, line.intercept, line.deviation, line.interval[0], line.interval[1]];
@@ -124,11 +124,11 @@ fn lines_are_those_of_linear_regression() {
 
 #[test]
 fn two_levels_make_a_line_that_says_nothing_and_one_makes_none() {
-    let line = fit_line(&levels(&HALVED[..2], |h| h), &quantiles()).expect("a line");
+    let line = fit_line(&levels(&HALVED[..2], |h| h)).expect("a line");
     assert_eq!((line.slope, line.dof, line.interval), (1.0, 0, [f64::NEG_INFINITY, f64::INFINITY]));
-    assert_eq!(fit_line(&levels(&HALVED[..1], |h| h), &quantiles()), None);
-    assert_eq!(fit_line(&levels(&[0.5, 0.5], |h| h), &quantiles()), None, "the steps do not differ");
-    assert_eq!(fit_line(&levels(&HALVED, |h| h - 0.25), &quantiles()), None, "a zero and negative errors");
+    assert_eq!(fit_line(&levels(&HALVED[..1], |h| h)), None);
+    assert_eq!(fit_line(&levels(&[0.5, 0.5], |h| h)), None, "the steps do not differ");
+    assert_eq!(fit_line(&levels(&HALVED, |h| h - 0.25)), None, "a zero and negative errors");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn candidates_are_those_of_multiple_regression() {
     for steps in [HALVED, UNEVEN] {
         for (m, case) in (3..=6).flat_map(|m| (0..9).map(move |case| (m, case))) {
             let data = data(&steps, m, case);
-            let found = rate_interval(&data, &quantiles()).expect("regular");
+            let found = rate_interval(&data).expect("regular");
             let (rate, pollution, interval) = by_the_rule(&data);
             let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-8 * (1.0 + expected.abs());
             assert!(close(found.rate, rate), "{m} levels, case {case}: {found:?}, {rate}");
@@ -154,8 +154,8 @@ fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
         let data = levels(&UNEVEN[..m].iter().map(|h| unit * h).collect::<Vec<_>>(), |h| h);
         let scale = data.iter().fold(1.0_f64, |scale, level| scale.max(level.error.ln().abs()));
         let inverse = regression(&columns(&data, None), &vec![0.0; m]).inverse;
-        let straight = SAFETY * quantiles().t(m - 2) * 8.0 * f64::EPSILON * scale * inverse[(1, 1)].sqrt();
-        let found = rate_interval(&data, &quantiles()).expect("regular");
+        let straight = SAFETY * student_t(m - 2) * 8.0 * f64::EPSILON * scale * inverse[(1, 1)].sqrt();
+        let found = rate_interval(&data).expect("regular");
         for ratio in found.interval.map(|end| (end - 1.0).abs() / straight) {
             assert!((0.7..10.0).contains(&ratio), "{m} levels, unit {unit}: {found:?}, {straight:e}");
         }
@@ -164,11 +164,11 @@ fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
 
 #[test]
 fn no_interval_without_three_levels_whose_steps_differ() {
-    assert_eq!(rate_interval(&levels(&HALVED[..2], |h| h), &quantiles()), None);
-    assert!(rate_interval(&levels(&HALVED[..3], |h| h), &quantiles()).is_some());
+    assert_eq!(rate_interval(&levels(&HALVED[..2], |h| h)), None);
+    assert!(rate_interval(&levels(&HALVED[..3], |h| h)).is_some());
     for steps in [[0.5, 0.25, 0.125, 0.125], [0.5, 0.5, 0.5, 0.5]] {
         let data: Vec<Level> =
             steps.iter().zip([0.5, 0.25, 0.12, 0.11]).map(|(&step, error)| Level { step, error }).collect();
-        assert_eq!(rate_interval(&data, &quantiles()), None, "{steps:?}");
+        assert_eq!(rate_interval(&data), None, "{steps:?}");
     }
 }

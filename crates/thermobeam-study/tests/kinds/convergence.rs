@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use convergence_study::judge::verdict::{Reason, Verdict};
-use convergence_study::study::{FromFile, Outcome, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::{FromFile, Outcome};
 use thermobeam_study::kinds::convergence::Convergence;
 
 /// The study of Theorem 3.4 in h.
@@ -17,7 +18,7 @@ fn outcome(elements: &str, tolerance: &str) -> Outcome {
     let listed = text.lines().find(|line| line.starts_with("elements = ")).unwrap();
     assert!(text.contains("tolerance = 0.002"));
     let text = text.replace(listed, elements).replace("tolerance = 0.002", tolerance);
-    run_here(&Convergence::parse(&text, &file()).unwrap())
+    run_one(&Convergence::parse(&text, &file()).unwrap()).outcome
 }
 
 #[test]

@@ -55,7 +55,7 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
 #[test]
 fn the_published_digits_are_those_of_the_prototype() {
     let study = study(|text| text);
-    let outcome = convergence_study::study::run_here(&study);
+    let outcome = convergence_study::run::run_one(&study).outcome;
     let value = |name: &str| {
         let found = outcome.quantities.iter().find(|quantity| quantity.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).value

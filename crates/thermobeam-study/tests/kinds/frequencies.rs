@@ -1,8 +1,9 @@
 use crate::typed::{changed, passes_but_not_without_each_case};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::run::run_one;
 use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{FromFile, Kind, run_here};
+use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::frequencies::Frequencies;
 
 fn study() -> Frequencies {
@@ -24,7 +25,7 @@ fn elements_of_higher_degree_have_twice_their_degree_as_order_and_no_other() {
         passes_but_not_without_each_case(&parse(&text));
         // The same meshes with elements of a lower degree.
         let lower = text.replace(&format!("degree = {degree}\n"), &format!("degree = {}\n", degree - 1));
-        let outcome = run_here(&parse(&lower));
+        let outcome = run_one(&parse(&lower)).outcome;
         assert!(lower != text && outcome.rates.iter().all(|(_, rate)| rate.verdict != Verdict::Pass), "{degree}");
     }
 }

@@ -1,7 +1,8 @@
 use crate::typed::{changed, passes_but_not_without_each_case, report};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, run_cases_here, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::{FromFile, Kind, run_cases_here};
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::self_convergence::{Run, SelfConvergence, Traced};
 
@@ -134,14 +135,14 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
 #[test]
 fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
     let coarse = parse("reference-space.toml", |text| text.replace("degree = 24", "degree = 12"));
-    let outcome = run_here(&coarse);
+    let outcome = run_one(&coarse).outcome;
     let check = outcome.checks.iter().find(|check| check.claim.contains("the same reference")).expect("the check");
     assert_eq!((check.verdict, outcome.verdict), (Verdict::Fail, Verdict::Fail), "{}", report(&outcome));
 }
 
 #[test]
 fn an_order_that_the_scheme_has_not_fails() {
-    let outcome = run_here(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0")));
+    let outcome = run_one(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0"))).outcome;
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Fail), "{}", report(&outcome));
 }
@@ -156,7 +157,7 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 
 #[test]
 fn the_legend_says_of_which_differences_nothing_is_claimed() {
-    let outcome = run_here(&parse("reference-space.toml", |text| text));
+    let outcome = run_one(&parse("reference-space.toml", |text| text)).outcome;
     let svg = &outcome.figures[0].svg;
     assert!(svg.contains("tip-max, reference (not claimed), order 2, "), "{}", outcome.figures[0].file);
     assert!(svg.contains("tip, reference, order 2, "));

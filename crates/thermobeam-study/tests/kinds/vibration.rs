@@ -1,7 +1,8 @@
 use crate::typed::{changed, passes_but_not_without_each_case, report};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, run_cases_here, run_here};
+use convergence_study::run::run_one;
+use convergence_study::study::{FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::tables::Norm;
 use thermobeam_study::kinds::vibration::Vibration;
 
@@ -40,7 +41,7 @@ fn every_file_passes_but_not_without_each_case() {
 #[test]
 fn a_solver_whose_zeta_is_off_by_a_thousandth_fails_wherever_one_error_is_isolated() {
     for name in &FILES[..3] {
-        let outcome = run_here(&defective(name, "zeta = 0.1001"));
+        let outcome = run_one(&defective(name, "zeta = 0.1001")).outcome;
         assert_eq!(outcome.verdict, Verdict::Fail, "{name}: {}", report(&outcome));
     }
 }
@@ -48,7 +49,11 @@ fn a_solver_whose_zeta_is_off_by_a_thousandth_fails_wherever_one_error_is_isolat
 #[test]
 fn every_coefficient_that_must_be_zero_is_seen() {
     for coefficient in ["a = 1e-4", "rho = 1e-4", "beta = 1e-4", "theta_a = 1e-4"] {
-        assert_eq!(run_here(&defective("vibration-time.toml", coefficient)).verdict, Verdict::Fail, "{coefficient}");
+        assert_eq!(
+            run_one(&defective("vibration-time.toml", coefficient)).outcome.verdict,
+            Verdict::Fail,
+            "{coefficient}"
+        );
     }
 }
 

@@ -9,28 +9,20 @@ use serde_json::{Value, json};
 use super::{Findings, Judged, advice};
 use crate::cli::{github, screen};
 use crate::explain::section;
+use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{Aside, Verdict};
 use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit};
-use crate::text::number::{decimals, interval_places, pair_text, plain_text, short_text};
+use crate::text::number::{pair_text, short_text};
 use crate::text::visible::{self, visible};
 
-/// Most decimals of a rate.
-const MOST_PLACES: usize = 6;
 /// Most columns in the figure: more would have the colours of the first.
 const DRAWN: usize = 8;
 
 impl Judged<'_> {
     /// Rate, claim, the reason where that is not a pass, and the limit of values.
     fn found(&self) -> String {
-        let mut found = self.rate.rate_in_words(MOST_PLACES);
-        if !self.is_claimed() {
-            found += ": no order is claimed";
-        } else {
-            let passes = self.rate.verdict == Verdict::Pass;
-            let why = if passes { self.rate.excludes() } else { self.rate.because.clone() };
-            found += &format!(", claimed {}: {why}", self.rate.claim());
-        }
+        let found = self.shown().found();
         match self.estimate.as_ref().map(|estimate| (&estimate.bar, &estimate.gci)) {
             Some((Ok(bar), gci)) => {
                 let [low, high] = pair_text(bar.limit);
@@ -42,53 +34,10 @@ impl Judged<'_> {
         }
     }
 
-    /// The mark of a level without a say.
-    fn mark(&self, level: usize) -> &'static str {
-        match self.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because) {
-            Some(Aside::AtFloor) => "_",
-            Some(Aside::PreAsymptotic | Aside::Outlier) => "~",
-            // A table has a number, or NaN, on every level.
-            Some(Aside::NoResult) | None => "",
-        }
+    fn shown(&self) -> Shown<'_> {
+        let late = usize::from(self.estimate.is_some());
+        Shown { name: &self.column.name, levels: &self.column.levels, rate: &self.rate, late }
     }
-
-    /// The rate between a level and the one before; a dash where there is none. Of values the differences have a rate.
-    fn pairwise(&self, level: usize) -> String {
-        let before = level.checked_sub(1 + usize::from(self.estimate.is_some()));
-        let places = self.rate.interval.map_or(3, |interval| interval_places(interval, MOST_PLACES));
-        let rate = before.and_then(|before| self.rate.pairwise.get(before)).filter(|rate| rate.is_finite());
-        rate.map_or_else(|| "-".to_owned(), |rate| decimals(*rate, places))
-    }
-}
-
-/// What the marks mean, as far as they occur.
-fn legend(findings: &Findings<'_>) -> String {
-    let occurs = |because: &Aside| {
-        findings.columns.iter().any(|column| column.rate.set_aside.iter().any(|aside| aside.because == *because))
-    };
-    let marked = |because: Aside| match because {
-        Aside::AtFloor => format!("_ set aside: not above the floor {:e}\n", findings.judge.floor()),
-        _ => format!("~ set aside: {}\n", because.text()),
-    };
-    [Aside::PreAsymptotic, Aside::Outlier, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
-}
-
-/// Step, and each error with its mark and rate, coarsest level first, below their names.
-fn errors(findings: &Findings<'_>) -> String {
-    let names = findings.columns.iter().flat_map(|judged| [judged.column.name.clone(), "rate".to_owned()]);
-    let mut rows = vec![std::iter::once(findings.table.step.clone()).chain(names).collect::<Vec<_>>()];
-    for (k, level) in findings.columns.first().map_or(&[][..], |judged| &judged.column.levels).iter().enumerate() {
-        let error = |judged: &Judged<'_>| format!("{:.4e}{:1}", judged.column.levels[k].error, judged.mark(k));
-        let cells = findings.columns.iter().flat_map(|judged| [error(judged), judged.pairwise(k)]);
-        rows.push(std::iter::once(plain_text(level.step)).chain(cells).collect());
-    }
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
-        cells.join("  ").trim_end().to_owned() + "\n"
-    };
-    rows.iter().map(line).collect::<String>() + &legend(findings) + "\n"
 }
 
 /// The errors with the rates beside them, a verdict for each column, what to do, and the verdict on all.
@@ -98,7 +47,8 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
         text += &format!("{}\n", findings.table.reading);
     }
     if !quiet {
-        text += &errors(findings);
+        let columns: Vec<Shown<'_>> = findings.columns.iter().map(Judged::shown).collect();
+        text += &(shown::table(&findings.table.step, &columns, findings.judge.floor()) + "\n");
     }
     for judged in
         findings.columns.iter().filter(|judged| !quiet || (judged.decides && judged.rate.verdict != Verdict::Pass))

@@ -2,7 +2,7 @@
 //!
 //! [The rule](crate::judge::verdict) states what is computed here, step "interval", and the reason of every constant.
 
-use super::{Level, Quantiles, line::logarithms};
+use super::{Level, line::logarithms, student_t};
 
 /// Exponents r of the polluted candidates.
 ///
@@ -65,8 +65,8 @@ struct Candidate {
 /// Fits all the candidates over the levels given, which should be an asymptotic range, and takes their weighted mean.
 ///
 /// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not differ.
-pub fn rate_interval(levels: &[Level], quantiles: &Quantiles) -> Option<RateInterval> {
-    let data = Data::new(levels, quantiles)?;
+pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
+    let data = Data::new(levels)?;
     // Three levels cannot tell fading scatter from pollution.
     let scatters = if data.pollutions.is_empty() { &SCATTER_EXPONENTS[..1] } else { &SCATTER_EXPONENTS };
     let candidates: Vec<Candidate> = scatters.iter().flat_map(|&s| Weighted::new(&data, s).candidates()).collect();
@@ -85,8 +85,7 @@ pub fn rate_interval(levels: &[Level], quantiles: &Quantiles) -> Option<RateInte
 }
 
 /// The logarithms of steps and errors.
-struct Data<'a> {
-    quantiles: &'a Quantiles,
+struct Data {
     x: Vec<f64>,
     y: Vec<f64>,
     /// Square of the round-off in log e.
@@ -99,8 +98,8 @@ struct Data<'a> {
     pollutions: Vec<Vec<f64>>,
 }
 
-impl<'a> Data<'a> {
-    fn new(levels: &[Level], quantiles: &'a Quantiles) -> Option<Self> {
+impl Data {
+    fn new(levels: &[Level]) -> Option<Self> {
         let (x, y) = logarithms(levels)?;
         let m = x.len();
         if m < 3 {
@@ -115,7 +114,7 @@ impl<'a> Data<'a> {
         let column = |r: &f64| x.iter().map(|value| (r * (value - x[0])).exp()).collect();
         let pollutions = if m > 3 { POLLUTION_EXPONENTS.iter().map(column).collect() } else { vec![] };
         let round_off = (ROUND_OFF * scale).powi(2);
-        Some(Self { quantiles, finest_rate, finest_ratio, round_off, pollutions, x, y })
+        Some(Self { finest_rate, finest_ratio, round_off, pollutions, x, y })
     }
 
     /// The limit of the last two pairwise rates if the slowest pollution is all that moves them.
@@ -133,14 +132,14 @@ impl<'a> Data<'a> {
 ///
 /// h̄ is the geometric mean of the steps: the weights multiply to 1, so that sums of squares of different s can be compared as likelihoods.
 struct Weighted<'a> {
-    data: &'a Data<'a>,
+    data: &'a Data,
     weights: Vec<f64>,
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
 impl<'a> Weighted<'a> {
-    fn new(data: &'a Data<'a>, scatter: f64) -> Self {
+    fn new(data: &'a Data, scatter: f64) -> Self {
         let mean = data.x.iter().sum::<f64>() / data.x.len() as f64;
         let weights = data.x.iter().map(|x| (-2.0 * scatter * (x - mean)).exp()).collect();
         let mut weighted = Self { data, weights, x: vec![], y: vec![] };
@@ -180,7 +179,7 @@ impl<'a> Weighted<'a> {
         self.project_out(direction, rest);
         let rss = self.dot(rest, rest) + dof as f64 * self.data.round_off;
         let variance = rss / dof as f64;
-        let student = self.data.quantiles.t(dof) * (variance / square).sqrt();
+        let student = student_t(dof) * (variance / square).sqrt();
         let scatter_of_pair =
             (variance * (1.0 / self.weights[m - 2] + 1.0 / self.weights[m - 1])).sqrt() / self.data.finest_ratio;
         let correction = ((rate - self.data.finest_rate).abs() - scatter_of_pair).max(0.0);
@@ -191,7 +190,7 @@ impl<'a> Weighted<'a> {
         };
         let rare = if pollution.is_some_and(|r| r < SLOW) { SLOW_PENALTY } else { 0.0 };
         let log_weight = -0.5 * m as f64 * rss.ln() - PENALTY * parameters as f64 - rare;
-        let scatter = self.data.quantiles.t(dof) * (variance / self.weights[m - 1]).sqrt();
+        let scatter = student_t(dof) * (variance / self.weights[m - 1]).sqrt();
         Candidate { pollution, rate, log_weight, half_width, scatter }
     }
 

@@ -1,6 +1,6 @@
 //! Pairwise rates, their limit, and the straight line.
 
-use super::{Level, Quantiles};
+use super::{Level, student_t};
 
 /// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.
 ///
@@ -34,7 +34,7 @@ pub struct LineFit {
 /// the pairwise rates, not their limit, and [`rate_interval`](super::rate_interval) is the reading to trust.
 ///
 /// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do not differ.
-pub fn fit_line(levels: &[Level], quantiles: &Quantiles) -> Option<LineFit> {
+pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     let (x, y) = logarithms(levels)?;
     let n = x.len() as f64;
     let (x_mean, y_mean) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
@@ -44,7 +44,7 @@ pub fn fit_line(levels: &[Level], quantiles: &Quantiles) -> Option<LineFit> {
     let rss: f64 = x.iter().zip(&y).map(|(x, y)| (y - y_mean - slope * (x - x_mean)).powi(2)).sum();
     let dof = x.len() - 2;
     let deviation = (rss / dof as f64).sqrt();
-    let half = if dof == 0 { f64::INFINITY } else { quantiles.t(dof) * deviation / sxx.sqrt() };
+    let half = if dof == 0 { f64::INFINITY } else { student_t(dof) * deviation / sxx.sqrt() };
     let interval = [slope - half, slope + half];
     slope.is_finite().then_some(LineFit { slope, intercept: y_mean - slope * x_mean, deviation, dof, interval })
 }

@@ -6,7 +6,7 @@ use super::outcome::{Aside, SetAside};
 use super::reason::Reason;
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
-    AsymptoticRange, Level, Quantiles, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
+    AsymptoticRange, Level, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
 /// A sequence of errors, read once and held against any claim.
@@ -35,7 +35,7 @@ impl<'a> Reading<'a> {
         };
         let end = range.used.end;
         let start = if range.used.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.used.start };
-        let fit = rate_interval(&sequence[start..end], Quantiles::standard());
+        let fit = rate_interval(&sequence[start..end]);
         let used = if fit.is_some() { start..end } else { 0..0 };
         Self {
             sequence,

@@ -1,7 +1,5 @@
 //! From the runs of all methods to checks, tables and figures.
 
-use convergence_study::judge::fit::Quantiles;
-
 use super::law::{GridPoint, Law, front};
 use super::method::{Measurement, Method};
 use super::{Advantage, Runs, WorkPrecision};
@@ -20,8 +18,6 @@ const UNDERCUT: f64 = 2.5;
 const COST_TOLERANCE: f64 = 1e-2;
 /// Relative change of a ratio of costs that is tolerated.
 const RATIO_TOLERANCE: f64 = 0.05;
-/// Confidence of the intervals of the rates.
-const CONFIDENCE: f64 = 0.95;
 /// How far the fall of a second-order error along a diagonal may be from fourfold.
 const FALL: [f64; 2] = [3.5, 4.5];
 
@@ -135,7 +131,6 @@ fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize
 }
 
 fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
-    let Some(quantiles) = Quantiles::new(CONFIDENCE) else { return vec![] };
     let mut rows = vec![];
     for method in study.methods() {
         let points = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
@@ -147,7 +142,7 @@ fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
                 let [full, superclose, tip] = &points;
                 let close = fit(superclose);
                 let law = match &close {
-                    Ok(close) => Law::with_interpolation(full, (superclose, close), &quantiles),
+                    Ok(close) => Law::with_interpolation(full, (superclose, close)),
                     Err(reason) => Err(reason.clone()),
                 };
                 [law, close, fit(tip)].map(Cost::Law)

@@ -8,7 +8,8 @@
 //!
 //! and costs `T/(h dt) = K E^-(1/p + 1/q)`.
 
-use convergence_study::judge::fit::{self, Quantiles, SurfacePoint, fit_line, fit_surface};
+use super::surface::{SurfacePoint, fit_surface};
+use convergence_study::judge::fit::{self, fit_line};
 use convergence_study::text::number::max_or_nan;
 
 /// The errors of one method in one quantity: rates, constants and the cost that follows.
@@ -68,11 +69,7 @@ impl Law {
     ///
     /// # Errors
     /// As for [`Law::fit`].
-    pub fn with_interpolation(
-        points: &[GridPoint],
-        superclose: (&[GridPoint], &Law),
-        quantiles: &Quantiles,
-    ) -> Result<Self, String> {
+    pub fn with_interpolation(points: &[GridPoint], superclose: (&[GridPoint], &Law)) -> Result<Self, String> {
         let (distances, law) = superclose;
         let finest = points.iter().map(|point| point.steps).max().unwrap_or(0);
         let levels: Vec<fit::Level> = points
@@ -84,7 +81,7 @@ impl Law {
                 error: ((e.error - s.error) * (e.error + s.error)).sqrt(),
             })
             .collect();
-        let line = fit_line(&levels, quantiles).ok_or("no line through the interpolation errors")?;
+        let line = fit_line(&levels).ok_or("no line through the interpolation errors")?;
         Self { p: line.slope, c_h: line.intercept.exp(), misfit: f64::NAN, ..law.clone() }.over(points)
     }
 

@@ -32,6 +32,7 @@ mod judge;
 pub mod law;
 pub mod method;
 mod rival;
+pub mod surface;
 mod timed;
 
 use std::sync::OnceLock;

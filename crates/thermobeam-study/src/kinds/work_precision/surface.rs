@@ -1,6 +1,6 @@
 //! The law behind errors over a grid of (h, dt): a description of what was computed, which says nothing of h, dt → 0.
 //!
-//! Rates with intervals are the business of [`judge::grid`](crate::judge::grid).
+//! Rates with intervals are the business of [`judge::grid`](convergence_study::judge::grid).
 //!
 //! The two contributions add in squares where they are orthogonal: e² = (C_h h^p)² + (C_t dt^q)². It is fitted in log e, so that every
 //! point of the grid has the same weight whatever the size of its error:

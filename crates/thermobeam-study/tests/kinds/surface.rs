@@ -1,6 +1,6 @@
 //! The surface over a grid of (h, dt).
 
-use convergence_study::judge::fit::{SurfaceError, SurfacePoint, fit_surface};
+use thermobeam_study::kinds::work_precision::surface::{SurfaceError, SurfacePoint, fit_surface};
 
 fn grid(error: impl Fn(f64, f64) -> f64) -> Vec<SurfacePoint> {
     let steps = [8.0, 16.0, 32.0, 64.0, 128.0].map(|n: f64| 1.0 / n);

@@ -1,0 +1,80 @@
+//! Levels of a function, run and asserted in a line: what a test of a solver needs.
+
+use super::{Finished, run_one};
+use crate::judge::fit::Level;
+use crate::judge::shown::{self, Shown};
+use crate::judge::verdict::{DEFAULT_TOLERANCE, Judge, ROUND_OFF_FLOOR, Verdict, judge};
+use crate::study::{ErrorsOverLevels, IntoErrors, LevelErrors};
+
+/// Judges errors against the order that theory claims, in any test; the tolerance is [`DEFAULT_TOLERANCE`].
+///
+/// * `h`: the steps, coarse to fine; `errors`: the errors at these steps.
+///
+/// # Panics
+/// Unless the verdict is a pass, with the table, the rate, its interval, the reason and what to do; inconclusive is no pass. And where there
+/// are not as many errors as steps.
+///
+/// ```
+/// let h = [0.1, 0.05, 0.025, 0.0125];
+/// convergence_study::assert_order(&h, &[4.1e-3, 1.02e-3, 2.55e-4, 6.37e-5], 2.0);
+/// ```
+#[track_caller]
+pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
+    assert!(h.len() == errors.len(), "{} steps and {} errors: expected one error for each step", h.len(), errors.len());
+    let levels: Vec<Level> = h.iter().zip(errors).map(|(&step, &error)| Level { step, error }).collect();
+    let rate = judge(&levels, order, DEFAULT_TOLERANCE);
+    let shown = Shown { name: "error", levels: &levels, rate: &rate, late: 0 };
+    assert!(rate.verdict.is_pass(), "the order is not confirmed\n{}", shown::explained("h", &[shown], ROUND_OFF_FLOOR));
+}
+
+impl<R, F> ErrorsOverLevels<F>
+where
+    R: IntoErrors,
+    F: Fn(usize) -> R + Send + Sync,
+{
+    /// Runs all levels, on all threads of the machine, and judges them.
+    pub fn run(&self) -> Finished {
+        run_one(self)
+    }
+
+    /// Runs and judges it, for a test.
+    ///
+    /// # Panics
+    /// As [`Finished::assert_passes`].
+    #[track_caller]
+    pub fn assert_passes(&self) -> Finished {
+        let finished = self.run();
+        finished.assert_passes();
+        finished
+    }
+}
+
+impl Finished {
+    /// Does nothing for a study that passes.
+    ///
+    /// # Panics
+    /// Unless the verdict is a pass, with the table of errors and rates, the reasons and what to do; inconclusive is no pass.
+    #[track_caller]
+    pub fn assert_passes(&self) {
+        assert!(self.outcome.verdict.is_pass(), "{}", self.explained());
+    }
+
+    /// Verdict, errors with their rates, reasons and advice as text.
+    pub fn explained(&self) -> String {
+        let (id, outcome) = (&self.header.id, &self.outcome);
+        let levels = |name: &str| -> Vec<Level> {
+            let level = |level: &LevelErrors| Level { step: level.step.unwrap_or(f64::NAN), error: level.error(name) };
+            outcome.levels.iter().map(level).collect()
+        };
+        let levels: Vec<Vec<Level>> = outcome.rates.iter().map(|(name, _)| levels(name)).collect();
+        let rates = outcome.rates.iter().zip(&levels);
+        let columns: Vec<Shown<'_>> =
+            rates.map(|((name, rate), levels)| Shown { name, levels, rate, late: 0 }).collect();
+        let floor = Judge::default().floor();
+        let mut text = format!("{id}: {}\n{}", outcome.verdict, shown::explained("step", &columns, floor));
+        for check in outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass) {
+            text += &format!("{}: {}: {}\n", check.claim, check.verdict, check.evidence);
+        }
+        text
+    }
+}

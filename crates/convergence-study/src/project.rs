@@ -1,6 +1,7 @@
 //! What a project says about itself to the harness.
 
-use crate::study::Kinds;
+use crate::study::settings::{self, Setting};
+use crate::study::{Header, Kinds};
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -21,13 +22,32 @@ pub struct Project {
     pub templates: &'static [Template],
     /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.
     pub front_pictures: &'static [(&'static str, &'static str)],
+    /// What an item of a study exercises, by its name: what a diagnosis tells failing from passing items by.
+    pub settings: fn(&Header, &str) -> Vec<Setting>,
+    /// Where to look: a value of a setting or a field, and the place.
+    pub places: &'static [(&'static str, &'static str)],
+    /// The file of known mistakes, from the project's folder.
+    pub fingerprints: Option<&'static str>,
 }
 
 impl Project {
     /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        Self { name, command, about, kinds: &[], groups: &[], terms: &[], templates: &[], front_pictures: &[] }
+        let settings = settings::of_file;
+        Self {
+            name,
+            command,
+            about,
+            kinds: &[],
+            groups: &[],
+            terms: &[],
+            templates: &[],
+            front_pictures: &[],
+            settings,
+            places: &[],
+            fingerprints: None,
+        }
     }
 }
 

@@ -14,6 +14,7 @@ use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::StoreError;
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, Change, Refusal};
+use crate::store::diagnosis::{Diagnosis, Fingerprints, diagnose};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::{self, Record};
@@ -146,6 +147,8 @@ pub struct Verification {
     pub changes: Vec<Change>,
     /// The worst of all studies, and fail where something differs.
     pub verdict: Verdict,
+    /// What is known of the cause, where the verdict is not a pass.
+    pub diagnosis: Option<Diagnosis>,
     /// Whether the baseline is new, where that was asked for.
     pub blessing: Option<Result<(), Refusal>>,
     /// The folder of the reports.
@@ -193,6 +196,8 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
+    let mistakes =
+        project.fingerprints.map(|file| Fingerprints::read(&request.root.join(file))).transpose()?.unwrap_or_default();
     let folder = &request.reports;
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     tidy(request)?;
@@ -209,8 +214,9 @@ pub fn verify(
     let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
     let changes = baseline.compare(&finished, known);
     let verdict = verdict(&finished, &changes);
+    let diagnosis = diagnose(project, &finished, &changes, &mistakes);
     let target = request.scope.report_folder(folder);
-    let verification = Verification { finished, changes, verdict, blessing, reports: target.folder.clone() };
+    let verification = Verification { finished, changes, verdict, diagnosis, blessing, reports: target.folder.clone() };
     // Everything is made before anything is written.
     let command = request.scope.command(project);
     let provenance =
@@ -265,14 +271,15 @@ fn bless(
 /// # Errors
 /// [`VerificationError::Reports`].
 pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result<(), VerificationError> {
-    publish(project, record(finished, project.command), run::available().get(), folder)
+    publish(project, record(project, finished, project.command), run::available().get(), folder)
 }
 
 /// The record of studies that have run without a baseline.
 ///
 /// * `command`: what ran them.
-pub fn record(finished: &[Finished], command: &str) -> Record {
-    Record::new("files", command, verdict(finished, &[]), None, finished.to_vec())
+pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
+    let diagnosis = diagnose(project, finished, &[], &Fingerprints::default());
+    Record { diagnosis, ..Record::new("files", command, verdict(finished, &[]), None, finished.to_vec()) }
 }
 
 /// Writes the report on them into a folder of their own; missing folders are made.
@@ -359,7 +366,8 @@ impl Verification {
     ///
     /// * `command`: what was run.
     pub fn record(&self, scope: &Scope, command: &str) -> Record {
-        Record::new(scope.name(), command, self.verdict, Some(&self.changes), self.finished.clone())
+        let record = Record::new(scope.name(), command, self.verdict, Some(&self.changes), self.finished.clone());
+        Record { diagnosis: self.diagnosis.clone(), ..record }
     }
 }
 

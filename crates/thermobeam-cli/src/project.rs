@@ -2,7 +2,7 @@
 
 use convergence_study::program;
 use convergence_study::project::{Project, Template};
-use thermobeam_study::kinds::{KINDS, TERMS};
+use thermobeam_study::kinds::{KINDS, PLACES, TERMS, settings};
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
 pub const fn project(command: &'static str) -> Project {
@@ -27,6 +27,9 @@ pub const fn project(command: &'static str) -> Project {
         templates: &TEMPLATES,
         // Others show this picture, and need a name that studies do not change.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
+        settings,
+        places: &PLACES,
+        fingerprints: Some(".cargo/fingerprints.json"),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{Findings, summary, tables, text_of_failures};
+use crate::report::{Findings, summary, tables, text_of_diagnosis, text_of_failures};
 use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
 use crate::store::record::json;
@@ -55,15 +55,18 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             finished.untested = untested(study.as_ref(), effort);
         }
     }
-    let record = record(&finished, &command);
+    let record = record(project, &finished, &command);
     let verdict = record.verdict;
     let findings = Findings { project, record: &record, see_also: None, provenance: None };
     let text = match flags.format {
         Format::Json => json(&record)?,
         Format::Text if flags.quiet => {
-            format!("{}{}: {}\n", text_of_failures(&finished), screen::verdict(verdict), findings.sentence())
+            format!("{}{}: {}\n", text_of_failures(&finished, None), screen::verdict(verdict), findings.sentence())
         }
-        Format::Text => finished.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Text => {
+            let cause = record.diagnosis.as_ref().map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
+            finished.iter().map(text).collect::<Vec<_>>().join("\n") + &cause.unwrap_or_default()
+        }
     };
     // What was found is shown first: no file that cannot be written takes it away.
     output::print(&text)?;

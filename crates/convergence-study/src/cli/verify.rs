@@ -1,6 +1,7 @@
 //! `verify`: the main job.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use super::exit::Outcome;
 use super::flags::Flags;
@@ -9,7 +10,7 @@ use crate::cli::running::{Limits, Watched, kept};
 use crate::cli::{github, output, screen, selection, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_failures};
+use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
 use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::record;
@@ -51,6 +52,7 @@ pub struct Arguments {
 /// # Errors
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    let started = Instant::now();
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
@@ -76,7 +78,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verification = verification?;
     let record = verification.record(&request.scope, &request.scope.command(project));
     output::print(&match flags.format {
-        Format::Text => text(project, &verification, &request, arguments),
+        Format::Text => text(project, &verification, &request, arguments, started.elapsed()),
         Format::Json => record::json(&record)?,
     })?;
     github::announce(&Findings { project, record: &record, see_also: None, provenance: None }, flags.format);
@@ -99,50 +101,61 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     }
 }
 
-/// The table, where the reports are, what differs from the baseline, what became of the blessing, what did not pass, and the
-/// verdict last: a terminal shows the end.
-fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments) -> String {
-    let quiet = arguments.flags.quiet;
-    let mut text = moved_lines(&found.changes, arguments.verbose);
-    match &found.blessing {
-        Some(Ok(())) => text += "baseline: blessed, see studies/baseline.json\n",
-        Some(Err(refusal)) => text += &format!("baseline: {}\n", visible::lines(&refusal.to_string())),
-        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
-            let command = request.scope.command(project);
-            text += &format!("if that is meant: {}\n", blessing(project, &command, &found.finished, &found.changes));
-        }
-        None => {}
+/// Of a run that passes the table of studies and the verdict. Of any other the verdict, its cause, and the clearest failures first:
+/// all of it is seen at once.
+///
+/// * `took`: from start to end.
+fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments, took: Duration) -> String {
+    let Arguments { verbose, flags: Flags { quiet, .. }, .. } = arguments;
+    let (verdict, sentence) = (screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)));
+    let table = if *quiet { String::new() } else { overview(found, request, *verbose) };
+    if found.verdict == Verdict::Pass {
+        return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found, request));
     }
-    let gap = if text.is_empty() { "" } else { "\n" };
-    let mut whole = if quiet { String::new() } else { overview(found, request, arguments.verbose) + gap };
-    whole += &text;
-    let failures = text_of_failures(&found.finished);
-    if !(failures.is_empty() || whole.is_empty()) {
-        whole.push('\n');
-    }
-    whole += &failures;
-    whole + &format!("{}: {}\n", screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)))
+    let took = if *quiet { String::new() } else { format!(" in {:.1} s", took.as_secs_f64()) };
+    let clearest = found.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
+    let parts = [
+        format!("{verdict}{took}: {sentence}\n"),
+        found.diagnosis.as_ref().map(text_of_diagnosis).unwrap_or_default(),
+        text_of_failures(&found.finished, clearest),
+        moved_lines(&found.changes, *verbose) + &blessed(project, found, request),
+        table,
+    ];
+    let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
+    parts.join("\n\n") + "\n"
 }
 
-/// The table of studies, without those that pass where something fails, and where the reports are.
+/// What became of the blessing, or which command blesses.
+fn blessed(project: &Project, found: &Verification, request: &Request) -> String {
+    match &found.blessing {
+        Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
+        Some(Err(refusal)) => format!("baseline: {}\n", visible::lines(&refusal.to_string())),
+        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
+            let command = request.scope.command(project);
+            format!("if that is meant: {}\n", blessing(project, &command, &found.finished, &found.changes))
+        }
+        None => String::new(),
+    }
+}
+
+/// The table of studies where all pass or all are wanted, how many more fail where not, and where the reports are.
 fn overview(found: &Verification, request: &Request, verbose: bool) -> String {
-    let all = verbose || found.verdict == Verdict::Pass;
-    let is_shown = |finished: &&Finished| all || finished.outcome.verdict != Verdict::Pass;
-    let rows: Vec<Vec<String>> = found.finished.iter().filter(is_shown).map(row).collect();
-    let mut text = match rows[..] {
-        [] => String::new(),
-        _ => screen::table_within(screen::width(), &["study", "verdict", "seconds", "key numbers"], &rows),
-    };
-    match found.finished.len() - rows.len() {
-        0 => {}
-        1 => text += "1 study passes (--verbose lists it)\n",
-        passing => text += &format!("{passing} studies pass (--verbose lists them)\n"),
+    let mut text = String::new();
+    let shown = found.diagnosis.as_ref().map_or(0, |diagnosis| diagnosis.clearest.len());
+    if verbose || found.verdict == Verdict::Pass {
+        let rows: Vec<Vec<String>> = found.finished.iter().map(row).collect();
+        text = screen::table_within(screen::width(), &["study", "verdict", "seconds", "key numbers"], &rows) + "\n";
+    } else {
+        let failing = found.finished.iter().filter(|study| study.outcome.verdict != Verdict::Pass).count();
+        let more = failing.saturating_sub(shown);
+        let rest = if more > 0 { format!("{more} more: ") } else { String::new() };
+        text += &format!("{rest}--verbose lists every study and every number that changed\n");
     }
     for Finished { header, spent, .. } in &found.finished {
         text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
     }
     let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
-    text += &format!("\nreport: {page}, {readme}\n");
+    text += &format!("report: {page}, {readme}\n");
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
     }
@@ -159,38 +172,21 @@ fn below(path: &Path, root: &Path) -> String {
     visible::path(path.strip_prefix(root).unwrap_or(path))
 }
 
-/// Changes of a study that are listed one by one.
-const LISTED: usize = 3;
+/// Changes that are listed one by one; more are grouped by their cause.
+const LISTED: usize = 6;
 
-/// Claims that changed, under a head. Of numbers one line each, too; of a study with many, their number and those of most
-/// weight, unless all are wanted.
+/// Claims that changed, under a head, after the numbers, one line each where they are few or all are wanted.
 fn moved_lines(changes: &[Change], all: bool) -> String {
-    let studies = changes.chunk_by(|one, next| one.study == next.study);
-    let numbers: String = studies.map(|of_study| of_one_study(of_study, all)).collect();
-    let claims: String = changes.iter().filter(|change| change.movement.needs_a_reason()).map(claim).collect();
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
+        changes.iter().partition(|change| change.movement.needs_a_reason());
+    let shown = numbers.iter().filter(|_| all || numbers.len() <= LISTED);
+    let numbers: String = shown.map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect();
+    let claims: String = claims.into_iter().map(claim).collect();
     if claims.is_empty() { numbers } else { format!("{numbers}claims changed\n{claims}") }
 }
 
 fn claim(change: &Change) -> String {
     format!("  {}\n", visible(&change.words()))
-}
-
-fn of_one_study(changes: &[Change], all: bool) -> String {
-    let numbers: Vec<&Change> = changes.iter().filter(|change| !change.movement.needs_a_reason()).collect();
-    if all || numbers.len() <= LISTED { each(numbers) } else { condensed(numbers) }
-}
-
-fn each<'c>(changes: impl IntoIterator<Item = &'c Change>) -> String {
-    changes.into_iter().map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect()
-}
-
-fn condensed(changes: Vec<&Change>) -> String {
-    let (study, rest) = (&changes[0].study, changes.len() - LISTED);
-    let mut heaviest = changes.clone();
-    // A stable order: of equals the first ones.
-    heaviest.sort_by(|a, b| b.movement.weight().total_cmp(&a.movement.weight()));
-    heaviest.truncate(LISTED);
-    each(heaviest) + &format!("baseline: {study}: and {rest} more; --verbose and the report list all\n")
 }
 
 #[cfg(test)]
@@ -204,14 +200,12 @@ mod tests {
     }
 
     #[test]
-    fn of_many_changes_the_largest_are_listed() {
-        let mut changes: Vec<Change> = (0..10).map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i))).collect();
-        changes[0].movement = Movement::Vanished { value: 1.0 };
-        changes.push(moved("few", "m", 2.0));
-        let text = moved_lines(&changes, false);
-        let listed: Vec<&str> = text.lines().map(|line| line.split(' ').nth(2).unwrap()).collect();
-        assert_eq!(listed, ["n0", "n9", "n8", "and", "m"], "{text}");
-        assert!(text.contains("many: and 7 more"), "{text}");
-        assert_eq!(moved_lines(&changes, true).lines().count(), 11);
+    fn few_changes_are_listed_and_many_only_where_they_are_wanted() {
+        let changes: Vec<Change> = (0..10).map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i))).collect();
+        assert!(moved_lines(&changes[..6], false).lines().all(|line| line.starts_with("baseline: many: n")));
+        assert_eq!([false, true].map(|all| moved_lines(&changes, all).lines().count()), [0, 10]);
+        let mut claim = moved("few", "study file", 1.0);
+        claim.movement = Movement::VanishedFile { values: 3 };
+        assert_eq!(moved_lines(&[changes, vec![claim]].concat(), false), "claims changed\n  few: deleted\n");
     }
 }

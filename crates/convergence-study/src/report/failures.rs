@@ -9,12 +9,18 @@ use super::words::summary;
 use crate::input::visible;
 use crate::judge::verdict::{Reason, Verdict};
 use crate::run::Finished;
+use crate::store::diagnosis::Diagnosis;
 use crate::study::case::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
 
 /// Reasons listed of one study; its section has all of them.
 const MOST_REASONS: usize = 8;
+
+/// The same on a terminal, where only the clearest failures are shown.
+const SHOWN: usize = 2;
+
+const TITLE: &str = "what fails and what does not";
 
 /// A study that did not pass, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,10 +117,47 @@ pub(super) fn html(finished: &[Finished]) -> String {
 }
 
 /// The same in plain text; empty where everything passed.
-pub fn text_of_failures(finished: &[Finished]) -> String {
+///
+/// * `clearest`: the studies that are shown, with their first reasons; all of them, with all of their reasons, where it is `None`.
+pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let line = |NotPassed { id, verdict, reasons }: NotPassed| {
         let reasons: String = reasons.iter().map(|reason| format!("  {}\n", visible(reason))).collect();
         format!("{id}: {verdict}\n{reasons}\n")
     };
-    not_passed(finished).into_iter().map(line).collect()
+    let mut studies = not_passed(finished);
+    if let Some(ids) = clearest {
+        studies.retain(|study| ids.contains(&study.id));
+        studies.sort_by_key(|study| ids.iter().position(|id| *id == study.id));
+        let advice: Vec<String> = studies.iter_mut().filter_map(shorten).collect();
+        let first = |k: &usize| !advice[..*k].contains(&advice[*k]);
+        let advice: String = (0..advice.len()).filter(first).map(|k| visible(&advice[k]) + "\n").collect();
+        return studies.into_iter().map(|study| line(study).trim_end().to_owned() + "\n").collect::<String>() + &advice;
+    }
+    studies.into_iter().map(line).collect()
+}
+
+/// Leaves the first reasons; the first advice.
+fn shorten(NotPassed { reasons, .. }: &mut NotPassed) -> Option<String> {
+    let is_advice = |line: &String| Reason::ALL.iter().any(|reason| line.starts_with(&format!("{}: ", reason.code())));
+    let advice = reasons.iter().find(|line| is_advice(line)).cloned();
+    reasons.retain(|line| !is_advice(line));
+    let left = reasons.len().saturating_sub(SHOWN);
+    reasons.truncate(SHOWN);
+    if let Some(last) = reasons.last_mut().filter(|_| left > 0) {
+        *last += &format!("; and {left} more");
+    }
+    advice
+}
+
+/// What is known of the cause, line by line under a title.
+pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
+    let line = |(word, text): (&str, String)| format!("  {word:<10} {}\n", visible(&text));
+    format!("{TITLE}\n{}", diagnosis.lines().into_iter().map(line).collect::<String>())
+}
+
+/// The same in Markdown; empty where nothing fails.
+pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
+    let Some(diagnosis) = diagnosis else { return String::new() };
+    let line = |(word, words): (&str, String)| format!("- **{word}**: {}\n", text(&words)).replace("**** ", "");
+    format!("## {TITLE}\n\n{}\n", diagnosis.lines().into_iter().map(line).collect::<String>())
 }

@@ -28,7 +28,7 @@ use crate::study::outcome::Figure;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
-pub use failures::{NotPassed, not_passed, text_of_failures};
+pub use failures::{NotPassed, not_passed, text_of_diagnosis, text_of_failures};
 pub use section::markdown;
 pub use tables::tables;
 pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};
@@ -112,8 +112,12 @@ impl Findings<'_> {
         if let Some(SeeAlso { title, readme, .. }) = self.see_also {
             page += &format!(" See also [{}]({readme}).", text(title));
         }
-        page +=
-            &format!("\n\n{}{}", failures::markdown(&self.record.studies, true), changes::parts(self, &link).concat());
+        page += &format!(
+            "\n\n{}{}{}",
+            self.diagnosis(),
+            failures::markdown(&self.record.studies, true),
+            changes::parts(self, &link).concat()
+        );
         page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         page.extend(self.record.studies.iter().map(|finished| section::section(finished, &self.again(finished))));
@@ -143,7 +147,7 @@ impl Findings<'_> {
             false,
         );
         let failures = failures::markdown(&self.record.studies, false);
-        let parts = [vec![failures], changes::parts(self, &cell), vec![folded]].concat();
+        let parts = [vec![self.diagnosis(), failures], changes::parts(self, &cell), vec![folded]].concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {
             if digest.len() + part.len() + too_long.len() > LONGEST {
@@ -152,6 +156,10 @@ impl Findings<'_> {
             digest += &part;
         }
         digest
+    }
+
+    fn diagnosis(&self) -> String {
+        failures::diagnosis_in_markdown(self.record.diagnosis.as_ref())
     }
 
     /// The command that runs a study again.

@@ -50,7 +50,11 @@ fn head(findings: &Findings<'_>) -> String {
 fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
     let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
-    failures::html(&findings.record.studies) + &html(&changes, &[]) + &origin(findings) + &picture.unwrap_or_default()
+    html(&findings.diagnosis(), &[])
+        + &failures::html(&findings.record.studies)
+        + &html(&changes, &[])
+        + &origin(findings)
+        + &picture.unwrap_or_default()
 }
 
 /// What wrote the report, which other one there is, and which commit, day and machine it comes from.

@@ -8,6 +8,9 @@ use crate::study::levels;
 use crate::study::outcome::Outcome;
 use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text};
 
+/// Studies that a sentence names.
+const NAMED: usize = 3;
+
 /// The verdict on a run in one line, without the verdict itself.
 ///
 /// * `changes`: what moved away from the baseline; `None` where there was none to compare with.
@@ -24,7 +27,11 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
         n => {
             let count = |ids: &[&str], what: &str| match ids {
                 [] => None,
-                ids => Some(format!("{} of {n} {what} ({})", ids.len(), ids.join(", "))),
+                ids => {
+                    let more = ids.len().saturating_sub(NAMED);
+                    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+                    Some(format!("{} of {n} {what} ({}{more})", ids.len(), ids[..ids.len().min(NAMED)].join(", ")))
+                }
             };
             [count(&failed, "fail"), count(&inconclusive, "inconclusive")]
                 .into_iter()

@@ -150,8 +150,8 @@ impl Baseline {
     /// # Errors
     /// [`StoreError::File`].
     pub fn write(&self, path: &Path) -> Result<(), StoreError> {
-        let text = crate::store::record::json(self).map_err(io::Error::from);
-        text.and_then(|text| atomic::write(path, text))
+        let text = serde_json::to_string_pretty(self).map_err(io::Error::from);
+        text.and_then(|text| atomic::write(path, text + "\n"))
             .map_err(|error| StoreError::File { path: path.to_owned(), error })
     }
 

@@ -8,6 +8,7 @@ use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStat
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::baseline::Change;
+use crate::store::diagnosis::Diagnosis;
 use crate::store::record::Record;
 
 /// The document, for a project of that name.
@@ -20,6 +21,7 @@ pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
     report.add_test_suites(record.studies.iter().map(suite));
     report.add_test_suites(record.changes.as_deref().map(baseline));
+    report.add_test_suites(record.diagnosis.as_ref().map(cause));
     report.to_string()
 }
 
@@ -74,6 +76,15 @@ fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
     let mut case = TestCase::new(name, status);
     case.set_classname(study);
     case
+}
+
+/// What is known of the cause, as properties of a suite without test cases.
+fn cause(diagnosis: &Diagnosis) -> TestSuite {
+    let mut suite = TestSuite::new("what fails and what does not");
+    for (word, text) in diagnosis.lines() {
+        suite.add_property((word, text.as_str()));
+    }
+    suite
 }
 
 fn baseline(changes: &[Change]) -> TestSuite {

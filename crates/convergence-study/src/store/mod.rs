@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod baseline;
+pub mod diagnosis;
 pub mod file_set;
 pub mod junit;
 pub mod provenance;

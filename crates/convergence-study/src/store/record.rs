@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::baseline::Change;
+use crate::store::diagnosis::Diagnosis;
 use crate::store::{StoreError, regular};
 use crate::text::number::{committed, committed_rate};
 
@@ -45,6 +46,9 @@ pub struct Record {
     /// The same as data; `None` where there was no baseline to compare with.
     #[serde(default)]
     pub changes: Option<Vec<Change>>,
+    /// What is known of the cause, where the run does not pass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diagnosis: Option<Diagnosis>,
     /// The studies.
     pub studies: Vec<Finished>,
 }
@@ -93,6 +97,7 @@ impl Record {
             verdict,
             baseline_changes: changes.unwrap_or_default().iter().map(Change::to_string).collect(),
             changes: changes.map(<[Change]>::to_vec),
+            diagnosis: None,
             studies,
         }
     }

@@ -19,6 +19,7 @@ pub mod outcome;
 pub mod readings;
 #[cfg(feature = "files")]
 mod registry;
+pub mod settings;
 pub mod soundness;
 pub mod until_decided;
 

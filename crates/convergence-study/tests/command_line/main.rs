@@ -22,8 +22,8 @@ use changes::{
 };
 use failing::{
     a_changed_claim_fails_until_it_is_blessed_with_a_reason, a_deleted_study_is_one_change_and_is_named,
-    claims_of_the_full_tier_are_compared_in_the_quick_one, the_page_links_to_what_is_there_of_the_full_tier,
-    what_fails_is_printed_last_and_what_passes_is_counted,
+    claims_of_the_full_tier_are_compared_in_the_quick_one, the_cause_is_printed_first_and_what_passes_is_counted,
+    the_page_links_to_what_is_there_of_the_full_tier,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -56,7 +56,7 @@ const TESTS: [Test; 30] = [
     ),
     ("a_study_with_a_near_extension_is_named", a_study_with_a_near_extension_is_named),
     ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
-    ("what_fails_is_printed_last_and_what_passes_is_counted", what_fails_is_printed_last_and_what_passes_is_counted),
+    ("the_cause_is_printed_first_and_what_passes_is_counted", the_cause_is_printed_first_and_what_passes_is_counted),
     ("a_deleted_study_is_one_change_and_is_named", a_deleted_study_is_one_change_and_is_named),
     ("the_page_links_to_what_is_there_of_the_full_tier", the_page_links_to_what_is_there_of_the_full_tier),
     ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),

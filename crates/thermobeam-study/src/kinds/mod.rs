@@ -18,6 +18,7 @@ pub mod random_errors;
 pub mod rigid;
 pub mod scenes;
 pub mod self_convergence;
+mod settings;
 pub mod solvers;
 mod steady;
 mod table;
@@ -27,6 +28,7 @@ pub mod vibration;
 mod watch;
 pub mod work_precision;
 
+pub use settings::{PLACES, settings};
 pub use table::KINDS;
 pub use terms::TERMS;
 

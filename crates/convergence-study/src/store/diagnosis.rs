@@ -1,0 +1,297 @@
+//! What a failing run says about its cause: which settings separate what fails from what passes, which fields moved first, which
+//! known mistake it resembles, and where to look.
+
+mod contrast;
+mod fingerprint;
+
+use serde::{Deserialize, Serialize};
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::project::Project;
+use crate::run::Finished;
+use crate::store::baseline::{Change, Movement};
+use crate::study::levels::COMPLETION;
+use crate::study::settings::field;
+use crate::text::number::short_text;
+use contrast::{Vote, contrast};
+
+pub use contrast::Contrast;
+pub use fingerprint::{Fingerprint, Fingerprints, Known, Resembling};
+
+/// Clearest failures, fields, and groups of moved numbers that are named.
+const NAMED: usize = 3;
+
+/// What is known of the cause of a failure, as data; [`Diagnosis::lines`] has it in words.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// Which settings separate what fails from what passes.
+    pub contrast: Contrast,
+    /// Fields in the order in which they are wrong: those first that moved most within their studies.
+    pub first: Vec<Field>,
+    /// Claims of checks that fail, the commonest first, and how many fail.
+    pub checks: Vec<(String, usize)>,
+    /// Known mistakes that fail and move alike.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub resembles: Vec<Resembling>,
+    /// Where to look.
+    pub look_at: Vec<String>,
+    /// The studies with the clearest failures, the worst first.
+    pub clearest: Vec<String>,
+    /// Moved numbers of studies that pass, those of one field and one factor together.
+    pub moved: Vec<String>,
+}
+
+/// A field that is wrong.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// Its share in what moved, on the finest levels, summed over studies.
+    pub share: f64,
+    /// The farthest rate that does not pass, with its order.
+    pub rate: Option<[f64; 2]>,
+    /// The largest factor by which one of its errors grew; else by which a number changed.
+    pub factor: f64,
+}
+
+/// Diagnoses a run that does not pass; `None` for one that does.
+///
+/// * `changes`: what moved away from the baseline.
+/// * `known`: mistakes that were planted before.
+pub fn diagnose(
+    project: &Project,
+    finished: &[Finished],
+    changes: &[Change],
+    known: &Fingerprints,
+) -> Option<Diagnosis> {
+    let fails = |study: &&Finished| study.outcome.verdict != Verdict::Pass;
+    let failing: Vec<&Finished> = finished.iter().filter(fails).collect();
+    let mut wrong: Vec<&str> = failing.iter().map(|study| study.header.id.as_str()).collect();
+    wrong.extend(changes.iter().filter(|change| is_number(change)).map(|change| change.study.as_str()));
+    if wrong.is_empty() {
+        return None;
+    }
+    let contrast = contrast(&votes(project, finished, changes));
+    let first = first(finished, changes);
+    let clearest = clearest(&failing);
+    let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
+    let mut look_at: Vec<String> = words
+        .filter_map(|word| project.places.iter().find(|(of, _)| of == word).map(|(_, place)| (*place).to_owned()))
+        .collect();
+    let again = clearest.first().map(String::as_str).or(wrong.first().copied());
+    look_at.extend(again.map(|id| format!("`{} verify {id}` repeats the clearest failure", project.command)));
+    let resembles = known.nearest(&Fingerprint::of(finished, changes));
+    Some(Diagnosis {
+        contrast,
+        first,
+        checks: checks(&failing),
+        resembles,
+        look_at,
+        clearest,
+        moved: moved(finished, changes),
+    })
+}
+
+/// Whether a number has moved or is gone: what is new has no cause.
+fn is_number(change: &Change) -> bool {
+    !change.movement.needs_a_reason() && change.movement.weight() > 0.0
+}
+
+/// The numbers of a study that moved, or are gone.
+fn numbers<'c>(changes: &'c [Change], study: &'c str) -> impl Iterator<Item = (&'c str, &'c Movement)> {
+    let of = move |change: &&Change| change.study == study && is_number(change);
+    changes.iter().filter(of).map(|change| (change.name.as_str(), &change.movement))
+}
+
+/// One vote for each study and set of settings.
+fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vote> {
+    let any_judged = finished.iter().any(|study| study.outcome.verdict != Verdict::Pass);
+    let mut votes = vec![];
+    for Finished { header, outcome, .. } in finished {
+        let mut own: Vec<Vote> = vec![];
+        let mut count = |item: &str, fails: bool, counts: bool| {
+            let settings = (project.settings)(header, item);
+            let new = [usize::from(fails && counts), usize::from(counts)];
+            match own.iter_mut().find(|vote| vote.settings == settings) {
+                Some(Vote { fails: any, count, .. }) => {
+                    *any |= fails;
+                    *count = [count[0] + new[0], count[1] + new[1]];
+                }
+                None => own.push(Vote { settings, fails, count: new }),
+            }
+        };
+        outcome.rates.iter().for_each(|(norm, rate)| count(norm, !rate.verdict.is_pass(), any_judged));
+        let checks = outcome.checks.iter().filter(|check| check.claim != COMPLETION || !check.verdict.is_pass());
+        checks.for_each(|check| count(&check.claim, !check.verdict.is_pass(), any_judged));
+        let moved: Vec<&str> = numbers(changes, &header.id).map(|(name, _)| name).collect();
+        let kept = outcome.quantities.iter().map(|quantity| quantity.name.as_str());
+        let gone = moved.iter().copied().filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
+        kept.chain(gone).for_each(|name| count(name, moved.contains(&name), !any_judged));
+        votes.append(&mut own);
+    }
+    votes
+}
+
+/// Fields by their share in what moved: within a study each is measured by its tolerance, on its finest level, where its own error has
+/// not yet been mixed with that of others for long.
+fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
+    let mut fields: Vec<Field> = vec![];
+    for Finished { header, outcome, .. } in finished {
+        // Levels are in order: the last number of a field is that of its finest.
+        let mut finest: Vec<(String, f64, f64)> = vec![];
+        for (name, movement) in numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate ")) {
+            let weight = movement.weight().clamp(0.0, 1e12);
+            let Movement::Moved { from, to, .. } = movement else { continue };
+            let factor = (to / from).abs();
+            finest.retain(|(known, ..)| *known != field(name));
+            finest.push((field(name), weight.ln_1p(), if factor.is_nan() { f64::INFINITY } else { factor }));
+        }
+        let rates = outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
+        let rates: Vec<(String, &RateVerdict)> = rates.map(|(norm, rate)| (field(norm), rate)).collect();
+        finest.extend(
+            rates
+                .iter()
+                .filter(|(name, _)| finest.iter().all(|(known, ..)| known != name))
+                .map(|(name, _)| (name.clone(), 1.0, 1.0))
+                .collect::<Vec<_>>(),
+        );
+        let most = finest.iter().map(|(_, weight, _)| *weight).fold(f64::MIN_POSITIVE, f64::max);
+        for (name, weight, factor) in &finest {
+            let rate = rates.iter().filter(|(of, _)| of == name).find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
+            // A study of one field wrong says nothing about which is first.
+            let share = if finest.len() > 1 { (weight / most).powi(8) } else { 0.1 };
+            let found = fields.iter().position(|field| field.name == *name).unwrap_or(fields.len());
+            if found == fields.len() {
+                fields.push(Field { name: name.clone(), share: 0.0, rate: None, factor: 1.0 });
+            }
+            let field = &mut fields[found];
+            field.share += share;
+            field.rate = [field.rate, rate]
+                .into_iter()
+                .flatten()
+                .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
+            field.factor = if factor.ln().abs() > field.factor.ln().abs() { *factor } else { field.factor };
+        }
+    }
+    fields.sort_by(|one, next| next.share.total_cmp(&one.share));
+    fields
+}
+
+/// The claims of failing checks without the case that stands before a colon, the commonest first.
+fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
+    let mut claims: Vec<(String, usize)> = vec![];
+    for check in failing.iter().flat_map(|study| &study.outcome.checks).filter(|check| !check.verdict.is_pass()) {
+        let claim = check.claim.rsplit_once(": ").map_or(check.claim.as_str(), |(_, rest)| rest);
+        match claims.iter_mut().find(|(known, _)| known == claim) {
+            Some((_, count)) => *count += 1,
+            None => claims.push((claim.to_owned(), 1)),
+        }
+    }
+    claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    claims.truncate(2 * NAMED);
+    claims
+}
+
+/// The studies that fail most clearly: by the distance of a rate from its order, in units of its tolerance; then those with checks wrong.
+fn clearest(failing: &[&Finished]) -> Vec<String> {
+    let distance = |study: &Finished| {
+        let missed = study.outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
+        let distances = missed.filter_map(|(_, rate)| Some((rate.fitted? - rate.order).abs() / rate.tolerance));
+        distances.fold(0.0, f64::max)
+    };
+    let mut clear: Vec<(f64, &str)> = failing.iter().map(|study| (distance(study), study.header.id.as_str())).collect();
+    clear.sort_by(|(one, _), (next, _)| next.total_cmp(one));
+    clear.into_iter().take(NAMED).map(|(_, id)| id.to_owned()).collect()
+}
+
+/// Moved numbers of studies that pass: those of the same field that changed by the same factor have one cause.
+fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
+    let mut groups: Vec<(String, usize, Vec<&str>)> = vec![];
+    for study in finished.iter().filter(|study| study.outcome.verdict == Verdict::Pass) {
+        for (name, movement) in numbers(changes, &study.header.id) {
+            let how = match movement {
+                Movement::Moved { from, to, .. } => {
+                    let change = 100.0 * (to - from) / from.abs();
+                    format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
+                }
+                Movement::Vanished { .. } => "gone".to_owned(),
+                _ => "another tolerance".to_owned(),
+            };
+            let group = format!("{} {how}", field(name));
+            let found = groups.iter().position(|(known, ..)| *known == group).unwrap_or(groups.len());
+            if found == groups.len() {
+                groups.push((group, 0, vec![]));
+            }
+            groups[found].1 += 1;
+            groups[found].2.push(&study.header.id);
+        }
+    }
+    groups.sort_by_key(|(_, count, _)| std::cmp::Reverse(*count));
+    let line = |(group, count, mut studies): (String, usize, Vec<&str>)| {
+        studies.dedup();
+        let more = if studies.len() > 2 { format!(" and {} more", studies.len() - 2) } else { String::new() };
+        studies.truncate(2);
+        format!("{group}: {count} of {}{more}", studies.join(", "))
+    };
+    groups.into_iter().map(line).collect()
+}
+
+impl Diagnosis {
+    /// What is known of the cause, in words: a word, and what it says.
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
+        let mut lines = self.contrasted();
+        if !self.first.is_empty() {
+            let named: Vec<String> = self.first.iter().take(NAMED).map(Field::words).collect();
+            let rest = if self.first.len() > NAMED { ", then the rest" } else { "" };
+            lines.push(("first", named.join(", then ") + rest));
+        }
+        if !self.checks.is_empty() {
+            let one = |(claim, count): &(String, usize)| {
+                if *count > 1 { format!("{claim} ({count} times)") } else { claim.clone() }
+            };
+            let more = self.checks.len().saturating_sub(NAMED);
+            let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+            lines.push(("not so", self.checks.iter().take(NAMED).map(one).collect::<Vec<_>>().join("; ") + &more));
+        }
+        for (count, Resembling { mistake, file, likeness, .. }) in self.resembles.iter().enumerate() {
+            lines.push((if count == 0 { "resembles" } else { "" }, format!("\"{mistake}\" ({likeness:.2})  {file}")));
+        }
+        if !self.moved.is_empty() {
+            let more = self.moved.len().saturating_sub(NAMED);
+            let more = if more > 0 { format!("; and {more} more groups") } else { String::new() };
+            let groups = self.moved.iter().take(NAMED).cloned().collect::<Vec<_>>().join("; ");
+            lines.push(("moved", format!("in studies that pass {groups}{more}")));
+        }
+        if !self.look_at.is_empty() {
+            lines.push(("look at", self.look_at.join("; ")));
+        }
+        lines
+    }
+
+    fn contrasted(&self) -> Vec<(&'static str, String)> {
+        let Contrast { settings, fails: [failed, all], passes, .. } = &self.contrast;
+        let mut lines = vec![];
+        let values: Vec<&str> = settings.iter().map(|(_, value)| value.as_str()).collect();
+        let what = match values[..] {
+            [] if failed == all => "everything".to_owned(),
+            [] => "here and there: no setting separates it from what passes".to_owned(),
+            _ => values.join(", "),
+        };
+        lines.push(("fails", format!("{what}: {failed} of {all}")));
+        if !passes.is_empty() {
+            let group = |(name, [passing, all]): &(String, [usize; 2])| format!("{name}: {passing} of {all}");
+            lines.push(("passes", passes.iter().map(group).collect::<Vec<_>>().join("; ")));
+        }
+        lines
+    }
+}
+
+impl Field {
+    fn words(&self) -> String {
+        let rate = self.rate.map(|[rate, order]| format!("rate {rate:.3} for {order}"));
+        let times = if self.factor.is_finite() { short_text(self.factor) } else { "infinitely many".to_owned() };
+        let factor = (self.factor.ln().abs() > 1e-3).then(|| format!("up to {times} times"));
+        let words: Vec<String> = rate.into_iter().chain(factor).collect();
+        if words.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, words.join(", ")) }
+    }
+}

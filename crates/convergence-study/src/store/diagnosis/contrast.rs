@@ -1,0 +1,156 @@
+//! Which settings separate what fails from what passes: spectrum-based fault localisation by Ochiai's coefficient.
+//!
+//! Of failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 where exactly those with the setting fail.
+
+use serde::{Deserialize, Serialize};
+
+use crate::study::settings::{STUDY, Setting};
+
+/// Taken off for a second setting: it must tell more than it costs to read.
+const SECOND: f64 = 0.02;
+
+/// What a conjunction must do better than no setting at all.
+const GAIN: f64 = 0.04;
+
+/// The settings that are combined in pairs, the best by themselves: those of long files are many.
+const COMBINED: usize = 80;
+
+/// Groups of passing items that are named.
+const GROUPS: usize = 3;
+
+/// Items of one study with the same settings: one vote, however many levels the study has.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Vote {
+    /// What they exercise.
+    pub(super) settings: Vec<Setting>,
+    /// Whether any of them fails, or has moved.
+    pub(super) fails: bool,
+    /// How many of them fail, of how many.
+    pub(super) count: [usize; 2],
+}
+
+/// The conjunction of at most two settings that separates failing from passing items best; none where nothing separates them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Contrast {
+    /// The settings; empty where none separates.
+    pub settings: Vec<Setting>,
+    /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting.
+    pub score: f64,
+    /// Items with these settings: how many fail, of how many.
+    pub fails: [usize; 2],
+    /// Items without them, by what they have instead: how many pass, of how many.
+    pub passes: Vec<(String, [usize; 2])>,
+}
+
+/// A set of votes, and how well it agrees with those that fail.
+struct Set<'v> {
+    settings: Vec<&'v Setting>,
+    holds: Vec<bool>,
+    score: f64,
+}
+
+/// Votes with the settings in common, and their score.
+fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<'v> {
+    let failing = votes.iter().filter(|vote| vote.fails).count() as f64;
+    let with = holds.iter().filter(|holds| **holds).count() as f64;
+    let both = votes.iter().zip(&holds).filter(|(vote, holds)| vote.fails && **holds).count() as f64;
+    let price = if settings.len() > 1 { SECOND } else { 0.0 };
+    let score = if both == 0.0 { 0.0 } else { both / (failing * with).sqrt() };
+    Set { settings, holds, score: score - price }
+}
+
+/// The best conjunction of at most two settings. Of equals the one that is named first.
+pub(super) fn contrast(votes: &[Vote]) -> Contrast {
+    let mut singles: Vec<Set<'_>> = vec![];
+    for setting in votes.iter().flat_map(|vote| &vote.settings) {
+        if singles.iter().all(|known| known.settings[0] != setting) {
+            let holds: Vec<bool> = votes.iter().map(|vote| vote.settings.contains(setting)).collect();
+            // Two settings of the same votes say the same.
+            if singles.iter().all(|known| known.holds != holds) {
+                singles.push(set(votes, vec![setting], holds));
+            }
+        }
+    }
+    let nothing = set(votes, vec![], vec![true; votes.len()]);
+    singles.sort_by(|one, next| next.score.total_cmp(&one.score));
+    singles.truncate(COMBINED);
+    let mut best = set(votes, vec![], nothing.holds.clone());
+    best.score += GAIN;
+    for (k, one) in singles.iter().enumerate() {
+        let pairs = singles[k + 1..].iter().filter(|other| other.settings[0].0 != one.settings[0].0).map(|other| {
+            let holds = one.holds.iter().zip(&other.holds).map(|(a, b)| *a && *b).collect();
+            set(votes, vec![one.settings[0], other.settings[0]], holds)
+        });
+        let single = set(votes, one.settings.clone(), one.holds.clone());
+        for next in std::iter::once(single).chain(pairs) {
+            if next.score > best.score + 1e-9 {
+                best = next;
+            }
+        }
+    }
+    told(votes, &best, nothing.score)
+}
+
+fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
+    let mut fails = [0, 0];
+    let mut passes: Vec<(String, [usize; 2])> = vec![];
+    for (vote, holds) in votes.iter().zip(&best.holds) {
+        if *holds {
+            fails = [fails[0] + vote.count[0], fails[1] + vote.count[1]];
+            continue;
+        }
+        let lacks = best.settings.iter().find(|setting| !vote.settings.contains(setting));
+        // By name they would be too many.
+        let instead = lacks.filter(|(key, _)| key != STUDY);
+        let instead = instead.and_then(|(key, _)| vote.settings.iter().find(|(other, _)| other == key));
+        let name = instead.map_or("the others", |(_, value)| value);
+        let [failed, all] = vote.count;
+        match passes.iter_mut().find(|(known, _)| known == name) {
+            Some((_, count)) => *count = [count[0] + all - failed, count[1] + all],
+            None => passes.push((name.to_owned(), [all - failed, all])),
+        }
+    }
+    passes.sort_by_key(|(_, [passing, _])| std::cmp::Reverse(*passing));
+    passes.truncate(GROUPS);
+    passes.retain(|(_, [passing, _])| *passing > 0);
+    let settings: Vec<Setting> = best.settings.iter().map(|setting| (*setting).clone()).collect();
+    let score = if settings.is_empty() { nothing } else { best.score };
+    Contrast { settings, score, fails, passes }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vote(settings: &[(&str, &str)], count: [usize; 2]) -> Vote {
+        let settings = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        Vote { settings, fails: count[0] > 0, count }
+    }
+
+    #[test]
+    fn two_settings_are_named_where_one_does_not_separate() {
+        let votes = [
+            vote(&[("method", "one step"), ("coupling", "a > 0")], [60, 62]),
+            vote(&[("method", "one step"), ("coupling", "a = 0")], [0, 31]),
+            vote(&[("method", "any order"), ("coupling", "a > 0")], [0, 24]),
+        ];
+        let found = contrast(&votes);
+        let values: Vec<&str> = found.settings.iter().map(|(_, value)| value.as_str()).collect();
+        assert_eq!((values, found.fails), (vec!["one step", "a > 0"], [60, 62]));
+        assert_eq!(found.passes, [("a = 0".to_owned(), [31, 31]), ("any order".to_owned(), [24, 24])]);
+        assert!((found.score - 0.98).abs() < 1e-12);
+        // A second setting that tells nothing more is not named.
+        let one = contrast(&votes[..2]);
+        assert_eq!(one.settings, [("coupling".to_owned(), "a > 0".to_owned())]);
+    }
+
+    #[test]
+    fn where_everything_fails_or_nothing_separates_no_setting_is_named() {
+        let all = [vote(&[("method", "one step")], [2, 2]), vote(&[("method", "any order")], [1, 1])];
+        assert_eq!((contrast(&all).settings, contrast(&all).fails), (vec![], [3, 3]));
+        let mixed =
+            ["one step", "any order"].map(|method| [0, 1].map(|failed| vote(&[("method", method)], [failed, 1])));
+        assert_eq!(contrast(&mixed.concat()).settings, []);
+        assert_eq!(contrast(&[]), Contrast { score: contrast(&[]).score, ..Contrast::default() });
+    }
+}

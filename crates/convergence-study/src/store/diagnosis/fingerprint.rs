@@ -1,0 +1,117 @@
+//! What a mistake does to a run: which items fail and which fields move, and in which direction. Runs are alike where these are.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::run::Finished;
+use crate::store::baseline::{Change, Movement};
+use crate::store::{StoreError, regular};
+use crate::study::settings::field;
+
+/// Logarithm of the ratio that counts as much as a failure.
+const LARGE: f64 = 2.0;
+
+/// What fails and moves: study and field, and how much, from -1 to 1.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Fingerprint(BTreeMap<String, f64>);
+
+impl Fingerprint {
+    /// Of a run: 1 for each field with a rate or check that does not pass; for one that moved the logarithm of its ratio.
+    pub fn of(finished: &[Finished], changes: &[Change]) -> Self {
+        let mut items = BTreeMap::new();
+        for Finished { header, outcome, .. } in finished {
+            let rates = outcome.rates.iter().map(|(norm, rate)| (norm, rate.verdict));
+            let checks = outcome.checks.iter().map(|check| (&check.claim, check.verdict));
+            let failing = rates.chain(checks).filter(|(_, verdict)| !verdict.is_pass());
+            items.extend(failing.map(|(name, _)| (format!("{}: {} fails", header.id, field(name)), 1.0)));
+        }
+        for Change { study, name, movement } in changes {
+            let Movement::Moved { from, to, .. } = movement else { continue };
+            let log = (to / from).abs().ln();
+            let size = if log.is_nan() { 1.0 } else { (log / LARGE).clamp(-1.0, 1.0) };
+            // With two digits: it is a file that people commit.
+            let least = if size < 0.0 { -0.1 } else { 0.1 };
+            let size = if size.abs() < 0.1 { least } else { (100.0 * size).round() / 100.0 };
+            items.insert(format!("{study}: {}", field(name)), size);
+        }
+        Self(items)
+    }
+
+    /// Cosine of the angle between two: 1 where they are alike, 0 where they share nothing.
+    pub fn likeness(&self, other: &Self) -> f64 {
+        let both: f64 = self.0.iter().filter_map(|(item, size)| Some(size * other.0.get(item)?)).sum();
+        let norm = |of: &Self| of.0.values().map(|size| size * size).sum::<f64>().sqrt();
+        let product = norm(self) * norm(other);
+        if product > 0.0 { both / product } else { 0.0 }
+    }
+}
+
+/// A mistake that was planted, and what it did.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Known {
+    /// The mistake in a few words.
+    pub mistake: String,
+    /// The file that it was planted in.
+    pub file: String,
+    /// What it did.
+    pub items: Fingerprint,
+}
+
+/// All of them, with the likeness from which on one is named.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fingerprints {
+    /// Measured by leaving each one out: from here on the nearest is oftener of the same file than not.
+    pub threshold: f64,
+    /// The mistakes.
+    pub known: Vec<Known>,
+}
+
+/// A known mistake that a run resembles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Resembling {
+    /// The mistake.
+    pub mistake: String,
+    /// The file that it was planted in.
+    pub file: String,
+    /// Cosine of the angle.
+    pub likeness: f64,
+}
+
+impl Fingerprints {
+    /// Reads the file; none are known where it is not there.
+    ///
+    /// # Errors
+    /// [`StoreError`] where it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, StoreError> {
+        let path = path.to_owned();
+        match regular::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(StoreError::File { path, error }),
+            Ok(text) => serde_json::from_str(&text).map_err(|error| StoreError::Malformed {
+                path,
+                error,
+                expected: "remove it: `dev regressions --write` makes it anew",
+            }),
+        }
+    }
+
+    /// The two most alike, if they are alike enough.
+    pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
+        let like = |known: &Known| Resembling {
+            mistake: known.mistake.clone(),
+            file: known.file.clone(),
+            likeness: (100.0 * known.items.likeness(run)).round() / 100.0,
+        };
+        let mut all: Vec<Resembling> = self.known.iter().map(like).collect();
+        all.sort_by(|one, next| next.likeness.total_cmp(&one.likeness));
+        all.retain(|one| one.likeness >= self.threshold.max(0.01));
+        all.truncate(2);
+        all
+    }
+}

@@ -5,7 +5,6 @@ use std::fmt;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
-use thiserror::Error;
 
 use crate::input::shorten;
 use crate::study::CaseFailure;
@@ -37,57 +36,27 @@ pub struct Answer {
 
 /// A number that a study needs of every answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Expected {
-    /// An error of this name.
-    Error(String),
-    /// A value of this name, of which no error is known.
-    Value(String),
+pub(super) struct Expected {
+    /// Its name.
+    pub(super) name: String,
+    /// Whether it is a value, of which no error is known.
+    pub(super) is_value: bool,
 }
 
 impl Expected {
     /// The key of `[[expect]]` that names it.
     pub(super) fn what(&self) -> &'static str {
-        match self {
-            Self::Error(_) => "error",
-            Self::Value(_) => "value",
-        }
+        if self.is_value { "value" } else { "error" }
     }
-
-    /// Its name.
-    pub(super) fn name(&self) -> &str {
-        match self {
-            Self::Error(name) | Self::Value(name) => name,
-        }
-    }
-}
-
-/// Why an object is no answer.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub(super) enum AnswerError {
-    /// A number of the wrong type or range.
-    #[error("{name} is {found}; expected {expected}")]
-    Number { name: String, found: String, expected: &'static str },
-    /// `errors` or `values` is no object.
-    #[error("`{name}` is {found}; expected an object of names and numbers, such as {{\"L2\": 1.5e-3}}")]
-    NoTable { name: &'static str, found: String },
-    /// The study expects something that is not there.
-    #[error("its answer has no {what} `{name}`; it has {there}")]
-    Missing { what: &'static str, name: String, there: String },
-}
-
-/// Why a line that begins with `{` is no object.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct NearMiss {
-    /// In words, with what to do.
-    pub(super) reason: String,
-    /// Whether it looks like an answer: no object before it is the last one. `{iteration 3}` does not.
-    pub(super) is_answer: bool,
 }
 
 /// The object that a line is, or why it is none; `None` for lines that do not begin with `{`.
 ///
 /// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is no number.
-pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, NearMiss>> {
+///
+/// The reason is in words, with what to do. Beside it stands whether the line looks like an answer: no object before it is the last
+/// one. `{iteration 3}` does not.
+pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, bool)>> {
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
     let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
@@ -101,7 +70,7 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, NearMiss>>
         } else {
             error.to_string()
         };
-        NearMiss { reason, is_answer: inside.is_empty() || inside.starts_with('"') || is_dict }
+        (reason, inside.is_empty() || inside.starts_with('"') || is_dict)
     };
     Some(read.map_err(near_miss))
 }
@@ -184,9 +153,9 @@ fn with_null_for_nan(line: &str) -> String {
 impl Answer {
     /// Reads an answer; what it does not know is ignored. An error or a value that is no finite number is NaN.
     ///
-    /// * Returns it with the first complaint about such a number.
-    pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<AnswerError>), AnswerError> {
-        let step = |name: &'static str| {
+    /// * Returns it with the first complaint about such a number, or what is wrong with it.
+    pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
+        let step = |name: &str| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
             object.get(name).map(read).transpose()
         };
@@ -197,50 +166,41 @@ impl Answer {
             h: step("h")?,
             dt: step("dt")?,
             work: step("work")?,
-            failure: None,
-            kept: false,
-            seconds: 0.0,
+            ..Self::default()
         };
         Ok((answer, complaint))
     }
 
     /// The number of that name; `None` where there is none.
     pub(super) fn number(&self, expected: &Expected) -> Option<f64> {
-        let among = match expected {
-            Expected::Error(_) => &self.errors,
-            Expected::Value(_) => &self.values,
-        };
-        among.iter().find(|(known, _)| known == expected.name()).map(|(_, number)| *number)
+        let among = if expected.is_value { &self.values } else { &self.errors };
+        among.iter().find(|(known, _)| *known == expected.name).map(|(_, number)| *number)
     }
 
     /// Refuses an answer that lacks a number that the study expects.
-    pub(super) fn require(&self, expected: &Expected) -> Result<(), AnswerError> {
-        let (what, name) = (expected.what(), expected.name());
-        let has = |names: &[(String, f64)]| names.iter().any(|(known, _)| known == name);
-        let (own, other, other_name) = match expected {
-            Expected::Error(_) => (&self.errors, &self.values, "values"),
-            Expected::Value(_) => (&self.values, &self.errors, "errors"),
-        };
-        if has(own) {
+    pub(super) fn require(&self, expected: &Expected) -> Result<(), String> {
+        if self.number(expected).is_some() {
             return Ok(());
         }
-        let list = |names: &[(String, f64)]| names.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
-        let there = match (own.is_empty(), has(other)) {
-            (_, true) => format!("it among its {other_name}"),
-            (true, _) => "none".to_owned(),
-            _ => list(own),
+        let (own, other) = if expected.is_value { (&self.values, "errors") } else { (&self.errors, "values") };
+        let is_other = self.number(&Expected { is_value: !expected.is_value, ..expected.clone() }).is_some();
+        let there = match own[..] {
+            _ if is_other => format!("it among its {other}"),
+            [] => "none".to_owned(),
+            _ => own.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "),
         };
-        Err(AnswerError::Missing { what, name: name.to_owned(), there })
+        Err(format!("its answer has no {} `{}`; it has {there}", expected.what(), expected.name))
     }
 }
 
 fn table(
     object: &Map<String, Value>,
-    name: &'static str,
-    complaint: &mut Option<AnswerError>,
-) -> Result<Vec<(String, f64)>, AnswerError> {
+    name: &str,
+    complaint: &mut Option<String>,
+) -> Result<Vec<(String, f64)>, String> {
     let Some(value) = object.get(name) else { return Ok(vec![]) };
-    let entries = value.as_object().ok_or_else(|| AnswerError::NoTable { name, found: written(value) })?;
+    let expected = r#"an object of names and numbers, such as {"L2": 1.5e-3}"#;
+    let entries = value.as_object().ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
     let entry = |(key, value): (&String, &Value)| {
         let key = visible(key);
         let read = number(&format!("`{key}` of its {name}"), value, "a finite number", |_| true);
@@ -253,9 +213,9 @@ fn table(
     Ok(entries.iter().map(entry).collect())
 }
 
-fn number(name: &str, value: &Value, expected: &'static str, ok: impl Fn(f64) -> bool) -> Result<f64, AnswerError> {
+fn number(name: &str, value: &Value, expected: &str, ok: impl Fn(f64) -> bool) -> Result<f64, String> {
     let found = value.as_f64().filter(|value| value.is_finite() && ok(*value));
-    found.ok_or_else(|| AnswerError::Number { name: name.to_owned(), found: written(value), expected })
+    found.ok_or_else(|| format!("{name} is {}; expected {expected}", written(value)))
 }
 
 fn written(value: &Value) -> String {
@@ -267,8 +227,8 @@ mod tests {
     use super::*;
 
     fn read(line: &str) -> Result<Answer, String> {
-        let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap()).map_err(|error| error.to_string())?;
-        complaint.map_or(Ok(answer), |error| Err(error.to_string()))
+        let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap())?;
+        complaint.map_or(Ok(answer), Err)
     }
 
     #[test]
@@ -303,20 +263,19 @@ mod tests {
     #[test]
     fn a_missing_name_is_told_with_those_that_are_there() {
         let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
-        let missing = |expected: fn(String) -> Expected, name: &str| {
-            answer.require(&expected(name.to_owned())).unwrap_err().to_string()
-        };
-        assert_eq!(missing(Expected::Error, "L2"), "its answer has no error `L2`; it has it among its values");
-        assert_eq!(missing(Expected::Error, "max"), "its answer has no error `max`; it has H1");
-        assert_eq!(missing(Expected::Value, "flux"), "its answer has no value `flux`; it has L2");
-        assert_eq!(answer.require(&Expected::Error("H1".to_owned())), Ok(()));
+        let require = |is_value: bool, name: &str| answer.require(&Expected { name: name.to_owned(), is_value });
+        let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();
+        assert_eq!(missing(false, "L2"), "its answer has no error `L2`; it has it among its values");
+        assert_eq!(missing(false, "max"), "its answer has no error `max`; it has H1");
+        assert_eq!(missing(true, "flux"), "its answer has no value `flux`; it has L2");
+        assert_eq!(require(false, "H1"), Ok(()));
     }
 
     #[test]
     fn other_lines_are_no_objects() {
         assert_eq!(object("iteration 3: {ok"), None);
         assert_eq!(object("[1]"), None);
-        assert!(object("{not json}").unwrap().is_err_and(|near_miss| !near_miss.is_answer));
+        assert!(object("{not json}").unwrap().is_err_and(|(_, is_answer)| !is_answer));
         assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
     }
 }

@@ -3,15 +3,15 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use thiserror::Error;
-
-use super::answer::{Answer, AnswerError, Expected};
+use super::answer::{Answer, Expected};
 use super::guard::Group;
-use super::output::{Printed, read_last_words, read_output};
+use super::output::{read_last_words, read_output};
+use crate::study::CaseFailure;
+use crate::text::visible::visible;
 
 /// Between the request to end and the signal that cannot be ignored.
 const GRACE: Duration = Duration::from_secs(1);
@@ -35,85 +35,42 @@ pub(super) struct Invocation {
     pub(super) timeout: Duration,
 }
 
-/// Why a program has no answer. Each is one line that names the program.
-#[derive(Debug, Error)]
-pub(super) enum Failure {
-    /// It is not there, or cannot be executed.
-    #[error("{program} cannot be started: {error}")]
-    NotStarted { program: String, error: io::Error },
-    /// The operating system refuses the process that would watch over it.
-    #[error("the guard of {program} cannot be started: {error}")]
-    NoGuard { program: String, error: io::Error },
-    /// It can be started, but not waited for.
-    #[error("{program} cannot be waited for: {error}")]
-    NotWaited { program: String, error: io::Error },
-    /// It ended with another status than 0, or by a signal.
-    #[error("{program} ended with {ending}{words}")]
-    Ended { program: String, ending: String, words: LastWords },
-    /// It took too long.
-    #[error("{program} was stopped at the limit of {} s{words}", .limit.as_secs_f64())]
-    TimedOut { program: String, limit: Duration, words: LastWords },
-    /// No line is a JSON object.
-    #[error("{program} answered nothing: {reason}{words}")]
-    NoAnswer { program: String, reason: String, words: LastWords },
-    /// The object is no answer.
-    #[error("{program}: {error}{words}")]
-    Unusable { program: String, error: AnswerError, words: LastWords },
-}
-
-/// What a program said last on standard error.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct LastWords(String);
-
-impl std::fmt::Display for LastWords {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if self.0.is_empty() { Ok(()) } else { write!(f, "; its last words: {}", self.0) }
-    }
-}
-
 impl Invocation {
     /// Runs it, and reads its answer.
     ///
     /// * `expected`: what the answer must have.
     ///
     /// # Errors
-    /// [`Failure`].
-    pub(super) fn run(&self, expected: &[Expected]) -> Result<Answer, Failure> {
-        let program = || crate::text::visible::visible(&self.words[0]);
-        let mut group = Group::new().map_err(|error| Failure::NoGuard { program: program(), error })?;
-        let mut child =
-            group.start(&mut self.command()).map_err(|error| Failure::NotStarted { program: program(), error })?;
+    /// The program cannot be started, ended with another status than 0, took too long, or answered nothing: in one line that names it.
+    pub(super) fn run(&self, expected: &[Expected]) -> Result<Answer, CaseFailure> {
+        let program = visible(&self.words[0]);
+        let failed = |what: String| CaseFailure { reason: format!("{program} {what}") };
+        let mut group = Group::new()
+            .map_err(|error| CaseFailure { reason: format!("the guard of {program} cannot be started: {error}") })?;
+        let child = group.start(&mut self.command());
+        let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
         let printed = in_background(child.stdout.take(), read_output);
         let words = in_background(child.stderr.take(), read_last_words);
         feed(&mut child, &self.input);
         let ended = self.wait(&mut child, &group);
         group.end(&mut child);
         let ended = ended.and_then(|in_time| Ok((child.wait()?, in_time)));
-        let words = LastWords(words.recv_timeout(DRAIN).unwrap_or_default());
-        let (status, in_time) = ended.map_err(|error| Failure::NotWaited { program: program(), error })?;
+        let words = words.recv_timeout(DRAIN).unwrap_or_default();
+        let words = if words.is_empty() { words } else { format!("; its last words: {words}") };
+        let (status, in_time) = ended.map_err(|error| failed(format!("cannot be waited for: {error}")))?;
         if !in_time {
-            return Err(Failure::TimedOut { program: program(), limit: self.timeout, words });
+            return Err(failed(format!("was stopped at the limit of {} s{words}", self.timeout.as_secs_f64())));
         }
         if !status.success() {
-            return Err(Failure::Ended { program: program(), ending: ending(status), words });
+            return Err(failed(format!("ended with {}{words}", ending(status))));
         }
-        let printed = match printed.recv_timeout(DRAIN) {
-            Ok(printed) => printed,
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {
-                let reason = "a process that it has started holds its standard output open".to_owned();
-                return Err(Failure::NoAnswer { program: program(), reason, words });
-            }
-        };
-        let Some(object) = &printed.object else {
-            return Err(Failure::NoAnswer { program: program(), reason: no_object(&printed), words });
-        };
-        let unusable = |error| Failure::Unusable { program: program(), error, words };
-        let (mut answer, complaint) = match Answer::read(object) {
-            Ok(read) => read,
-            Err(error) => return Err(unusable(error)),
-        };
+        let held = |_| "a process that it has started holds its standard output open".to_owned();
+        let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
+        let object = object.map_err(|reason| failed(format!("answered nothing: {reason}{words}")))?;
+        let unusable = |error: String| CaseFailure { reason: format!("{program}: {error}{words}") };
+        let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
         let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
-        answer.failure = complaint.or_else(missing).map(|error| unusable(error).into());
+        answer.failure = complaint.or_else(missing).map(unusable);
         Ok(answer)
     }
 
@@ -168,17 +125,6 @@ fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: 
         let _ = thread::Builder::new().spawn(move || send.send(read(stream)));
     }
     receive
-}
-
-fn no_object(Printed { near_miss, last, .. }: &Printed) -> String {
-    let last = match last {
-        None => return "its standard output is empty".to_owned(),
-        Some(last) => format!("the last line is `{last}`"),
-    };
-    match near_miss {
-        Some(reason) => format!("its last line that begins with a brace is no JSON object ({reason}); {last}"),
-        None => format!("no line of its standard output is a JSON object; {last}"),
-    }
 }
 
 /// Exit status or signal, in words.

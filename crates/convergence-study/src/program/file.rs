@@ -41,8 +41,8 @@ use std::time::Duration;
 
 use super::answer::Expected;
 use super::kept::Store;
-use super::refine::refine;
-use super::template::Word;
+use super::refine::{Parameter, refine};
+use super::template::filled;
 use super::{Expectation, More, Program};
 use crate::input::{Field, InputError, Section, visible};
 use crate::judge::claims::order_of_factor;
@@ -58,7 +58,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     section.allow(&["command", "directory", "timeout", "files", "cache"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
-    let words = words(&section, &refine.names())?;
+    let words = words(&section, &refine.resolutions()[0].told)?;
     let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
         let allowed = "a number of seconds > 0";
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
@@ -84,7 +84,7 @@ fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError
     })
 }
 
-fn words(section: &Section<'_>, names: &[&'static str]) -> Result<Vec<Word>, InputError> {
+fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, InputError> {
     let allowed = "a list of the program and its arguments, each a text in quotes";
     let field = section.require("command", allowed)?;
     let items = field.items(allowed)?;
@@ -96,7 +96,7 @@ fn words(section: &Section<'_>, names: &[&'static str]) -> Result<Vec<Word>, Inp
         if item.text()?.contains('\0') {
             return Err(item.refuse_as_written("a text without the character 0"));
         }
-        item.parsed("a text in quotes", |text| Word::parse(text, names))
+        item.parsed("a text in quotes", |text| filled(text, values).map(|_| text.to_owned()))
     };
     items.iter().map(word).collect()
 }
@@ -131,7 +131,7 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
         let section = item.section()?;
         let expectation = expectation(&section, grid)?;
         if expectations.iter().any(|earlier| earlier.expected == expectation.expected) {
-            let found = format!("\"{}\" a second time", visible(expectation.expected.name()));
+            let found = format!("\"{}\" a second time", visible(&expectation.expected.name));
             return Err(section.refuse(expectation.expected.what(), found, "each name once"));
         }
         expectations.push(expectation);
@@ -154,13 +154,13 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
         Some(value) if grid => {
             return Err(value.refuse("value with grid = true", "error, the only one that a grid judges"));
         }
-        Some(value) => Expected::Value(name(&value, "the name of a value that the program answers")?),
+        Some(value) => Expected { name: name(&value, "the name of a value that the program answers")?, is_value: true },
         None => {
             let allowed = "the name of an error that the program answers, or `value` with the name of a value";
-            Expected::Error(name(&section.require("error", allowed)?, allowed)?)
+            Expected { name: name(&section.require("error", allowed)?, allowed)?, is_value: false }
         }
     };
-    let (claim, more) = claimed(section, grid || matches!(expected, Expected::Value(_)))?;
+    let (claim, more) = claimed(section, grid || expected.is_value)?;
     let time = match section.get("order_dt") {
         Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
         Some(field) => field.positive()?,

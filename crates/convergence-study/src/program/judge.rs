@@ -1,17 +1,14 @@
 //! From answers to an outcome.
 
 use super::answer::{Answer, Expected};
-use super::refine::Resolution;
-use super::{Expectation, Program, values};
+use super::{Expectation, Program, Run, values};
 use crate::judge::claims;
 use crate::plots::{self, Series, WorkPrecision};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Next};
-use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Ran};
+use crate::study::{Axis, Case, Check, Figure, LevelErrors, Outcome, Ran};
 use crate::text::number::{error_text, plain_text};
-
-type Run = Ran<Resolution, Answer>;
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     if let Some(mixed) = mixed_steps(study, ran) {
@@ -28,24 +25,19 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
 
 /// Both orders of each error at once.
 fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let point = |ran: &Run| [step(ran, Axis::Space), step(ran, Axis::Time)];
-    let column = |expectation: &Expectation| GridColumn {
-        name: expectation.expected.name().to_owned(),
-        space: expectation.claim,
-        time: expectation.time,
-        errors: ran
-            .iter()
-            .map(|ran| ran.ok().and_then(|answer| answer.number(&expectation.expected)).unwrap_or(f64::NAN))
-            .collect(),
+    let column = |Expectation { expected, claim, time, .. }: &Expectation| GridColumn {
+        name: expected.name.clone(),
+        space: *claim,
+        time: *time,
+        errors: ran.iter().map(|ran| number(ran, expected)).collect(),
     };
     let grid = Grid {
-        points: ran.iter().map(point).collect(),
+        points: ran.iter().map(|ran| [step(ran, Axis::Space), step(ran, Axis::Time)]).collect(),
         times: study.refine.times(),
         columns: study.expect.iter().map(column).collect(),
         model: Model::Either,
     };
     let GridVerdict { rates, mut checks } = grid.judge();
-    let (summary, quantities) = (levels::summary(&rates), levels.quantities(&rates));
     checks.push(completion(ran));
     let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
@@ -53,8 +45,8 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         // No step alone is the one that these errors are judged over.
         levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
         figures,
-        quantities,
-        ..Outcome::new(summary, rates, checks)
+        quantities: levels.quantities(&rates),
+        ..Outcome::new(levels::summary(&rates), rates, checks)
     }
 }
 
@@ -71,8 +63,10 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let (mut rates, mut checks) = (levels.judge(), exact(study, ran));
-    let id = &study.header.id;
+    let (rates, mut checks, id) = (levels.judge(), exact(study, ran), &study.header.id);
+    checks.push(completion(ran));
+    let values = values::judge(study, ran, &levels.refinements);
+    let quantities = [levels.quantities(&rates), values.quantities].concat();
     let mut figures = vec![];
     // The figure is one over h.
     if !levels.columns.is_empty() && !by_degree(study) {
@@ -80,20 +74,14 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
         figures.extend(work_precision(id, levels, ran));
     }
-    let mut quantities = levels.quantities(&rates);
-    let values = values::judge(study, ran, &levels.refinements);
-    figures.extend(values.figures);
-    quantities.extend(values.quantities);
-    rates.extend(values.rates);
+    let rates = [rates, values.rates].concat();
     let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
-    let summary = summary.collect::<Vec<_>>().join("; ");
-    checks.push(completion(ran));
     let outcome = Outcome {
         levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
         tables: values.tables,
-        figures,
+        figures: [figures, values.figures].concat(),
         quantities,
-        ..Outcome::new(summary, rates, checks)
+        ..Outcome::new(summary.collect::<Vec<_>>().join("; "), rates, checks)
     };
     match next(study, ran).zip(study.refine.budget) {
         Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),
@@ -110,12 +98,17 @@ fn by_degree(study: &Program) -> bool {
 fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
     let check = |expectation: &Expectation| {
         let bound = expectation.more.exact?;
-        let number = |ran: &Run| ran.ok().and_then(|answer| answer.number(&expectation.expected)).unwrap_or(f64::NAN);
-        let (largest, is_exact) = claims::exact(ran.iter().map(number), bound);
-        let claim = format!("{} is exact: at most {}", expectation.expected.name(), plain_text(bound));
+        let errors = ran.iter().map(|ran| number(ran, &expectation.expected));
+        let (largest, is_exact) = claims::exact(errors, bound);
+        let claim = format!("{} is exact: at most {}", expectation.expected.name, plain_text(bound));
         Some(Check::that(is_exact, claim, format!("largest {}", error_text(largest))))
     };
     study.expect.iter().filter_map(check).collect()
+}
+
+/// What a case answered; NaN where it did not.
+fn number(ran: &Run, expected: &Expected) -> f64 {
+    ran.ok().and_then(|answer| answer.number(expected)).unwrap_or(f64::NAN)
 }
 
 /// A case that answered less than was asked for counts as failed.
@@ -163,7 +156,7 @@ fn levels(study: &Program, ran: &[Run]) -> Levels {
     Levels {
         axis,
         refinements: ran.iter().map(|ran| ran.case.data.refinement(over(step(ran, axis)))).collect(),
-        columns: ErrorColumn::of(&claimed(study), &found),
+        columns: ErrorColumn::of(&study.claims(false), &found),
     }
 }
 
@@ -171,14 +164,6 @@ fn levels(study: &Program, ran: &[Run]) -> Levels {
 fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
     let work = ran.iter().map(|ran| ran.ok().and_then(|answer| answer.work));
     levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
-}
-
-fn claimed(study: &Program) -> Vec<(String, Claim)> {
-    let claim = |Expectation { expected, claim, more, .. }: &Expectation| match expected {
-        Expected::Error(name) if more.exact.is_none() => Some((name.clone(), *claim)),
-        _ => None,
-    };
-    study.expect.iter().filter_map(claim).collect()
 }
 
 /// Errors over the work that the program counts, where every case that answered says how much it was.

@@ -14,7 +14,7 @@ use super::command::Invocation;
 use crate::store::{atomic, content_hash, regular};
 
 /// Version of the form of the files: a result of another form is not a result.
-const FORM: u32 = 3;
+const FORM: u32 = 4;
 
 /// The folder of kept results, beside the study file.
 const FOLDER: &str = ".convergence-study";
@@ -69,12 +69,6 @@ fn is_executable(path: &Path) -> bool {
     path.is_file()
 }
 
-#[derive(Debug, Serialize, Deserialize)]
-struct Kept<K, A> {
-    key: K,
-    answer: A,
-}
-
 /// Where the results of one study are kept.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Store {
@@ -118,8 +112,8 @@ impl Store {
     /// The kept answer of a case; `None` where there is none, whatever else there may be.
     pub(super) fn get(&self, key: &Key) -> Option<Answer> {
         let text = regular::read_to_string(&self.path(key)).ok()?;
-        let kept: Kept<Key, Answer> = serde_json::from_str(&text).ok()?;
-        (kept.key == *key).then_some(kept.answer)
+        let (kept, answer): (Key, Answer) = serde_json::from_str(&text).ok()?;
+        (kept == *key).then_some(answer)
     }
 
     /// Keeps an answer. Where the files have changed while the program ran, nothing tells which of them it has read: it is not kept.
@@ -134,7 +128,7 @@ impl Store {
         if !ignore.exists() {
             atomic::write(&ignore, "*\n")?;
         }
-        atomic::write(&self.path(key), serde_json::to_string(&Kept { key, answer })?)
+        atomic::write(&self.path(key), serde_json::to_string(&(key, answer))?)
     }
 
     fn path(&self, key: &Key) -> PathBuf {

@@ -34,7 +34,7 @@ use answer::Expected;
 use command::Invocation;
 use kept::Store;
 use refine::Refine;
-use template::Word;
+use template::filled;
 
 pub use answer::Answer;
 pub use refine::{Parameter, Resolution};
@@ -67,7 +67,7 @@ pub const TEMPLATE: Template = Template {
 pub struct Program {
     header: Header,
     /// The program and its arguments.
-    words: Vec<Word>,
+    words: Vec<String>,
     /// Where it runs.
     directory: PathBuf,
     /// The longest time for a case.
@@ -107,12 +107,26 @@ impl FromFile for Program {
     }
 }
 
+/// A case that was run.
+type Run = Ran<Resolution, Answer>;
+
 impl Program {
+    /// The claims about rates, of errors or of values.
+    fn claims(&self, of_values: bool) -> Vec<(String, Claim)> {
+        let is_meant =
+            |expectation: &&Expectation| expectation.expected.is_value == of_values && expectation.more.exact.is_none();
+        let claim = |expectation: &Expectation| (expectation.expected.name.clone(), expectation.claim);
+        self.expect.iter().filter(is_meant).map(claim).collect()
+    }
+
     /// The command of a case. Without placeholders the program reads the case from standard input.
     fn invocation(&self, case: &Resolution) -> Invocation {
-        let has_placeholder = self.words.iter().any(Word::has_placeholder);
+        // The reader of the file has refused words that cannot be filled.
+        let fill = |word: &String| filled(word, &case.told).unwrap_or_else(|_| (word.clone(), false));
+        let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
+        let has_placeholder = placeholders.contains(&true);
         Invocation {
-            words: self.words.iter().map(|word| word.filled(&case.told)).collect(),
+            words,
             directory: self.directory.clone(),
             input: if has_placeholder { String::new() } else { case.json() },
             timeout: time_limit::granted().map_or(self.timeout, |limit| limit.min(self.timeout)),
@@ -133,7 +147,7 @@ impl Kind for Program {
         self.refine.resolutions().into_iter().map(case).collect()
     }
 
-    fn more(&self, ran: &[Ran<Resolution, Answer>]) -> Option<Case<Resolution>> {
+    fn more(&self, ran: &[Run]) -> Option<Case<Resolution>> {
         let is_next = judge::next(self, ran)? == Next::Another;
         let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
         Some(Case { label: data.label.clone(), cost: data.cost(), data })
@@ -175,28 +189,25 @@ impl Kind for Program {
         answer.failure.clone()
     }
 
-    fn judge(&self, ran: &[Ran<Resolution, Answer>]) -> Outcome {
+    fn judge(&self, ran: &[Run]) -> Outcome {
         judge::judge(self, ran)
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let words: Vec<String> = self.words.iter().map(ToString::to_string).collect();
         let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
         let order = |Expectation { expected, claim, time, more }: &Expectation| {
-            let time = if self.refine.grid { format!(" in h, {time} in dt") } else { String::new() };
-            let name = format!("{} {}", expected.what(), expected.name());
+            let name = format!("{} {}", expected.what(), expected.name);
             let least = if claim.at_least { "at least " } else { "" };
-            let constant =
-                claim.constant.map(|[least, most]| format!(", constant {least} to {most}")).unwrap_or_default();
             match more.exact {
                 Some(bound) => format!("{name} at most {bound}"),
                 None if more.by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),
-                None => format!("{name} {least}{}{time} ± {}{constant}", claim.order, claim.tolerance),
+                None if self.refine.grid => format!("{name} {} in h, {time} in dt ± {}", claim.order, claim.tolerance),
+                None => format!("{name} {claim}"),
             }
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
         let kept = if self.store.is_some() { " Results are kept while command and files are unchanged." } else { "" };
-        let run = format!("{}, for at most {} s a case.{kept}", words.join(" "), self.timeout.as_secs_f64());
+        let run = format!("{}, for at most {} s a case.{kept}", self.words.join(" "), self.timeout.as_secs_f64());
         vec![
             ("what is run".to_owned(), run),
             (

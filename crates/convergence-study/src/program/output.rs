@@ -15,42 +15,33 @@ const LONGEST_LINE: usize = 1 << 20;
 const LAST_LINES: usize = 3;
 const LAST_CHARACTERS: usize = 160;
 
-/// What is kept of standard output.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Printed {
-    /// The last line that is a JSON object.
-    pub(super) object: Option<Map<String, Value>>,
-    /// Why a later line that begins with a brace is no object.
-    pub(super) near_miss: Option<String>,
-    /// The last line that is not blank, as it can be shown.
-    pub(super) last: Option<String>,
-}
-
-/// Reads standard output to its end.
-pub(super) fn read_output(stream: impl Read) -> Printed {
-    let mut printed = Printed::default();
-    let mut last = String::new();
+/// Reads standard output to its end: the last line that is a JSON object, or why there is none.
+pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, String> {
+    let (mut object, mut near_miss, mut last) = (None, None, String::new());
     for_each_line(stream, |line, is_whole| {
-        if is_whole {
-            match answer::object(line) {
-                Some(Ok(object)) => (printed.object, printed.near_miss) = (Some(object), None),
-                Some(Err(near_miss)) => {
-                    printed.near_miss = Some(near_miss.reason);
-                    // An earlier object is no longer the last.
-                    printed.object = printed.object.take().filter(|_| !near_miss.is_answer);
-                }
-                None => {}
-            }
-        } else if line.trim_start().starts_with('{') {
+        match answer::object(line) {
             // It may be the answer, and then no earlier object is.
-            (printed.object, printed.near_miss) = (None, Some("longer than 1 MiB".to_owned()));
+            Some(_) if !is_whole => (object, near_miss) = (None, Some("longer than 1 MiB".to_owned())),
+            Some(Ok(found)) => (object, near_miss) = (Some(found), None),
+            Some(Err((reason, is_answer))) => {
+                near_miss = Some(reason);
+                // An earlier object is no longer the last.
+                object = object.take().filter(|_| !is_answer);
+            }
+            None => {}
         }
         if !line.trim().is_empty() {
             line.clone_into(&mut last);
         }
     });
-    printed.last = (!last.is_empty()).then(|| shown(&last));
-    printed
+    object.ok_or_else(|| match near_miss {
+        _ if last.is_empty() => "its standard output is empty".to_owned(),
+        None => format!("no line of its standard output is a JSON object; the last line is `{}`", shown(&last)),
+        Some(reason) => {
+            let what = "its last line that begins with a brace is no JSON object";
+            format!("{what} ({reason}); the last line is `{}`", shown(&last))
+        }
+    })
 }
 
 /// Reads standard error to its end and keeps its last lines that are not blank, on one line.
@@ -107,12 +98,14 @@ mod tests {
     #[test]
     fn the_last_object_counts_and_talk_does_not() {
         let printed = read_output("start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes());
-        assert_eq!(printed.object.unwrap().keys().collect::<Vec<_>>(), ["b"]);
-        assert!(printed.near_miss.unwrap().contains("key must be a string"));
-        assert_eq!(printed.last.as_deref(), Some("done"));
+        assert_eq!(printed.unwrap().keys().collect::<Vec<_>>(), ["b"]);
         let open = read_output("{x}\n{\"c\": 3}".as_bytes());
-        assert_eq!((open.object.unwrap().len(), open.near_miss), (1, None));
-        assert_eq!(read_output(&b"\xff\n"[..]).last.as_deref(), Some("\u{fffd}"));
+        assert_eq!(open.unwrap().len(), 1);
+        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes()).unwrap_err();
+        assert!(none.contains("key must be a string") && none.ends_with("; the last line is `done`"), "{none}");
+        let none = read_output(&b"\xff\n"[..]).unwrap_err();
+        assert_eq!(none, "no line of its standard output is a JSON object; the last line is `\u{fffd}`");
+        assert_eq!(read_output(&b"\n"[..]).unwrap_err(), "its standard output is empty");
     }
 
     #[test]
@@ -125,35 +118,32 @@ mod tests {
             ("{'errors': {'L2': 1e5}}", "single quotes are not those of JSON: print it with json.dumps(...)"),
             ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
         ] {
-            let printed = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes());
-            assert_eq!(printed.object, None, "{last}");
-            assert!(printed.near_miss.as_ref().is_some_and(|reason| reason.contains(told)), "{printed:?}");
+            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes()).unwrap_err();
+            assert!(reason.contains(told), "{last}: {reason}");
             let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
-            assert!(answered.object.is_some_and(|object| object.contains_key("late")), "{last}");
+            assert!(answered.is_ok_and(|object| object.contains_key("late")), "{last}");
         }
         for talk in ["{iteration 3}", "{iteration 3", "{'iteration': 3}", "done {"] {
-            let printed = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes());
-            assert!(printed.object.is_some_and(|object| object.contains_key("early")), "{talk}");
+            let object = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes());
+            assert!(object.is_ok_and(|object| object.contains_key("early")), "{talk}");
         }
     }
 
     #[test]
     fn a_line_without_end_is_not_kept() {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
-        let printed = read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()));
-        assert_eq!(printed.object.unwrap().len(), 1);
+        assert_eq!(read_output(endless.chain("\n{\"a\": 1}\n".as_bytes())).unwrap().len(), 1);
     }
 
     #[test]
     fn an_object_that_is_too_long_is_not_replaced_by_an_earlier_one() {
         let long = |start: &str| format!("{{\"early\": 1}}\n{start}{}\"}}\n", "x".repeat(LONGEST_LINE));
-        let printed = read_output(long(" {\"mesh\": \"").as_bytes());
-        assert_eq!((printed.object, printed.near_miss.as_deref()), (None, Some("longer than 1 MiB")));
-        assert!(printed.last.is_some_and(|last| last.starts_with("{\"mesh\": \"xxx")));
+        let reason = read_output(long(" {\"mesh\": \"").as_bytes()).unwrap_err();
+        assert!(reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"), "{reason}");
         let talk = read_output(long("mesh: ").as_bytes());
-        assert!(talk.object.is_some_and(|object| object.contains_key("early")) && talk.near_miss.is_none());
+        assert!(talk.is_ok_and(|object| object.contains_key("early")));
         let fits = format!("{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n", "x".repeat(LONGEST_LINE - 10));
-        assert!(read_output(fits.as_bytes()).object.is_some_and(|object| object.contains_key("m")));
+        assert!(read_output(fits.as_bytes()).is_ok_and(|object| object.contains_key("m")));
     }
 
     #[test]

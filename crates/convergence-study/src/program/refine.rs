@@ -90,11 +90,6 @@ impl Refine {
         self.resolution(index, doubled(&self.space, level.h), doubled(&self.time, level.dt))
     }
 
-    /// The names that placeholders may have.
-    pub(super) fn names(&self) -> Vec<&'static str> {
-        self.resolutions().first().map_or(vec![], |first| first.told.iter().map(|(name, _)| *name).collect())
-    }
-
     /// All cases, coarse to fine; of a grid the time steps run first.
     pub(super) fn resolutions(&self) -> Vec<Resolution> {
         let values = |sequence: &Option<Sequence>| match sequence {

@@ -1,70 +1,42 @@
 //! Values of which no error is known: their rate, their limit and what is left to it.
 
-use super::answer::{Answer, Expected};
-use super::refine::Resolution;
-use super::{Expectation, Program};
+use super::{Program, Run};
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
-use crate::study::{Claim, Figure, Quantity, Ran, Table};
+use crate::study::{Claim, Figure, Outcome, Quantity, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
 
-/// What the values of a study say.
-#[derive(Debug, Default)]
-pub(super) struct Values {
-    /// The rate of the differences of each value that is expected.
-    pub(super) rates: Vec<(String, RateVerdict)>,
-    pub(super) tables: Vec<Table>,
-    pub(super) figures: Vec<Figure>,
-    pub(super) quantities: Vec<Quantity>,
-    /// The limits in a sentence.
-    pub(super) summary: String,
-}
-
+/// What the values of a study say: the rates of their differences, and the limits in a sentence.
+///
 /// * `refinements`: one for each of `ran`, with its step.
-pub(super) fn judge(study: &Program, ran: &[Ran<Resolution, Answer>], refinements: &[Refinement]) -> Values {
-    let columns = columns(study, ran);
-    if columns.is_empty() {
-        return Values::default();
-    }
+pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
+    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.values.as_slice())).collect();
+    let columns = ErrorColumn::of(&study.claims(true), &found);
     let estimates: Vec<(&ErrorColumn, Estimate)> =
         columns.iter().filter_map(|column| Some((column, estimate(column, refinements)?))).collect();
     let rates: Vec<_> = estimates.iter().map(|(column, estimate)| (name(column), estimate.judged.clone())).collect();
-    let figure = (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
     let value = |column: &ErrorColumn, level: usize| Quantity {
         name: format!("{}, {}", name(column), refinements[level].label),
         value: column.errors[level].unwrap_or(f64::NAN),
         tolerance: ERROR_TOLERANCE,
     };
     let guarded = (0..refinements.len()).flat_map(|level| columns.iter().map(move |column| value(column, level)));
-    let mut tables = vec![table_of_values(&columns, refinements)];
-    if !estimates.is_empty() {
-        tables.insert(0, limits(&estimates));
-    }
     let summary = estimates.iter().filter_map(|(column, estimate)| sentence(column, estimate)).collect::<Vec<_>>();
-    Values {
-        tables,
+    let limits = (!estimates.is_empty()).then(|| limits(&estimates));
+    let values = (!columns.is_empty()).then(|| table_of_values(&columns, refinements));
+    let figure = (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
+    Outcome {
+        tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
         quantities: levels::rate_quantities(&rates).chain(guarded).collect(),
-        rates,
-        summary: summary.join("; "),
+        ..Outcome::new(summary.join("; "), rates, vec![])
     }
 }
 
 /// The name of a value among the rates: an error may have the same.
 fn name(column: &ErrorColumn) -> String {
     format!("value {}", column.name)
-}
-
-/// Every value of every answer.
-fn columns(study: &Program, ran: &[Ran<Resolution, Answer>]) -> Vec<ErrorColumn> {
-    let claim = |Expectation { expected, claim, .. }: &Expectation| match expected {
-        Expected::Value(name) => Some((name.clone(), *claim)),
-        Expected::Error(_) => None,
-    };
-    let claims: Vec<_> = study.expect.iter().filter_map(claim).collect();
-    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.values.as_slice())).collect();
-    ErrorColumn::of(&claims, &found)
 }
 
 /// `None` where nothing is claimed of the value. A level without a result makes the verdict fail; the estimate is that of the others.

@@ -10,7 +10,8 @@ use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+pub use plotters::style::text_anchor::HPos as Anchor;
+use plotters::style::text_anchor::{Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
 use std::fmt::Write;
 
@@ -27,17 +28,15 @@ pub fn grid(v: f64) -> i32 {
 /// What everything in one layer has in common: clip rectangle, dash pattern, halo.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layer {
-    clip: Option<Rect>,
-    dash: Option<Dash>,
-    halo: bool,
+    /// Nothing outside of this rectangle is shown.
+    pub clip: Option<Rect>,
+    /// Of lines.
+    pub dash: Option<Dash>,
+    /// Texts have a white rim, readable on any colour.
+    pub halo: bool,
 }
 
 impl Layer {
-    /// Nothing clipped, lines solid.
-    pub fn plain() -> Self {
-        Self::default()
-    }
-
     /// Nothing outside of this rectangle is shown.
     pub fn clipped(clip: Rect) -> Self {
         Self { clip: Some(clip), ..Self::default() }
@@ -46,11 +45,6 @@ impl Layer {
     /// The same layer with its lines dashed.
     pub fn dashed(self, dash: Dash) -> Self {
         Self { dash: Some(dash), ..self }
-    }
-
-    /// Text with a white rim, readable on any colour.
-    pub fn with_halo(self) -> Self {
-        Self { halo: true, ..self }
     }
 
     fn open(&self) -> String {
@@ -166,17 +160,6 @@ fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { ' ' } else { c }).collect()
 }
 
-/// Where a text's position lies, horizontally.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// At its left end.
-    Start,
-    /// In its middle.
-    Middle,
-    /// At its right end.
-    End,
-}
-
 /// Draws shapes and text, in px.
 pub struct Pen<'a> {
     page: Rect,
@@ -241,20 +224,15 @@ impl Pen<'_> {
 
     /// Text that reads upwards, its middle at `at`.
     pub fn text_upwards(&self, text: &str, at: Point, size: f64) {
-        self.write(text, at, size, Anchor::Middle, FontTransform::Rotate270, style::INK);
+        self.write(text, at, size, Anchor::Center, FontTransform::Rotate270, style::INK);
     }
 
     fn write(&self, text: &str, at: Point, size: f64, anchor: Anchor, turn: FontTransform, colour: RGBColor) {
-        let h = match anchor {
-            Anchor::Start => HPos::Left,
-            Anchor::Middle => HPos::Center,
-            Anchor::End => HPos::Right,
-        };
         let font = (style::FONT, f64::from(grid(size)) * PLOTTERS_FONT_FACTOR)
             .into_text_style(&self.area)
             .transform(turn)
             .color(&colour)
-            .pos(Pos::new(h, VPos::Center));
+            .pos(Pos::new(anchor, VPos::Center));
         self.put(&Text::new(printable(text), (grid(at.0), grid(at.1)), font));
     }
 }

@@ -82,7 +82,7 @@ impl ColourScale {
         let bar = Rect { left, right: left + BAR_WIDTH, ..plot };
         let ruler = self.ruler.laid_out(bar.bottom, bar.top);
         let ticks = self.ticks();
-        sheet.canvas.draw(Layer::plain(), |pen| {
+        sheet.canvas.draw(Layer::default(), |pen| {
             let step = bar.height() / LEVELS as f64;
             for (k, &colour) in self.colours.iter().enumerate() {
                 let bottom = bar.bottom - k as f64 * step;
@@ -94,7 +94,7 @@ impl ColourScale {
             for t in &ticks.major {
                 let y = ruler.px_of(t.at);
                 tick(pen, (bar.right, y), (bar.right + 5.0, y));
-                pen.text(&t.label, (bar.right + 9.0, y), TICK_SIZE, Anchor::Start, style::INK);
+                pen.text(&t.label, (bar.right + 9.0, y), TICK_SIZE, Anchor::Left, style::INK);
             }
             let end = bar.right + 9.0 + self.widest_label() + 9.0 + 0.5 * LABEL_SIZE;
             pen.text_upwards(&self.bar_label(&ticks), (end, plot.centre().1), LABEL_SIZE);

@@ -9,7 +9,7 @@ use super::ruler::on_scale;
 use super::slopes::{Trend, triangles};
 use super::style::Dash;
 use super::xy::{Curve, Xy};
-use super::{Axis, Guide, Scale, Series, style};
+use super::{Axis, Guide, Scale, style};
 use crate::judge::power_law::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 
@@ -180,30 +180,4 @@ fn trends(series: &[ErrorSeries]) -> Vec<Trend> {
         Trend { points, order: s.order }
     };
     series.iter().map(trend).collect()
-}
-
-/// Errors against cost.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WorkPrecision {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// The measure of cost; `None` is the run time in seconds.
-    pub x_label: Option<String>,
-    /// What is measured.
-    pub y_label: String,
-    /// `(cost, error)`, one series per method, in order of refinement.
-    pub series: Vec<Series>,
-}
-
-/// Draws error over cost, log-log: the lower and the further left, the better.
-pub fn work_precision(figure: &WorkPrecision) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve { marks: Marks::Filled, ..Curve::line(k, series) };
-    Xy {
-        title: figure.title.clone(),
-        x: Axis::log(figure.x_label.as_deref().unwrap_or("run time (s)")),
-        y: Axis::log(&*figure.y_label),
-        curves: figure.series.iter().enumerate().map(curve).collect(),
-        ..Xy::default()
-    }
-    .draw()
 }

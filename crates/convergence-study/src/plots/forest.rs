@@ -1,14 +1,11 @@
 //! All judged rates of a run in one picture: each with its interval, relative to its claim (a forest plot).
 
 use super::canvas::{Anchor, Canvas, Layer, Pen};
+use super::legend::elide;
 use super::rect::Rect;
 use super::style::{self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, text_width};
+use crate::judge::verdict::Verdict;
 use plotters::style::RGBColor;
-
-/// Colours of what passes, is inconclusive, fails (Okabe and Ito).
-const PASS: RGBColor = RGBColor(0, 114, 178);
-const INCONCLUSIVE: RGBColor = RGBColor(230, 159, 0);
-const FAIL: RGBColor = RGBColor(213, 94, 0);
 
 /// Half the width of the plot in tolerances: the band of a claim is [-1, 1].
 const REACH: f64 = 2.0;
@@ -26,17 +23,6 @@ const CLEAR: f64 = 16.0;
 /// Widest label, in px; a longer one is cut.
 const LABELS: f64 = 300.0;
 
-/// How a rate was judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judged {
-    /// The interval lies within the tolerance.
-    Pass,
-    /// The data do not decide.
-    Inconclusive,
-    /// The claim is refuted.
-    Fail,
-}
-
 /// A judged rate in units of its claim's tolerance: (rate - order) / tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForestRate {
@@ -45,7 +31,7 @@ pub struct ForestRate {
     /// Of the ends of its interval.
     pub interval: Option<[f64; 2]>,
     /// The verdict.
-    pub judged: Judged,
+    pub verdict: Verdict,
 }
 
 /// A study with its rates.
@@ -59,41 +45,32 @@ pub struct ForestRow {
     pub note: String,
 }
 
-/// Studies that claim the same sort of thing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ForestGroup {
-    /// What they claim, such as `space`.
-    pub label: String,
-    /// The studies.
-    pub rows: Vec<ForestRow>,
-}
-
 /// A forest plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forest {
     /// Above the plot.
     pub title: String,
-    /// From top to bottom.
-    pub groups: Vec<ForestGroup>,
+    /// From top to bottom: what the studies of a group claim, such as `space`, and the studies.
+    pub groups: Vec<(String, Vec<ForestRow>)>,
 }
 
 /// Draws every rate as a point with its interval, in units of its tolerance, studies under the headings of their groups.
 pub fn forest(figure: &Forest) -> String {
-    let rows = figure.groups.iter().flat_map(|group| group.rows.iter());
+    let rows = figure.groups.iter().flat_map(|(_, rows)| rows);
     let labels = rows.clone().map(|row| text_width(&row.label, NOTE_SIZE)).fold(80.0, f64::max).min(LABELS);
     let height: f64 = rows.map(row_height).sum::<f64>() + HEADING * figure.groups.len() as f64;
     let plot = Rect { left: labels + 28.0, top: TOP, right: style::WIDTH - 24.0, bottom: TOP + height };
     let mut canvas = Canvas::new(style::WIDTH, plot.bottom + BOTTOM);
-    canvas.draw(Layer::plain(), |pen| {
-        pen.text(&figure.title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Middle, INK);
+    canvas.draw(Layer::default(), |pen| {
+        pen.text(&figure.title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Center, INK);
         legend(pen);
         scale(pen, &plot);
         let mut top = plot.top;
-        for group in &figure.groups {
-            pen.text(&group.label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Start, INK);
+        for (label, rows) in &figure.groups {
+            pen.text(label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Left, INK);
             pen.line(&[(12.0, top + HEADING - 5.0), (plot.right, top + HEADING - 5.0)], GRID, style::THIN);
             top += HEADING;
-            for (k, row) in group.rows.iter().enumerate() {
+            for (k, row) in rows.iter().enumerate() {
                 if k > 0 {
                     pen.line(&[(12.0, top), (plot.right, top)], GRID, 0.5 * style::THIN);
                 }
@@ -117,20 +94,19 @@ fn px(plot: &Rect, value: f64) -> f64 {
 
 fn legend(pen: &Pen<'_>) {
     let mut x = 12.0;
-    for (judged, label) in [
-        (Judged::Pass, "pass"),
-        (Judged::Inconclusive, "inconclusive"),
-        (Judged::Fail, "fail"),
-        (Judged::Fail, "beyond the plot"),
+    for (verdict, label) in [
+        (Verdict::Pass, "pass"),
+        (Verdict::Inconclusive, "inconclusive"),
+        (Verdict::Fail, "fail"),
+        (Verdict::Fail, "beyond the plot"),
     ] {
-        let beyond = label.starts_with("beyond");
-        if beyond {
-            arrow(pen, (x + 12.0, 56.0), 1.0, colour(judged));
+        if label.starts_with("beyond") {
+            arrow(pen, (x + 12.0, 56.0), 1.0, colour(verdict));
         } else {
-            pen.line(&[(x, 56.0), (x + 24.0, 56.0)], colour(judged), 2.4);
-            pen.disc((x + 12.0, 56.0), 4.0, colour(judged));
+            pen.line(&[(x, 56.0), (x + 24.0, 56.0)], colour(verdict), 2.4);
+            pen.disc((x + 12.0, 56.0), 4.0, colour(verdict));
         }
-        pen.text(label, (x + 32.0, 56.0), NOTE_SIZE, Anchor::Start, INK);
+        pen.text(label, (x + 32.0, 56.0), NOTE_SIZE, Anchor::Left, INK);
         x += 32.0 + text_width(label, NOTE_SIZE) + 18.0;
     }
 }
@@ -146,17 +122,23 @@ fn scale(pen: &Pen<'_>, plot: &Rect) {
     ] {
         let x = px(plot, value);
         pen.line(&[(x, plot.top), (x, plot.bottom)], if value == 0.0 { MUTED } else { GRID }, style::THIN);
-        pen.text(label, (x, plot.bottom + 16.0), NOTE_SIZE, Anchor::Middle, INK);
+        pen.text(label, (x, plot.bottom + 16.0), NOTE_SIZE, Anchor::Center, INK);
     }
     let axis = "observed rate relative to its claim, in tolerances";
-    pen.text(axis, (plot.centre().0, plot.bottom + 44.0), TICK_SIZE, Anchor::Middle, INK);
+    pen.text(axis, (plot.centre().0, plot.bottom + 44.0), TICK_SIZE, Anchor::Center, INK);
 }
 
 fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     let height = row_height(row);
-    let worst = row.rates.iter().map(|rate| rate.judged).max_by_key(|judged| *judged as u8).unwrap_or(Judged::Pass);
-    let ink = if worst == Judged::Pass { INK } else { colour(worst) };
-    pen.text(&shortened(&row.label), (plot.left - 12.0, top + 0.5 * height), NOTE_SIZE, Anchor::End, ink);
+    let worst = row.rates.iter().map(|rate| rate.verdict).max().unwrap_or(Verdict::Pass);
+    let ink = if worst == Verdict::Pass { INK } else { colour(worst) };
+    pen.text(
+        &elide(&row.label, NOTE_SIZE, LABELS),
+        (plot.left - 12.0, top + 0.5 * height),
+        NOTE_SIZE,
+        Anchor::Right,
+        ink,
+    );
     let first = top + 0.5 * (height - PITCH * (row.rates.len() as f64 - 1.0));
     for (k, rate) in row.rates.iter().enumerate() {
         draw_rate(pen, rate, plot, first + PITCH * k as f64);
@@ -175,8 +157,8 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
     let (left, right) = ends.fold((plot.right, plot.left), |(left, right), x| (x.min(left), x.max(right)));
     let width = text_width(&note, NOTE_SIZE);
     let (start, anchor) = match right + CLEAR + width < plot.right {
-        true => (right + CLEAR, Anchor::Start),
-        false => (left - CLEAR, Anchor::End),
+        true => (right + CLEAR, Anchor::Left),
+        false => (left - CLEAR, Anchor::Right),
     };
     pen.text(&note, (start, y), NOTE_SIZE, anchor, ink);
 }
@@ -194,7 +176,7 @@ fn note(row: &ForestRow) -> String {
 }
 
 fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
-    let colour = colour(rate.judged);
+    let colour = colour(rate.verdict);
     let finite = |value: &f64| value.is_finite();
     if let Some([low, high]) = rate.interval.filter(|ends| ends.iter().all(finite)) {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
@@ -222,46 +204,37 @@ fn arrow(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
     pen.polygon(&[(x + 7.0 * direction, y), (x - 3.0 * direction, y - 4.0), (x - 3.0 * direction, y + 4.0)], colour);
 }
 
-fn colour(judged: Judged) -> RGBColor {
-    match judged {
-        Judged::Pass => PASS,
-        Judged::Inconclusive => INCONCLUSIVE,
-        Judged::Fail => FAIL,
+fn colour(verdict: Verdict) -> RGBColor {
+    // Okabe and Ito's.
+    match verdict {
+        Verdict::Pass => RGBColor(0, 114, 178),
+        Verdict::Inconclusive => RGBColor(230, 159, 0),
+        Verdict::Fail => RGBColor(213, 94, 0),
     }
-}
-
-fn shortened(label: &str) -> String {
-    let mut kept = label.to_owned();
-    while text_width(&kept, NOTE_SIZE) > LABELS && kept.pop().is_some() {}
-    if kept.len() < label.len() {
-        kept.pop();
-        kept.push('…');
-    }
-    kept
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn row(label: &str, rates: &[(f64, f64, Judged)]) -> ForestRow {
-        let rate = |&(rate, half, judged): &(f64, f64, Judged)| ForestRate {
+    fn row(label: &str, rates: &[(f64, f64, Verdict)]) -> ForestRow {
+        let rate = |&(rate, half, verdict): &(f64, f64, Verdict)| ForestRate {
             rate: Some(rate),
             interval: Some([rate - half, rate + half]),
-            judged,
+            verdict,
         };
         ForestRow { label: label.into(), rates: rates.iter().map(rate).collect(), note: String::new() }
     }
 
     #[test]
     fn every_study_is_named_and_a_rate_beyond_the_plot_is_an_arrow() {
-        let none = ForestRate { rate: None, interval: None, judged: Judged::Inconclusive };
+        let none = ForestRate { rate: None, interval: None, verdict: Verdict::Inconclusive };
         let rows = vec![
-            row("sound", &[(0.1, 0.2, Judged::Pass), (0.0, 0.1, Judged::Pass)]),
-            row("lost-order", &[(-20.0, 0.1, Judged::Fail)]),
+            row("sound", &[(0.1, 0.2, Verdict::Pass), (0.0, 0.1, Verdict::Pass)]),
+            row("lost-order", &[(-20.0, 0.1, Verdict::Fail)]),
             ForestRow { label: "none".into(), rates: vec![none; 3], note: String::new() },
         ];
-        let figure = Forest { title: "All rates".into(), groups: vec![ForestGroup { label: "space".into(), rows }] };
+        let figure = Forest { title: "All rates".into(), groups: vec![("space".into(), rows)] };
         let svg = forest(&figure);
         for text in ["sound", "lost-order", "none", "no rate", "space", "All rates"] {
             assert!(svg.contains(text), "{text}");
@@ -281,13 +254,12 @@ mod tests {
             let tag = &before[before.rfind("<text").unwrap()..];
             tag.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
         };
-        let missing = ForestRate { rate: None, interval: None, judged: Judged::Fail };
-        let mut low = row("low", &[(-20.0, 0.1, Judged::Fail), (0.0, 0.1, Judged::Pass)]);
+        let missing = ForestRate { rate: None, interval: None, verdict: Verdict::Fail };
+        let mut low = row("low", &[(-20.0, 0.1, Verdict::Fail), (0.0, 0.1, Verdict::Pass)]);
         low.rates.push(missing);
         low.note = "1.000, claimed 2".into();
-        let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Judged::Fail)]) };
-        let figure =
-            Forest { title: String::new(), groups: vec![ForestGroup { label: "g".into(), rows: vec![low, high] }] };
+        let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Verdict::Fail)]) };
+        let figure = Forest { title: String::new(), groups: vec![("g".into(), vec![low, high])] };
         let svg = forest(&figure);
         // In tenths of px: the arrow at the right rim begins at 8650.
         let (beside, before) = (x_of(&svg, "1.000, claimed 2; 1 without a rate"), x_of(&svg, "3.000, claimed 2"));
@@ -298,8 +270,8 @@ mod tests {
     #[test]
     fn an_interval_that_the_frame_cuts_has_a_small_arrow() {
         let count = |half: f64| {
-            let rows = vec![row("a", &[(0.5, half, Judged::Inconclusive)])];
-            let groups = vec![ForestGroup { label: "g".into(), rows }];
+            let rows = vec![row("a", &[(0.5, half, Verdict::Inconclusive)])];
+            let groups = vec![("g".into(), rows)];
             forest(&Forest { title: String::new(), groups }).matches("<polygon").count()
         };
         // One is that of the legend.
@@ -309,8 +281,8 @@ mod tests {
     #[test]
     fn studies_are_parted_by_a_line() {
         let lines = |count: usize| {
-            let rows = vec![row("a", &[(0.0, 0.1, Judged::Pass)]); count];
-            let figure = Forest { title: String::new(), groups: vec![ForestGroup { label: "g".into(), rows }] };
+            let rows = vec![row("a", &[(0.0, 0.1, Verdict::Pass)]); count];
+            let figure = Forest { title: String::new(), groups: vec![("g".into(), rows)] };
             forest(&figure).matches("<polyline").count()
         };
         // The interval, and a line between this study and the one before.
@@ -321,7 +293,7 @@ mod tests {
     fn a_long_label_is_cut_and_nan_draws_nothing() {
         let figure = |rate: f64, label: String| Forest {
             title: String::new(),
-            groups: vec![ForestGroup { label: "g".into(), rows: vec![row(&label, &[(rate, f64::NAN, Judged::Fail)])] }],
+            groups: vec![("g".into(), vec![row(&label, &[(rate, f64::NAN, Verdict::Fail)])])],
         };
         let svg = forest(&figure(f64::NAN, "x".repeat(200)));
         assert!(svg.contains('…') && svg.contains("no rate") && !svg.contains("NaN"));

@@ -1,16 +1,17 @@
-//! Quantities over time.
+//! Quantities over time, and errors over their cost.
 
+use super::marker::Marks;
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Phases, Scale, Series};
 
-/// Quantities over time, with limits and phases.
+/// Quantities over time or another cost, with limits and phases.
 ///
 /// Series of any length: long ones are drawn as their envelope, in which no spike is lost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Above the plot.
     pub title: Option<String>,
-    /// Label of the time axis; `"time t"` where it is empty.
+    /// What runs; where it is empty, `"time t"` or, of costs, `"run time (s)"`.
     pub x_label: String,
     /// The vertical axis.
     pub y: Axis,
@@ -24,52 +25,43 @@ pub struct History {
     pub phases: Phases,
 }
 
+impl History {
+    /// The figure with its horizontal axis, each curve changed by `change`.
+    fn xy(&self, x: fn(String) -> Axis, unnamed: &str, change: impl Fn(Curve) -> Curve) -> Xy {
+        let curve = |(k, series)| change(Curve::line(self.looks.get(k).copied().unwrap_or(k), series));
+        Xy {
+            title: self.title.clone(),
+            x: x(if self.x_label.is_empty() { unnamed.to_owned() } else { self.x_label.clone() }),
+            y: self.y.clone(),
+            curves: self.series.iter().enumerate().map(curve).collect(),
+            guides: self.guides.clone(),
+            phases: self.phases.clone(),
+            ..Xy::default()
+        }
+    }
+}
+
 /// Draws quantities over time.
 pub fn history(figure: &History) -> String {
-    let curve = |(k, series)| Curve::line(figure.looks.get(k).copied().unwrap_or(k), series);
-    Xy {
-        title: figure.title.clone(),
-        x: time_axis(&figure.x_label),
-        y: figure.y.clone(),
-        curves: figure.series.iter().enumerate().map(curve).collect(),
-        guides: figure.guides.clone(),
-        phases: figure.phases.clone(),
-        ..Xy::default()
-    }
-    .draw()
+    figure.xy(Axis::linear, "time t", |curve| curve).draw()
 }
 
-/// Iterations that each time step took.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Iterations {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// Label of the time axis; `"time t"` where it is empty.
-    pub x_label: String,
-    /// `(t at the end of the step, iterations)`, times ascending; one series per solver.
-    pub series: Vec<Series>,
-    /// Intervals to shade.
-    pub phases: Phases,
-}
-
-/// Draws iterations per step as steps, from zero.
-pub fn iterations(figure: &Iterations) -> String {
-    let curve = |(k, series): (usize, &Series)| Curve { points: steps(&series.points), ..Curve::line(k, series) };
+/// Draws iterations per time step, `(t at the end of the step, iterations)`, as steps from zero. The vertical axis has a label of its own.
+pub fn iterations(figure: &History) -> String {
+    let held = |curve: Curve| Curve { points: steps(&curve.points), ..curve };
     Xy {
-        title: figure.title.clone(),
-        x: time_axis(&figure.x_label),
         y: Axis { label: "iterations per step".into(), scale: Scale::Linear },
-        curves: figure.series.iter().enumerate().map(curve).collect(),
-        phases: figure.phases.clone(),
         // With a shorter axis, ticks would lie between whole numbers.
         show_y: vec![0.0, 5.0],
-        ..Xy::default()
+        ..figure.xy(Axis::linear, "time t", held)
     }
     .draw()
 }
 
-fn time_axis(label: &str) -> Axis {
-    Axis::linear(if label.is_empty() { "time t" } else { label })
+/// Draws errors over cost, `(cost, error)` in order of refinement, log-log: the lower and the further left, the better.
+pub fn work_precision(figure: &History) -> String {
+    let xy = figure.xy(Axis::log, "run time (s)", |curve| Curve { marks: Marks::Filled, ..curve });
+    Xy { y: Axis { scale: Scale::Log, ..xy.y.clone() }, ..xy }.draw()
 }
 
 /// Every value held from the end of the step before to the end of its own.

@@ -80,25 +80,25 @@ impl Legend {
         let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
         let room = self.column_width - SWATCH_WIDTH - SWATCH_GAP;
         let label = elide(&entry.label, TICK_SIZE, room);
-        let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Start, style::INK);
+        let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
         let patch = Rect { left: x + 6.0, top: y - 8.0, right: x + SWATCH_WIDTH - 2.0, bottom: y + 8.0 };
         match entry.swatch {
             Swatch::Line { look, width, marks } => {
                 if width > 0.0 {
                     let ends = [(x, y), (x + SWATCH_WIDTH, y)];
-                    canvas.draw(Layer::plain().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
+                    canvas.draw(Layer::default().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
                 }
-                canvas.draw(Layer::plain(), |pen| {
+                canvas.draw(Layer::default(), |pen| {
                     look.marker.draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
                     write(pen);
                 });
             }
-            Swatch::Fill(colour) => canvas.draw(Layer::plain(), |pen| {
+            Swatch::Fill(colour) => canvas.draw(Layer::default(), |pen| {
                 pen.rect(patch, colour);
                 pen.frame(patch, style::GRID, 1.0);
                 write(pen);
             }),
-            Swatch::Hatch(colour) => canvas.draw(Layer::plain(), |pen| {
+            Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
                 pen.rect(patch, colour);
                 hatch(pen, patch);
                 write(pen);

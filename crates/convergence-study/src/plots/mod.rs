@@ -49,12 +49,10 @@ mod surface;
 pub mod xy;
 
 pub use convergence::{Convergence, ErrorSeries, convergence};
-pub use convergence::{WorkPrecision, work_precision};
-pub use forest::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
-pub use history::{History, Iterations, history, iterations};
+pub use forest::{Forest, ForestRate, ForestRow, forest};
+pub use history::{History, history, iterations, work_precision};
 pub use space_time::{SpaceTime, space_time};
-pub use surface::{ParameterMap, parameter_map};
-pub use surface::{Surface, surface};
+pub use surface::{Surface, parameter_map, surface};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

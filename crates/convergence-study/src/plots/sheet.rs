@@ -120,10 +120,10 @@ impl Sheet {
             }
         });
         let spread = spread_out(&places.iter().map(|p| p.0).collect::<Vec<_>>(), plot);
-        self.canvas.draw(Layer::plain(), |pen| {
+        self.canvas.draw(Layer::default(), |pen| {
             for (&(line, label), &at) in places.iter().zip(&spread) {
                 pen.line(&[(plot.right + 1.0, line), (plot.right + 9.0, at)], style::MUTED, style::THIN);
-                pen.text(label, (plot.right + 13.0, at), TICK_SIZE, Anchor::Start, style::INK);
+                pen.text(label, (plot.right + 13.0, at), TICK_SIZE, Anchor::Left, style::INK);
             }
         });
     }
@@ -131,7 +131,7 @@ impl Sheet {
     /// Draws what surrounds the data, and closes the document.
     pub(super) fn finish(mut self) -> String {
         let Sheet { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
-        canvas.draw(Layer::plain(), |pen| {
+        canvas.draw(Layer::default(), |pen| {
             pen.frame(*plot, style::INK, style::THIN);
             draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
             draw_y_axis(pen, plot, y, y_ticks, &plan.y_label);
@@ -149,11 +149,11 @@ impl Sheet {
         let first = top + self.legend.height() + 0.5 * NOTE_HEIGHT;
         let left = self.plot.left;
         let notes = &self.plan.notes;
-        self.canvas.draw(Layer::plain(), |pen| {
+        self.canvas.draw(Layer::default(), |pen| {
             for (k, note) in notes.iter().enumerate() {
                 let at = (left, first + k as f64 * NOTE_HEIGHT);
                 let note = elide(note, NOTE_SIZE, style::WIDTH - left - EDGE);
-                pen.text(&note, at, NOTE_SIZE, Anchor::Start, style::MUTED);
+                pen.text(&note, at, NOTE_SIZE, Anchor::Left, style::MUTED);
             }
         });
     }
@@ -163,26 +163,26 @@ fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
     for t in &ticks.major {
         let x = ruler.px_of(t.at);
         tick(pen, (x, plot.bottom), (x, plot.bottom - 6.0));
-        pen.text(&t.label, (x, plot.bottom + TICK_LABEL_DROP), TICK_SIZE, Anchor::Middle, style::INK);
+        pen.text(&t.label, (x, plot.bottom + TICK_LABEL_DROP), TICK_SIZE, Anchor::Center, style::INK);
     }
     let row = plot.bottom + AXIS_LABEL_DROP;
     if ticks.exponent != 0 {
         let power = format!("×{}", power_of_ten(ticks.exponent));
-        pen.text(&power, (plot.right, row), TICK_SIZE, Anchor::End, style::INK);
+        pen.text(&power, (plot.right, row), TICK_SIZE, Anchor::Right, style::INK);
     }
     let label = elide(label, LABEL_SIZE, plot.width());
-    pen.text(&label, (plot.centre().0, row), LABEL_SIZE, Anchor::Middle, style::INK);
+    pen.text(&label, (plot.centre().0, row), LABEL_SIZE, Anchor::Center, style::INK);
 }
 
 fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
         let y = ruler.px_of(t.at);
         tick(pen, (plot.left, y), (plot.left + 6.0, y));
-        pen.text(&t.label, (plot.left - 9.0, y), TICK_SIZE, Anchor::End, style::INK);
+        pen.text(&t.label, (plot.left - 9.0, y), TICK_SIZE, Anchor::Right, style::INK);
     }
     if ticks.exponent != 0 {
         let power = format!("×{}", power_of_ten(ticks.exponent));
-        pen.text(&power, (plot.left, plot.top - 13.0), TICK_SIZE, Anchor::Start, style::INK);
+        pen.text(&power, (plot.left, plot.top - 13.0), TICK_SIZE, Anchor::Left, style::INK);
     }
     let label = elide(label, LABEL_SIZE, plot.height() + 2.0 * EDGE);
     pen.text_upwards(&label, (EDGE + 0.5 * LABEL_SIZE, plot.centre().1), LABEL_SIZE);
@@ -191,10 +191,10 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
 fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Plan, x: &Ruler) {
     if let Some(title) = &plan.title {
         let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
-        pen.text(&title, (0.5 * style::WIDTH, EDGE + 10.0), TITLE_SIZE, Anchor::Middle, style::INK);
+        pen.text(&title, (0.5 * style::WIDTH, EDGE + 10.0), TITLE_SIZE, Anchor::Center, style::INK);
     }
     if let Some((at, text)) = &plan.above {
-        pen.text(text, (x.px_of(*at), plot.top - 13.0), TICK_SIZE, Anchor::Middle, style::INK);
+        pen.text(text, (x.px_of(*at), plot.top - 13.0), TICK_SIZE, Anchor::Center, style::INK);
     }
 }
 

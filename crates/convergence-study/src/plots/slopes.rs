@@ -117,8 +117,8 @@ impl Triangle {
         Outline {
             corners: [(self.left, self.base), (self.right, self.base), (self.right, self.top())].map(value).to_vec(),
             texts: vec![
-                ("1".to_owned(), value(foot), (0.0, 13.0), Anchor::Middle),
-                (written(self.order), value(side), (7.0, 0.0), Anchor::Start),
+                ("1".to_owned(), value(foot), (0.0, 13.0), Anchor::Center),
+                (written(self.order), value(side), (7.0, 0.0), Anchor::Left),
             ],
         }
     }

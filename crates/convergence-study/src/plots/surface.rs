@@ -16,7 +16,7 @@ use super::{Axis, Scale, Series, readable, style};
 /// Half the width of the only cell of an axis with one value, in decades (or units, on a linear axis).
 const ALONE: f64 = 0.25;
 
-/// An error over two parameters.
+/// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Above the plot.
@@ -33,16 +33,49 @@ pub struct Surface {
     pub y_values: Vec<f64>,
     /// `values[k][j]` belongs to `y_values[k]` and `x_values[j]`.
     pub values: Vec<Vec<f64>>,
+    /// `marked[k][j]`: hatched, and grey if it has no value; cells that are not there are not marked.
+    pub marked: Vec<Vec<bool>>,
+    /// What the mark means, `"diverged"` say.
+    pub marked_label: String,
+    /// Boundary curves on top: the first solid, the second dashed, and so on; the predicted one first, say.
+    pub boundaries: Vec<Series>,
 }
 
 /// Draws an error over two parameters as coloured cells with iso lines.
 pub fn surface(figure: &Surface) -> String {
+    draw(figure, |sheet, lattice, colours| {
+        draw_contours(sheet, &lattice.vertices(sheet, figure.z.scale), &colours.ticks());
+    })
+}
+
+/// Draws coloured cells, hatched where marked, with boundary curves.
+pub fn parameter_map(figure: &Surface) -> String {
+    draw(figure, |sheet, lattice, _| {
+        draw_marks(sheet, lattice);
+        draw_boundaries(sheet, figure);
+    })
+}
+
+fn draw(figure: &Surface, on_top: impl FnOnce(&mut Sheet, &Lattice, &ColourScale)) -> String {
     let lattice = Lattice::new(figure);
     let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, lattice.values.iter().flatten().copied());
-    let mut sheet = lattice.plan(figure, &colours).lay_out();
-    lattice.paint(&mut sheet, &colours);
-    let vertices = lattice.vertices(&sheet, figure.z.scale);
-    draw_contours(&mut sheet, &vertices, &colours.ticks());
+    let plan = Plan {
+        title: figure.title.clone(),
+        x: span(figure.x.scale, &edges(&lattice.x, ALONE)),
+        y: span(figure.y.scale, &edges(&lattice.y, ALONE)),
+        x_label: figure.x.label.clone(),
+        y_label: figure.y.label.clone(),
+        right: colours.margin(),
+        above: None,
+        legend: entries(figure),
+        notes: lattice.notes(figure.z.scale),
+    };
+    let mut sheet = plan.lay_out();
+    let [x, y] = lattice.edges_on(&sheet);
+    let colour = |row: &Vec<f64>| row.iter().map(|&v| colours.colour(v)).collect();
+    let rows: Vec<_> = lattice.values.iter().map(colour).collect();
+    paint(&mut sheet.canvas, &x, &y, &rows);
+    on_top(&mut sheet, &lattice, &colours);
     colours.draw_bar(&mut sheet);
     sheet.finish()
 }
@@ -54,62 +87,34 @@ struct Lattice {
     y: Vec<f64>,
     /// Row by row; NaN where there is none.
     values: Vec<Vec<f64>>,
-    /// Where each column and row was in the input.
-    columns: Vec<usize>,
-    rows: Vec<usize>,
+    marked: Vec<Vec<bool>>,
 }
 
 impl Lattice {
     fn new(figure: &Surface) -> Self {
         let (x, columns): (Vec<f64>, Vec<usize>) = in_order(figure.x.scale, &figure.x_values).into_iter().unzip();
         let (y, rows): (Vec<f64>, Vec<usize>) = in_order(figure.y.scale, &figure.y_values).into_iter().unzip();
-        let value = |k: usize, j: usize| figure.values.get(k).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
-        let values = rows.iter().map(|&k| columns.iter().map(|&j| value(k, j)).collect()).collect();
-        Self { x, y, values, columns, rows }
+        fn sorted<T: Copy>(cells: &[Vec<T>], rows: &[usize], columns: &[usize], none: T) -> Vec<Vec<T>> {
+            let cell = |k: usize, j: usize| cells.get(k).and_then(|row| row.get(j)).copied().unwrap_or(none);
+            rows.iter().map(|&k| columns.iter().map(|&j| cell(k, j)).collect()).collect()
+        }
+        let values = sorted(&figure.values, &rows, &columns, f64::NAN);
+        Self { x, y, values, marked: sorted(&figure.marked, &rows, &columns, false) }
     }
 
-    fn plan(&self, figure: &Surface, colours: &ColourScale) -> Plan {
-        Plan {
-            title: figure.title.clone(),
-            x: span(figure.x.scale, &edges(&self.x, ALONE)),
-            y: span(figure.y.scale, &edges(&self.y, ALONE)),
-            x_label: figure.x.label.clone(),
-            y_label: figure.y.label.clone(),
-            right: colours.margin(),
-            above: None,
-            legend: Vec::new(),
-            notes: self.notes(figure.z.scale, |_, _| false),
-        }
-    }
-
-    /// Counts cells without a colour, but for the excused ones.
-    fn notes(&self, z: Scale, excused: impl Fn(usize, usize) -> bool) -> Vec<String> {
-        let (mut non_finite, mut not_positive) = (0, 0);
-        for (k, row) in self.values.iter().enumerate() {
-            for (j, &value) in row.iter().enumerate() {
-                match (on_scale(Scale::Linear, value), on_scale(z, value)) {
-                    _ if excused(k, j) => {}
-                    (None, _) => non_finite += 1,
-                    (Some(_), None) => not_positive += 1,
-                    _ => {}
-                }
-            }
-        }
-        left_out(non_finite, not_positive)
+    /// Counts cells without a colour, but for the marked ones.
+    fn notes(&self, z: Scale) -> Vec<String> {
+        let cells = self.values.iter().flatten().zip(self.marked.iter().flatten());
+        let unmarked = || cells.clone().filter(|(_, marked)| !**marked).map(|(value, _)| *value);
+        let non_finite = unmarked().filter(|value| on_scale(Scale::Linear, *value).is_none()).count();
+        let off_scale = unmarked().filter(|value| on_scale(z, *value).is_none()).count();
+        left_out(non_finite, off_scale - non_finite)
     }
 
     /// Edges of the cells in px.
-    fn edges_on(&self, sheet: &Sheet) -> (Vec<f64>, Vec<f64>) {
-        let x = edges(&self.x, ALONE).iter().map(|&v| sheet.x.px_of(v)).collect();
-        let y = edges(&self.y, ALONE).iter().map(|&v| sheet.y.px_of(v)).collect();
-        (x, y)
-    }
-
-    fn paint(&self, sheet: &mut Sheet, colours: &ColourScale) {
-        let (x, y) = self.edges_on(sheet);
-        let colour = |row: &Vec<f64>| row.iter().map(|&v| colours.colour(v)).collect();
-        let rows: Vec<_> = self.values.iter().map(colour).collect();
-        paint(&mut sheet.canvas, &x, &y, &rows);
+    fn edges_on(&self, sheet: &Sheet) -> [Vec<f64>; 2] {
+        [(&self.x, &sheet.x), (&self.y, &sheet.y)]
+            .map(|(at, ruler)| edges(at, ALONE).iter().map(|&v| ruler.px_of(v)).collect())
     }
 
     fn vertices(&self, sheet: &Sheet, z: Scale) -> Vec<Vec<Vertex>> {
@@ -164,9 +169,9 @@ fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ticks) {
             pieces.iter().for_each(|s| pen.line(s, style::INK, 1.4));
         });
     }
-    sheet.canvas.draw(Layer::plain().with_halo(), |pen| {
+    sheet.canvas.draw(Layer { halo: true, ..Layer::default() }, |pen| {
         for (at, label) in labels {
-            pen.text(label, at, TICK_SIZE, Anchor::Middle, style::INK);
+            pen.text(label, at, TICK_SIZE, Anchor::Center, style::INK);
         }
     });
 }
@@ -206,41 +211,7 @@ fn cut(triangle: [Vertex; 3], level: f64) -> Option<[Point; 2]> {
 /// A boundary with fewer points is drawn as points.
 const FEWEST_FOR_A_LINE: usize = 6;
 
-/// A map over two parameters.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ParameterMap {
-    /// Axes, parameters and values of the cells.
-    pub cells: Surface,
-    /// `marked[k][j]`: hatched, and grey if it has no value; cells that are not there are not marked.
-    pub marked: Vec<Vec<bool>>,
-    /// What the mark means, `"diverged"` say.
-    pub marked_label: String,
-    /// Boundary curves on top: the first solid, the second dashed, and so on; the predicted one first, say.
-    pub boundaries: Vec<Series>,
-}
-
-/// Draws coloured cells, hatched where marked, with boundary curves.
-pub fn parameter_map(figure: &ParameterMap) -> String {
-    let lattice = Lattice::new(&figure.cells);
-    let z = &figure.cells.z;
-    let colours = ColourScale::sequential(&z.label, z.scale, lattice.values.iter().flatten().copied());
-    let mut plan = lattice.plan(&figure.cells, &colours);
-    plan.legend = entries(figure);
-    plan.notes = lattice.notes(z.scale, |k, j| is_marked(figure, &lattice, k, j));
-    let mut sheet = plan.lay_out();
-    lattice.paint(&mut sheet, &colours);
-    draw_marks(&mut sheet, figure, &lattice);
-    draw_boundaries(&mut sheet, figure);
-    colours.draw_bar(&mut sheet);
-    sheet.finish()
-}
-
-fn is_marked(figure: &ParameterMap, lattice: &Lattice, k: usize, j: usize) -> bool {
-    let row = figure.marked.get(lattice.rows[k]);
-    row.and_then(|row| row.get(lattice.columns[j])).copied().unwrap_or(false)
-}
-
-fn entries(figure: &ParameterMap) -> Vec<Entry> {
+fn entries(figure: &Surface) -> Vec<Entry> {
     let boundary = |(k, series): (usize, &Series)| Entry {
         swatch: if is_sparse(series) {
             Swatch::Line { look: boundary_look(k), width: 0.0, marks: Marks::Open }
@@ -267,24 +238,23 @@ fn boundary_look(k: usize) -> Look {
     Look { colour, ..look(k) }
 }
 
-fn draw_marks(sheet: &mut Sheet, figure: &ParameterMap, lattice: &Lattice) {
-    let (x, y) = lattice.edges_on(sheet);
+fn draw_marks(sheet: &mut Sheet, lattice: &Lattice) {
+    let [x, y] = lattice.edges_on(sheet);
     sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
-        for k in 0..lattice.y.len() {
+        for (k, row) in lattice.marked.iter().enumerate() {
             let mut j = 0;
-            while j < lattice.x.len() {
-                let run = (j..lattice.x.len()).take_while(|&j| is_marked(figure, lattice, k, j)).count();
-                if run > 0 {
-                    hatch(pen, Rect { left: x[j], right: x[j + run], top: y[k + 1], bottom: y[k] });
+            for run in row.chunk_by(|a, b| a == b) {
+                if run[0] {
+                    hatch(pen, Rect { left: x[j], right: x[j + run.len()], top: y[k + 1], bottom: y[k] });
                 }
-                j += run.max(1);
+                j += run.len();
             }
         }
     });
 }
 
 /// All rims before all lines: where two boundaries agree, the gaps of the dashed one show the other.
-fn draw_boundaries(sheet: &mut Sheet, figure: &ParameterMap) {
+fn draw_boundaries(sheet: &mut Sheet, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {
             let look = boundary_look(k);
@@ -295,8 +265,9 @@ fn draw_boundaries(sheet: &mut Sheet, figure: &ParameterMap) {
             sheet.canvas.group(&readable::series(&series.label, data), |canvas| {
                 if is_sparse(series) {
                     let at = positions.iter().flatten().filter(|_| !rim);
-                    canvas
-                        .draw(Layer::plain(), |pen| at.for_each(|&at| look.marker.draw(pen, at, colour, Marks::Open)));
+                    canvas.draw(Layer::default(), |pen| {
+                        at.for_each(|&at| look.marker.draw(pen, at, colour, Marks::Open))
+                    });
                     return;
                 }
                 canvas.draw(layer, |pen| {
@@ -326,7 +297,7 @@ mod tests {
 
     #[test]
     fn a_boundary_without_cells_is_still_a_document() {
-        let figure = ParameterMap {
+        let figure = Surface {
             boundaries: vec![Series { label: "b".into(), points: vec![(f64::NAN, 1.0), (0.5, 0.5)] }],
             ..Default::default()
         };

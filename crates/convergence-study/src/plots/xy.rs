@@ -59,7 +59,7 @@ impl Curve {
 }
 
 /// A closed outline with texts, such as a slope triangle; positions in data coordinates.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Outline {
     /// The last is joined to the first.
     pub corners: Vec<(f64, f64)>,
@@ -68,7 +68,7 @@ pub struct Outline {
 }
 
 /// A figure with curves.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Xy {
     /// Set above the plot.
     pub title: Option<String>,
@@ -209,7 +209,7 @@ impl Xy {
                     lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
                 });
                 // Not clipped: a marker on the frame stays whole.
-                canvas.draw(Layer::plain(), |pen| {
+                canvas.draw(Layer::default(), |pen| {
                     alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
                     for &at in positions.iter().flatten() {
                         curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
@@ -224,7 +224,7 @@ impl Xy {
             let mut path: Vec<Point> = outline.corners.iter().filter_map(|&p| sheet.px(p)).collect();
             path.extend(path.first().copied());
             let texts: Vec<_> = outline.texts.iter().filter_map(|t| Some((t, sheet.px(t.1)?))).collect();
-            sheet.canvas.draw(Layer::plain(), |pen| {
+            sheet.canvas.draw(Layer::default(), |pen| {
                 pen.line(&path, style::INK, 1.6);
                 for ((text, _, shift, anchor), at) in texts {
                     pen.text(text, (at.0 + shift.0, at.1 + shift.1), TICK_SIZE, *anchor, style::INK);

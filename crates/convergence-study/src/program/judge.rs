@@ -3,7 +3,7 @@
 use super::answer::{Answer, Expected};
 use super::{Expectation, Program, Run, values};
 use crate::judge::claims;
-use crate::plots::{self, Series, WorkPrecision};
+use crate::plots::{self, History, Series};
 use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use crate::study::levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Next};
@@ -177,11 +177,11 @@ fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
         let points = points.collect();
         Series { label: column.name.clone(), points }
     });
-    let svg = plots::work_precision(&WorkPrecision {
-        x_label: Some("work, as the program counts it".to_owned()),
-        y_label: "error".to_owned(),
+    let svg = plots::work_precision(&History {
+        x_label: "work, as the program counts it".to_owned(),
+        y: plots::Axis::log("error"),
         series: series.collect(),
-        ..WorkPrecision::default()
+        ..History::default()
     });
     let caption = "Errors over the work that they cost: the lower and the further left, the better.".to_owned();
     Some(Figure { file: format!("{id}-work.svg"), caption, svg })

@@ -2,7 +2,7 @@
 
 use super::words::range;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::plots::{Forest, ForestGroup, ForestRate, ForestRow, Judged, forest};
+use crate::plots::{Forest, ForestRate, ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
@@ -15,14 +15,14 @@ pub(super) const FILE: &str = "rates.svg";
 
 /// Every judged rate relative to its claim, studies in groups; `None` where no rate was judged.
 pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
-    let mut groups: Vec<ForestGroup> = vec![];
+    let mut groups = vec![];
     for (label, studies) in grouped(project, finished) {
         let rows: Vec<ForestRow> = studies.iter().filter_map(|study| row(study)).collect();
         if !rows.is_empty() {
-            groups.push(ForestGroup { label: label.to_owned(), rows });
+            groups.push((label.to_owned(), rows));
         }
     }
-    let rates: usize = groups.iter().flat_map(|group| &group.rows).map(|row| row.rates.len()).sum();
+    let rates: usize = groups.iter().flat_map(|(_, rows)| rows).map(|row| row.rates.len()).sum();
     if rates == 0 {
         return None;
     }
@@ -84,10 +84,6 @@ fn relative(rate: &RateVerdict) -> ForestRate {
     ForestRate {
         rate: rate.fitted.map(scaled),
         interval: rate.interval.map(|ends| ends.map(scaled)),
-        judged: match rate.verdict {
-            Verdict::Pass => Judged::Pass,
-            Verdict::Inconclusive => Judged::Inconclusive,
-            Verdict::Fail => Judged::Fail,
-        },
+        verdict: rate.verdict,
     }
 }

@@ -1,6 +1,7 @@
 //! Made-up data that look like the real thing, one set per figure.
 
 use convergence_study::judge::power_law::PowerLaw;
+use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::*;
 
 /// Every figure, drawn.
@@ -73,13 +74,13 @@ pub(crate) fn error_surface() -> Surface {
     let h: Vec<f64> = (2..=9).map(|k| 0.5_f64.powi(k)).collect();
     let values = h.iter().map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect()).collect();
     Surface {
-        title: None,
         x: Axis::log("time step dt"),
         y: Axis::log("mesh width h"),
         z: Axis::log("error in the energy norm"),
         x_values: 1.0.iter_dt().collect(),
         y_values: h,
         values,
+        ..Surface::default()
     }
 }
 
@@ -182,7 +183,7 @@ pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
     }
 }
 
-pub(crate) fn iteration_counts() -> Iterations {
+pub(crate) fn iteration_counts() -> History {
     let phases = stop_phases(3.0);
     let is_stopped = |t: f64| phases.intervals.iter().any(|&(a, b)| a <= t && t <= b);
     let count = |base: f64, more: f64| {
@@ -190,14 +191,14 @@ pub(crate) fn iteration_counts() -> Iterations {
             .map(|k| (f64::from(k) * 1e-3, base + if is_stopped(f64::from(k) * 1e-3) { more } else { 0.0 }))
             .collect()
     };
-    Iterations {
+    History {
         series: vec![series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))],
         phases: phases.clone(),
         ..Default::default()
     }
 }
 
-pub(crate) fn stability_map() -> ParameterMap {
+pub(crate) fn stability_map() -> Surface {
     let dt: Vec<f64> = (0..33).map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k))).collect();
     let eps: Vec<f64> = (0..25).map(|k| 10f64.powf(-4.0 + 0.1 * f64::from(k))).collect();
     let alpha = |dt: f64, eps: f64| dt.powf(1.5) / (eps * 0.1_f64.sqrt());
@@ -208,35 +209,32 @@ pub(crate) fn stability_map() -> ParameterMap {
     let marked = grid(&|a| if a < 1.0 { 0.0 } else { 1.0 });
     let boundary =
         |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
-    ParameterMap {
-        cells: Surface {
-            x: Axis::log("time step dt"),
-            y: Axis::log("compliance ε (dimensionless)"),
-            z: Axis::log("iterations per step"),
-            values: grid(&count),
-            x_values: dt.clone(),
-            y_values: eps.clone(),
-            title: None,
-        },
+    Surface {
+        title: None,
+        x: Axis::log("time step dt"),
+        y: Axis::log("compliance ε (dimensionless)"),
+        z: Axis::log("iterations per step"),
+        values: grid(&count),
+        x_values: dt.clone(),
+        y_values: eps.clone(),
         marked: marked.iter().map(|row| row.iter().map(|&v| v > 0.0).collect()).collect(),
         marked_label: "diverged".into(),
         boundaries: vec![series("predicted, α = 1", boundary(1.0)), series("measured", boundary(1.12))],
     }
 }
 
-pub(crate) fn costs() -> WorkPrecision {
+pub(crate) fn costs() -> History {
     let run = |label: &str, c: f64, p: f64| {
         series(label, (0..7).map(|k| (2e-3 * 2f64.powi(k), c * 0.5_f64.powf(p * f64::from(k)))).collect())
     };
-    WorkPrecision {
-        title: None,
-        x_label: None,
-        y_label: "error in u(T) (dimensionless)".into(),
+    History {
+        y: Axis::log("error in u(T) (dimensionless)"),
         series: vec![
             run("euler-crank-nicolson, newton", 3e-2, 1.0),
             run("euler-crank-nicolson, fixed point", 8e-2, 1.0),
             run("midpoint, newton", 1e-2, 2.0),
         ],
+        ..History::default()
     }
 }
 
@@ -260,21 +258,21 @@ pub(crate) fn hostile() -> History {
 
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
 pub(crate) fn all_rates() -> Forest {
-    let rate = |rate: f64, half: f64, judged| ForestRate {
+    let rate = |rate: f64, half: f64, verdict| ForestRate {
         rate: Some(rate),
         interval: Some([rate - half, rate + half]),
-        judged,
+        verdict,
     };
-    let none = ForestRate { rate: None, interval: None, judged: Judged::Inconclusive };
+    let none = ForestRate { rate: None, interval: None, verdict: Verdict::Inconclusive };
     let row = |label: &str, rates: Vec<ForestRate>| ForestRow { label: label.into(), rates, note: String::new() };
     let space = vec![
-        row("first-order", vec![rate(0.1, 0.2, Judged::Pass), rate(-0.3, 0.1, Judged::Pass)]),
+        row("first-order", vec![rate(0.1, 0.2, Verdict::Pass), rate(-0.3, 0.1, Verdict::Pass)]),
         ForestRow {
             note: "1.000, claimed 2".into(),
-            ..row("lost-order", vec![rate(-20.0, 0.1, Judged::Fail), none, none])
+            ..row("lost-order", vec![rate(-20.0, 0.1, Verdict::Fail), none, none])
         },
     ];
-    let time = vec![row("scattered", vec![rate(0.4, 1.1, Judged::Inconclusive), rate(0.2, 3.0, Judged::Inconclusive)])];
-    let group = |label: &str, rows| ForestGroup { label: label.into(), rows };
-    Forest { title: "All rates".into(), groups: vec![group("space", space), group("time", time)] }
+    let time =
+        vec![row("scattered", vec![rate(0.4, 1.1, Verdict::Inconclusive), rate(0.2, 3.0, Verdict::Inconclusive)])];
+    Forest { title: "All rates".into(), groups: vec![("space".into(), space), ("time".into(), time)] }
 }

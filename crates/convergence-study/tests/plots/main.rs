@@ -76,14 +76,13 @@ fn the_same_data_give_the_same_bytes() {
 
 #[test]
 fn every_finite_point_is_drawn() {
-    let figure = WorkPrecision {
-        y_label: "error".into(),
+    let figure = History {
+        y: Axis::log("error"),
         series: vec![Series {
             label: "s".into(),
             points: (1..40).map(|k| (f64::from(k), 1.0 / f64::from(k))).collect(),
         }],
-        x_label: None,
-        title: None,
+        ..History::default()
     };
     let svg = work_precision(&figure);
     // One marker more in the legend.
@@ -110,9 +109,9 @@ fn figures_without_data_do_not_panic() {
         surface(&Surface::default()),
         history(&History::default()),
         space_time(&SpaceTime::default()),
-        iterations(&Iterations::default()),
-        parameter_map(&ParameterMap::default()),
-        work_precision(&WorkPrecision::default()),
+        iterations(&History::default()),
+        parameter_map(&Surface::default()),
+        work_precision(&History::default()),
     ];
     empty.iter().for_each(|svg| drop(parse(svg)));
 }
@@ -137,12 +136,7 @@ fn figures_of_extreme_data_do_not_panic() {
             let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
             let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
             parse(&surface(&cells));
-            parse(&parameter_map(&ParameterMap {
-                cells,
-                marked: vec![vec![true]],
-                boundaries: series,
-                ..Default::default()
-            }));
+            parse(&parameter_map(&Surface { marked: vec![vec![true]], boundaries: series, ..cells }));
             let frames = vec![vec![x, y], vec![y, 1.0]];
             let (times, nodes) = (vec![x, y], vec![y, x]);
             parse(&space_time(&SpaceTime { times, nodes, frames, ..Default::default() }));
@@ -405,7 +399,7 @@ fn the_first_64_looks_differ() {
 #[test]
 fn ticks_of_counts_are_whole() {
     let series = vec![Series { label: "solver".into(), points: vec![(0.1, 3.0), (0.2, 3.0)] }];
-    let svg = iterations(&Iterations { series, ..Default::default() });
+    let svg = iterations(&History { series, ..Default::default() });
     let is_height = |n: &Node<'_, '_>| n.attribute("text-anchor") == Some("end");
     let doc = parse(&svg);
     let heights: Vec<_> = elements(&doc, "text").filter(is_height).filter_map(|n| n.text()).collect();

@@ -41,7 +41,7 @@ pub fn animation(figure: &Animation) -> String {
     let frames = drawable_frames(figure);
     let stage = Stage::new(figure, &frames);
     let mut canvas = Canvas::new(style::WIDTH, HEIGHT);
-    canvas.draw(Layer::plain(), |pen| stage.draw_scenery(pen, figure));
+    canvas.draw(Layer::default(), |pen| stage.draw_scenery(pen, figure));
     canvas.raw(&stage.moving_parts(figure, &frames));
     let title = figure.title.clone().unwrap_or_else(|| "Motion of the beam between its obstacles".into());
     canvas.finish(&title, "")
@@ -96,7 +96,7 @@ impl Stage {
     fn draw_scenery(&self, pen: &Pen<'_>, figure: &Animation) {
         if let Some(title) = &figure.title {
             let title = convergence_study::plots::legend::elide(title, TITLE_SIZE, style::WIDTH - 32.0);
-            pen.text(&title, (0.5 * style::WIDTH, 28.0), TITLE_SIZE, Anchor::Middle, style::INK);
+            pen.text(&title, (0.5 * style::WIDTH, 28.0), TITLE_SIZE, Anchor::Center, style::INK);
         }
         let rest = self.u.px(0.0).unwrap_or(PLOT.bottom);
         pen.line(&[(PLOT.left, rest), (PLOT.right, rest)], style::GRID, 1.4);
@@ -115,7 +115,7 @@ impl Stage {
         for t in &ticks.major {
             let y = self.u.px_of(t.at);
             tick(pen, (edge - 6.0, y), (edge, y));
-            pen.text(&t.label, (edge - 10.0, y), TICK_SIZE, Anchor::End, style::INK);
+            pen.text(&t.label, (edge - 10.0, y), TICK_SIZE, Anchor::Right, style::INK);
         }
         let power = match ticks.exponent {
             0 => String::new(),
@@ -134,7 +134,7 @@ impl Stage {
             pen.rect(block, style::SHADE);
             hatch(pen, block);
             pen.line(&[(left, near), (right, near)], style::INK, 2.4);
-            pen.text(name, (right + 10.0, near), LABEL_SIZE, Anchor::Start, style::INK);
+            pen.text(name, (right + 10.0, near), LABEL_SIZE, Anchor::Left, style::INK);
         }
     }
 
@@ -143,12 +143,12 @@ impl Stage {
         for t in &self.t.ticks(6).major {
             let x = self.t.px_of(t.at);
             tick(pen, (x, TIME_BAR), (x, TIME_BAR + 7.0));
-            pen.text(&t.label, (x, TIME_BAR + 22.0), TICK_SIZE, Anchor::Middle, style::INK);
+            pen.text(&t.label, (x, TIME_BAR + 22.0), TICK_SIZE, Anchor::Center, style::INK);
         }
         let at = (PLOT.centre().0, TIME_BAR + 47.0);
-        pen.text("time t", at, LABEL_SIZE, Anchor::Middle, style::INK);
-        pen.text("x = 0", (PLOT.left, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Middle, style::INK);
-        pen.text("x = 1", (PLOT.right, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Middle, style::INK);
+        pen.text("time t", at, LABEL_SIZE, Anchor::Center, style::INK);
+        pen.text("x = 0", (PLOT.left, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Center, style::INK);
+        pen.text("x = 1", (PLOT.right, PLOT.bottom + 20.0), TICK_SIZE, Anchor::Center, style::INK);
     }
 
     /// The beam, its tip and the time mark, each with its animation.

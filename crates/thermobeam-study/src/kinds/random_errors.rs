@@ -168,11 +168,12 @@ impl RandomErrors {
     fn figure(&self, found: &[(&Ran<usize, Found>, &Found)]) -> Figure {
         let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let svg = plots::work_precision(&plots::WorkPrecision {
+        let svg = plots::work_precision(&plots::History {
             title: Some("Errors of the runs chosen".to_owned()),
-            x_label: Some("work of a scene's searches (unknowns times solves)".to_owned()),
-            y_label: "largest error of u(1, t) over the error asked for".to_owned(),
+            x_label: "work of a scene's searches (unknowns times solves)".to_owned(),
+            y: plots::Axis::log("largest error of u(1, t) over the error asked for"),
             series: vec![plots::Series { label: "random scenes".to_owned(), points }],
+            ..plots::History::default()
         });
         let caption =
             "Largest errors of the runs chosen for random scenes, in units of the errors asked for: all below 1.";

@@ -362,16 +362,17 @@ fn residuals(id: &str, scenes: &[Scene]) -> Figure {
         *cell = if cell.is_nan() { residual } else { max_or_nan(*cell, residual) };
     }
     let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();
-    let cells = plots::Surface {
-        title: None,
+    let map = plots::Surface {
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),
         z: plots::Axis::log("largest residual / energy"),
         x_values: centres(DT),
         y_values: centres(SHORTEST),
         values,
+        marked,
+        marked_label: "no scene".to_owned(),
+        ..plots::Surface::default()
     };
-    let map = plots::ParameterMap { cells, marked, marked_label: "no scene".to_owned(), boundaries: vec![] };
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";
     Figure::new(id, "residuals", caption, plots::parameter_map(&map))

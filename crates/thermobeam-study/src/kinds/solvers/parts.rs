@@ -260,6 +260,6 @@ fn iterations_figure(id: &str, found: Option<&Agreement>) -> Figure {
     let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
     let caption =
         format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
-    let svg = plots::iterations(&plots::Iterations { series, phases, ..plots::Iterations::default() });
+    let svg = plots::iterations(&plots::History { series, phases, ..plots::History::default() });
     Figure::new(id, "iterations", caption, svg)
 }

@@ -279,11 +279,11 @@ fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure
         label: row.method.name.to_owned(),
         points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
     });
-    let svg = plots::work_precision(&plots::WorkPrecision {
-        title: None,
-        x_label: Some("cost: elements × linear solves".to_owned()),
-        y_label: format!("error, {}", quantity.name()),
+    let svg = plots::work_precision(&plots::History {
+        x_label: "cost: elements × linear solves".to_owned(),
+        y: plots::Axis::log(format!("error, {}", quantity.name())),
         series: series.collect(),
+        ..plots::History::default()
     });
     let caption = format!(
         "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",

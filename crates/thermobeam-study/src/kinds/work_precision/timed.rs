@@ -89,11 +89,10 @@ impl WorkPrecision {
             let points = front(own.map(|run| (run.seconds(), run.measurement.errors[quantity as usize])));
             plots::Series { label: method.name.to_owned(), points }
         });
-        plots::work_precision(&plots::WorkPrecision {
-            title: None,
-            x_label: None,
-            y_label: format!("error, {}", quantity.name()),
+        plots::work_precision(&plots::History {
+            y: plots::Axis::log(format!("error, {}", quantity.name())),
             series: series.collect(),
+            ..plots::History::default()
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The maps.
 
-use convergence_study::plots::{self, Axis, ParameterMap, Series, Surface};
+use convergence_study::plots::{self, Axis, Series, Surface};
 use convergence_study::study::Figure;
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
@@ -85,7 +85,7 @@ impl Maps<'_> {
             Some(value) if !value.is_nan() => value.max(least),
             _ => f64::NAN,
         };
-        let cells = Surface {
+        let map = Surface {
             title: None,
             x: Axis::log("time step dt"),
             y: self.second_axis(),
@@ -93,9 +93,10 @@ impl Maps<'_> {
             x_values: self.map.time_steps(),
             y_values: self.rows.iter().map(|(value, _)| *value).collect(),
             values: self.rows.iter().map(|(_, row)| row.points.iter().map(cell).collect()).collect(),
+            marked: self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect(),
+            marked_label: fails.to_owned(),
+            boundaries,
         };
-        let marked = self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect();
-        let map = ParameterMap { cells, marked, marked_label: fails.to_owned(), boundaries };
         Figure::new(id, file, caption, plots::parameter_map(&map))
     }
 

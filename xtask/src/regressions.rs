@@ -2,10 +2,14 @@
 //!
 //! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as a uniform one.
 //! Such mistakes are listed in `.cargo/regressions.toml`, each with the study that must notice it. Each is planted in a copy of
-//! the work tree below `target/regressions/`, which is compiled and runs the quick tier of `verify`.
+//! the work tree below `target/regressions/`, which is compiled and runs the quick tier of `verify`. What that finds is kept: a run
+//! that is interrupted goes on where it was.
 
+mod judged;
 mod list;
 mod planted;
+
+use std::io;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::long::LongRun;
@@ -15,7 +19,7 @@ use convergence_study::store::atomic;
 use convergence_study::study::outcome::Table;
 
 use list::Regression;
-use planted::{Copy, Noticed};
+use planted::{Copy, Found};
 
 /// Judge the studies: does the quick tier of `verify` notice each mistake of a list, and name it?
 #[derive(Debug, clap::Args)]
@@ -23,9 +27,12 @@ pub(crate) struct Arguments {
     /// Plant only those with this in their name or file; may be given more than once
     #[arg(long, value_name = "PART")]
     only: Vec<String>,
-    /// Write reports/regressions.md
+    /// Write reports/regressions.md and what later runs compare with, .cargo/fingerprints.json
     #[arg(long)]
     write: bool,
+    /// Diagnose anew what was recorded, and plant nothing
+    #[arg(long)]
+    recorded: bool,
     /// List them and plant nothing
     #[arg(long, conflicts_with = "write")]
     list: bool,
@@ -54,40 +61,66 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let reported = root.join("reports/regressions.md");
     let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
     let copy = Copy::of(&root)?;
-    copy.passes_as_it_is()?;
+    let passing = copy.as_it_is()?.seconds;
     let count = chosen.len();
-    interrupt::say(move || format!("{count} mistakes were to be planted"));
-    let mut rows = vec![];
-    let mut unnoticed = 0;
+    interrupt::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
+    let mut all = vec![];
+    let mut complaints = vec![];
     for (regression, text) in chosen.iter().zip(&planted) {
-        let noticed = copy.with(&regression.file, text)?;
-        let is_named = noticed.is_named_by(&regression.study, &regression.says);
-        unnoticed += usize::from(!is_named);
-        let said = if is_named { noticed.first().to_owned() } else { format!("not noticed:\n{}", noticed.text()) };
-        clock.done(&format!("{}: {said}", regression.name));
-        rows.push(row(regression, &noticed, is_named));
+        match copy.with(&regression.name, &regression.file, text, arguments.recorded) {
+            Ok(found) => {
+                clock.done(&format!("{}: {}", regression.name, first_words(regression, &found)));
+                all.push((*regression, found));
+            }
+            Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
+        }
     }
+    if all.is_empty() {
+        return Err(Unusable::because(&complaints.join("\n")));
+    }
+    complaints.iter().for_each(|complaint| output::complain(complaint));
+    let all = judged::judged(&root, all)?;
+    let rows: Vec<Vec<String>> = all.iter().map(|one| row(one.regression, &one.found)).collect();
+    let named = all.iter().filter(|one| is_named(one.regression, &one.found)).count();
     let table = Table { title: String::new(), head: HEAD.map(str::to_owned).to_vec(), rows };
-    let sentence = format!("{} of {count} mistakes are noticed by the study named for them", count - unnoticed);
-    output::print(&format!("{}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
+    let sentence = format!("{named} of {count} mistakes are noticed by the study named for them");
+    let scores = judged::page(&all, passing);
+    output::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
     if arguments.write {
-        atomic::write(&reported, page(&table, &sentence, &clock.ended(&root)))?;
-        output::print("report: reports/regressions.md\n")?;
+        atomic::write(&reported, page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores)?;
+        let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
+        atomic::write(&root.join(FINGERPRINTS), prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n")?;
+        output::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
     }
-    Ok(if unnoticed == 0 { Ended::Well } else { Ended::Badly })
+    Ok(if named == count { Ended::Well } else { Ended::Badly })
 }
 
-const HEAD: [&str; 5] = ["mistake", "file", "studies that notice", "first words about it", "named by its study"];
+/// Where later runs of `verify` read what these mistakes did.
+const FINGERPRINTS: &str = ".cargo/fingerprints.json";
 
-fn row(regression: &Regression, noticed: &Noticed, is_named: bool) -> Vec<String> {
-    let named = if is_named { regression.study.clone() } else { format!("no, not by {}", regression.study) };
-    vec![
-        regression.name.clone(),
-        regression.file.clone(),
-        noticed.studies().to_string(),
-        noticed.first().to_owned(),
-        named,
-    ]
+const HEAD: [&str; 4] = ["mistake", "file", "first words about it", "named by its study"];
+
+/// Whether `verify` fails, and the study named for the mistake says what it must.
+fn is_named(regression: &Regression, found: &Found) -> bool {
+    !found.record.verdict.is_pass() && found.is_named_by(&regression.study, &regression.says)
+}
+
+fn first_words(regression: &Regression, found: &Found) -> String {
+    let said = found.said();
+    match said.first() {
+        Some(first) if is_named(regression, found) => first.clone(),
+        _ => format!("not noticed:\n{}", said.iter().take(SHOWN).map(|line| format!("  {line}\n")).collect::<String>()),
+    }
+}
+
+/// Lines that are shown where a mistake is not noticed by the study named for it.
+const SHOWN: usize = 12;
+
+fn row(regression: &Regression, found: &Found) -> Vec<String> {
+    let study = if regression.study.is_empty() { "any" } else { &regression.study };
+    let named = if is_named(regression, found) { study.to_owned() } else { format!("no, not by {study}") };
+    let first = found.said().first().cloned().unwrap_or_else(|| "nothing".to_owned());
+    vec![regression.name.clone(), regression.file.clone(), first, named]
 }
 
 fn page(table: &Table, sentence: &str, ended: &str) -> String {

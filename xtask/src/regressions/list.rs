@@ -19,10 +19,20 @@ pub(super) struct Regression {
     pub(super) file: String,
     /// What is changed.
     edits: Vec<Edit>,
-    /// The study of the quick tier that must notice.
+    /// The study of the quick tier that must notice; nothing for a mutant, which any may notice.
+    #[serde(default)]
     pub(super) study: String,
-    /// What `verify` must print about that study: words that lead to the cause.
+    /// What must be said about that study: words that lead to the cause.
+    #[serde(default)]
     pub(super) says: String,
+    /// Methods of which one must be named: words of a setting; `both` where no method is the one that fails.
+    pub(super) method: Vec<String>,
+    /// Terms, fields or meshes of which one must be named; nothing where none is wrong.
+    #[serde(default)]
+    pub(super) about: Vec<String>,
+    /// Drawn at random from all mutants, not written.
+    #[serde(default)]
+    pub(super) mutant: bool,
 }
 
 /// A text in place of another.
@@ -57,6 +67,19 @@ pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
 }
 
 impl Regression {
+    /// File and function that the first edit is in.
+    pub(super) fn place(&self, root: &Path) -> String {
+        let text = fs::read_to_string(root.join(&self.file)).unwrap_or_default();
+        let before = self.edits.first().and_then(|edit| text.find(&edit.old)).map_or("", |at| &text[..at]);
+        let name = before.rsplit_once("fn ").map_or("", |(_, rest)| rest.split(['(', '<']).next().unwrap_or(rest));
+        format!("{} {name}", self.file)
+    }
+
+    /// The folder of its file: a module.
+    pub(super) fn module(&self) -> &str {
+        self.file.rsplit_once('/').map_or("", |(folder, _)| folder)
+    }
+
     /// The text of its file with the mistake in it.
     ///
     /// # Errors
@@ -89,7 +112,7 @@ mod tests {
     fn every_regression_can_be_planted_and_names_a_study_of_the_quick_tier() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let all = read(&root).unwrap_or_else(|error| panic!("{}", error.message()));
-        assert!(all.len() >= 25, "{}", all.len());
+        assert!(all.len() >= 130, "{}", all.len());
         let studies = workspace::studies(&crate::PROJECT, &root).unwrap_or_else(|error| panic!("{}", error.message()));
         let quick = |id: &str| {
             studies.iter().map(|file| file.study.header()).any(|header| header.id == id && header.tier == Tier::Quick)
@@ -98,9 +121,16 @@ mod tests {
             let planted = regression.planted(&root).unwrap_or_else(|error| panic!("{}", error.message()));
             let is_there = |edit: &Edit| planted.contains(&edit.new);
             assert!(!regression.edits.is_empty() && regression.edits.iter().all(is_there), "{}", regression.name);
-            assert!(quick(&regression.study), "{}: {}", regression.name, regression.study);
+            assert!(
+                regression.study.is_empty() || quick(&regression.study),
+                "{}: {}",
+                regression.name,
+                regression.study
+            );
+            assert!(!regression.method.is_empty(), "{}", regression.name);
             // Each line about the study begins with its name.
-            assert!(!format!("{}: ", regression.study).contains(&regression.says), "{}", regression.name);
+            let head = format!("{}: ", regression.study);
+            assert!(regression.study.is_empty() || !head.contains(&regression.says), "{}", regression.name);
         }
     }
 }

@@ -1,12 +1,18 @@
-//! A copy of the work tree, compiled with a mistake in it, and what `verify` then prints.
+//! A copy of the work tree, compiled with a mistake in it, and what `verify` then finds: it is kept, so that an interrupted run goes on
+//! where it was, and a better diagnosis needs no compiling.
 
 use std::env;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+use std::time::Instant;
 
 use convergence_study::cli::exit::Unusable;
+use convergence_study::report::not_passed;
+use convergence_study::store::record::{self, Record};
+use convergence_study::store::{atomic, content_hash};
+use serde::{Deserialize, Serialize};
 
 /// What the copy leaves out: what is built, what is written by the program, and what is hidden, but for `.cargo`.
 fn is_left_out(name: &str) -> bool {
@@ -17,15 +23,26 @@ fn is_left_out(name: &str) -> bool {
 const PROFILE: &str = "regressions";
 
 /// Longest time of a case, in seconds: with a mistake in it one may never end.
-const CASE_LIMIT: &str = "60";
-
-/// Lines that are shown where a mistake is not noticed by the study named for it.
-const SHOWN: usize = 12;
+const CASE_LIMIT: &str = "20";
 
 /// A copy of the work tree.
 pub(super) struct Copy {
-    /// `target/regressions`: the copy is below, in `tree`, and its target folder, in `build`.
+    /// `target/regressions`: the copy is below, in `tree`, its target folder in `build`, what was found in `records`.
     folder: PathBuf,
+    /// Of all files and their names.
+    hash: u64,
+}
+
+/// What `verify` found.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Found {
+    /// Of the copy with the mistake in it.
+    key: String,
+    /// Seconds that it took.
+    pub(super) seconds: f64,
+    /// Lines that it printed.
+    pub(super) lines: usize,
+    pub(super) record: Record,
 }
 
 impl Copy {
@@ -34,8 +51,8 @@ impl Copy {
     /// # Errors
     /// Those of the operating system.
     pub(super) fn of(root: &Path) -> Result<Self, Unusable> {
-        let copy = Self { folder: root.join("target/regressions") };
-        made_alike(root, &copy.tree())?;
+        let mut copy = Self { folder: root.join("target/regressions"), hash: 0 };
+        made_alike(root, &copy.tree(), &mut copy.hash)?;
         Ok(copy)
     }
 
@@ -43,30 +60,48 @@ impl Copy {
         self.folder.join("tree")
     }
 
-    /// Complains where `verify` does not pass without a mistake: then it would notice every one.
-    pub(super) fn passes_as_it_is(&self) -> Result<(), Unusable> {
-        let noticed = self.verify()?;
-        if noticed.is_well {
-            return Ok(());
+    /// What `verify` finds without a mistake.
+    ///
+    /// # Errors
+    /// Where it does not pass: then it would notice every one.
+    pub(super) fn as_it_is(&self) -> Result<Found, Unusable> {
+        let found = self.verify(String::new())?;
+        if found.record.verdict.is_pass() {
+            return Ok(found);
         }
-        Err(Unusable::because(&format!("without a mistake `verify` does not pass:\n{}", noticed.text())))
+        Err(Unusable::because(&format!("without a mistake `verify` does not pass:\n{}", found.said().join("\n"))))
     }
 
-    /// What `verify` notices with another text in one file, which is put back afterwards.
+    /// What `verify` finds with another text in one file, which is put back afterwards; what is known is read.
+    ///
+    /// * `recorded`: take what was found before, whatever the files were then.
     ///
     /// # Errors
     /// A text that does not compile, and errors of the operating system.
-    pub(super) fn with(&self, file: &str, text: &str) -> Result<Noticed, Unusable> {
+    pub(super) fn with(&self, name: &str, file: &str, text: &str, recorded: bool) -> Result<Found, Unusable> {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+        let kept = self.folder.join("records").join(name.chars().map(plain).collect::<String>() + ".json");
+        let key = format!("{:016x}", self.hash ^ content_hash(format!("{file}\n{text}").as_bytes()));
+        let known = fs::read_to_string(&kept).ok().and_then(|text| serde_json::from_str::<Found>(&text).ok());
+        if let Some(known) = known.filter(|known| recorded || known.key == key) {
+            return Ok(known);
+        }
+        if recorded {
+            return Err(Unusable::because("nothing was recorded of it"));
+        }
         let path = self.tree().join(file);
         let honest = fs::read(&path)?;
         fs::write(&path, text)?;
-        let noticed = self.verify();
+        let found = self.verify(key);
         fs::write(&path, honest)?;
-        noticed
+        let found = found?;
+        fs::create_dir_all(self.folder.join("records"))?;
+        atomic::write(&kept, record::json(&found).map_err(io::Error::from)?)?;
+        Ok(found)
     }
 
-    fn verify(&self) -> Result<Noticed, Unusable> {
-        let build = self.folder.join("build");
+    fn verify(&self, key: String) -> Result<Found, Unusable> {
+        let [build, out] = ["build", "out"].map(|name| self.folder.join(name));
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--quiet", "--profile", PROFILE, "--package", "xtask", "--target-dir"]).arg(&build);
         let built = cargo.current_dir(self.tree()).output()?;
@@ -76,16 +111,47 @@ impl Copy {
         }
         let program = build.join(format!("{PROFILE}/xtask{}", env::consts::EXE_SUFFIX));
         let mut verify = Command::new(&program);
-        verify.args(["verify", "--quiet", "--case-limit", CASE_LIMIT]).current_dir(self.tree());
+        verify.args(["verify", "--case-limit", CASE_LIMIT, "--out"]).arg(&out).current_dir(self.tree());
         verify.env_remove("CARGO_MANIFEST_DIR").env_remove("GITHUB_STEP_SUMMARY").env_remove("GITHUB_ACTIONS");
+        let started = Instant::now();
         let output = verify.output().map_err(|error| Unusable::file(&program, &error))?;
-        Ok(Noticed::of(&output))
+        let seconds = started.elapsed().as_secs_f64();
+        if output.status.code().is_none_or(|status| status > 1) {
+            let why = String::from_utf8_lossy(&output.stderr);
+            return Err(Unusable::because(&format!("`verify` itself fails:\n{why}")));
+        }
+        let lines = output.stdout.iter().filter(|byte| **byte == b'\n').count();
+        let mut record = Record::read(&out.join("results.json"))?;
+        for study in &mut record.studies {
+            study.outcome.tables.clear();
+            study.outcome.figures.clear();
+        }
+        Ok(Found { key, seconds, lines, record })
+    }
+}
+
+impl Found {
+    /// What is said, a line for each reason of a study and each number that changed, the study before a colon.
+    pub(super) fn said(&self) -> Vec<String> {
+        let reasons = not_passed(&self.record.studies).into_iter().flat_map(|study| {
+            let line = move |reason: String| format!("{}: {reason}", study.id);
+            study.reasons.into_iter().map(line).collect::<Vec<_>>()
+        });
+        reasons.chain(self.record.baseline_changes.iter().cloned()).collect()
+    }
+
+    /// Whether something is said about the study that has these words in it; about any where none is named.
+    pub(super) fn is_named_by(&self, study: &str, says: &str) -> bool {
+        let head = if study.is_empty() { String::new() } else { format!("{study}: ") };
+        self.said().iter().any(|line| line.starts_with(&head) && line.contains(says))
     }
 }
 
 /// Makes a folder a copy of another. A file that is there and the same is not written: cargo compiles what is younger than
 /// its last build, and what a mistake was in is younger.
-fn made_alike(from: &Path, to: &Path) -> io::Result<()> {
+///
+/// * `hash`: of all files and their names, whatever their order.
+fn made_alike(from: &Path, to: &Path, hash: &mut u64) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {
         let entry = entry?;
@@ -95,9 +161,11 @@ fn made_alike(from: &Path, to: &Path) -> io::Result<()> {
             continue;
         }
         if entry.file_type()?.is_dir() {
-            made_alike(&source, &target)?;
+            made_alike(&source, &target, hash)?;
         } else {
             let text = fs::read(&source)?;
+            let named = [target.as_os_str().as_encoded_bytes(), &text].concat();
+            *hash = hash.wrapping_add(content_hash(&named));
             if fs::read(&target).ok().as_ref() != Some(&text) {
                 fs::write(&target, text)?;
             }
@@ -112,68 +180,6 @@ fn made_alike(from: &Path, to: &Path) -> io::Result<()> {
         if entry.file_type()?.is_dir() { fs::remove_dir_all(entry.path())? } else { fs::remove_file(entry.path())? }
     }
     Ok(())
-}
-
-/// What `verify` says.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Noticed {
-    is_well: bool,
-    /// Study and line, in the order in which they are printed; of no study where `verify` itself failed.
-    lines: Vec<(String, String)>,
-}
-
-impl Noticed {
-    fn of(output: &Output) -> Self {
-        let text = String::from_utf8_lossy(&output.stdout);
-        let mut lines = lines(&text);
-        if lines.is_empty() && !output.status.success() {
-            let why = String::from_utf8_lossy(&output.stderr);
-            lines.extend(why.lines().map(|line| (String::new(), line.to_owned())));
-        }
-        Self { is_well: output.status.success(), lines }
-    }
-
-    /// Whether something is printed about the study that has these words in it.
-    pub(super) fn is_named_by(&self, study: &str, says: &str) -> bool {
-        !self.is_well && self.lines.iter().any(|(of, line)| of == study && line.contains(says))
-    }
-
-    /// How many studies say something.
-    pub(super) fn studies(&self) -> usize {
-        let mut studies: Vec<&str> = self.lines.iter().map(|(study, _)| study.as_str()).collect();
-        studies.sort_unstable();
-        studies.dedup();
-        studies.len()
-    }
-
-    /// The first words that a reader sees.
-    pub(super) fn first(&self) -> &str {
-        self.lines.first().map_or("nothing", |(_, line)| line)
-    }
-
-    /// The first lines of it.
-    pub(super) fn text(&self) -> String {
-        self.lines.iter().take(SHOWN).map(|(_, line)| format!("  {line}\n")).collect()
-    }
-}
-
-/// The lines of `verify --quiet` that are about a study: a study that does not pass has its name and a verdict on a line of its
-/// own, its reasons stand indented below; a number that has moved has `baseline: ` and the study's name before it.
-fn lines(text: &str) -> Vec<(String, String)> {
-    let mut found = vec![];
-    let mut study = String::new();
-    for line in text.lines() {
-        if let Some(moved) = line.strip_prefix("baseline: ") {
-            let of = moved.split(": ").next().unwrap_or_default().to_owned();
-            found.push((of, moved.to_owned()));
-        } else if let Some(reason) = line.strip_prefix("  ").filter(|_| !study.is_empty()) {
-            found.push((study.clone(), format!("{study}: {reason}")));
-        } else {
-            let head = line.split_once(": ").filter(|(_, rest)| matches!(*rest, "fail" | "inconclusive"));
-            study = head.map(|(id, _)| id.to_owned()).unwrap_or_default();
-        }
-    }
-    found
 }
 
 #[cfg(test)]
@@ -196,35 +202,17 @@ mod tests {
             write(to.join(name), text);
         }
         let before = younger("b");
-        made_alike(&from, &to).expect("a copy");
+        let mut hashes = [0, 0, 0];
+        made_alike(&from, &to, &mut hashes[0]).expect("a copy");
         assert_eq!(fs::read_to_string(to.join("src/a.rs")).expect("a file"), "a");
         assert_eq!(younger("b"), before);
+        made_alike(&from, &to, &mut hashes[1]).expect("a copy");
+        write(from.join("b"), "c");
+        made_alike(&from, &to, &mut hashes[2]).expect("a copy");
+        assert!(hashes[0] == hashes[1] && hashes[1] != hashes[2], "{hashes:?}");
         for name in ["src/gone.rs", "gone", "target", ".git"] {
             assert!(!to.join(name).exists(), "{name}");
         }
-    }
-
-    const PRINTED: &str = "theorem-3.4-space: fail\n  velocity: 1.000 (0.999 to 1.001), claimed 2 ± 0.005: too low\n  shear: x\n\n\
-                           negative-controls: inconclusive\n  a: b\n\n\
-                           baseline: equilibria: u(1) moved from 1 to 2\nbaseline: equilibria: and 7 more; --verbose lists all\n\
-                           fail: 2 of 47 studies do not pass\n";
-
-    #[test]
-    fn what_is_printed_is_told_apart_by_study() {
-        let noticed = Noticed { is_well: false, lines: lines(PRINTED) };
-        assert_eq!((noticed.lines.len(), noticed.studies()), (5, 3));
-        assert_eq!(noticed.first(), "theorem-3.4-space: velocity: 1.000 (0.999 to 1.001), claimed 2 ± 0.005: too low");
-        for (study, says) in
-            [("theorem-3.4-space", "shear"), ("equilibria", "u(1) moved"), ("negative-controls", "a: b")]
-        {
-            assert!(noticed.is_named_by(study, says), "{study}");
-        }
-        for (study, says) in [("theorem-3.4-space", "u(1)"), ("equilibria", "velocity"), ("theorem", "shear")] {
-            assert!(!noticed.is_named_by(study, says), "{study}");
-        }
-        assert_eq!(lines("pass: all 47 studies pass; all 2035 baseline values unchanged\n"), []);
-        let well = Noticed { is_well: true, lines: vec![] };
-        assert!(!well.is_named_by("equilibria", "") && well.first() == "nothing");
     }
 
     #[test]

@@ -14,8 +14,18 @@ grep -q '{' src/a.rs && { echo "mismatched brackets" >&2; exit 101; }
 mkdir -p "$out/regressions"
 cat > "$out/regressions/xtask" <<'END'
 #!/bin/sh
-grep -q 1 src/a.rs && { echo "pass: all 1 studies pass"; exit 0; }
-printf 's: fail\n  velocity: the rate is low\n\nbaseline: t: error moved from 1 to 2\nfail: 1 of 2\n'
+echo run >> ../runs
+while [ $# -gt 0 ]; do [ "$1" = --out ] && out="$2"; shift; done
+mkdir -p "$out"
+head='{"schema": 1, "crate_version": "0", "scope": "quick", '
+study='{"id": "s", "claim": "c", "tier": "quick", "kind": "k", "summary": "", "levels": [], "rates": [], "quantities": [], "failed_cases": [], "not_finite": [], '
+if grep -q 1 src/a.rs; then
+  echo "$head"'"verdict": "pass", "baseline_changes": [], "studies": []}' > "$out/results.json"
+  exit 0
+fi
+check='"checks": [{"claim": "velocity", "verdict": "fail", "evidence": "the rate is low"}]'
+moved='"baseline_changes": ["t: error moved from 1 to 2"], "changes": []'
+echo "$head"'"verdict": "fail", '"$moved"', "studies": ['"$study"'"verdict": "fail", '"$check"'}]}' > "$out/results.json"
 exit 1
 END
 chmod +x "$out/regressions/xtask"
@@ -34,7 +44,7 @@ fn workspace(folder: &TempDir) -> PathBuf {
 
 fn entry(name: &str, [old, new]: [&str; 2], [study, says]: [&str; 2]) -> String {
     format!(
-        "[[regression]]\nname = \"{name}\"\nfile = \"src/a.rs\"\nstudy = \"{study}\"\nsays = \"{says}\"\n\
+        "[[regression]]\nname = \"{name}\"\nmethod = [\"both\"]\nfile = \"src/a.rs\"\nstudy = \"{study}\"\nsays = \"{says}\"\n\
          [[regression.edits]]\nold = \"{old}\"\nnew = \"{new}\"\n"
     )
 }
@@ -57,6 +67,15 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
     assert!(ended.stdout.contains("2 of 2 mistakes are noticed"), "{}", ended.stdout);
     let page = fs::read_to_string(root.join("reports/regressions.md")).expect("a report");
     assert!(page.contains("| two for one") && page.contains("s: velocity: the rate is low"), "{page}");
+    assert!(page.contains("| written | 2 of 2 |") && page.contains("- **moved**, `src/a.rs`: method right"), "{page}");
+    let prints = fs::read_to_string(root.join(".cargo/fingerprints.json")).expect("fingerprints");
+    assert!(prints.contains(r#""items":{"s: velocity fails":1.0}"#), "{prints}");
+    // What was found is kept: only the run without a mistake is repeated.
+    let runs = || fs::read_to_string(root.join("target/regressions/runs")).expect("runs").lines().count();
+    assert_eq!(runs(), 3);
+    fs::remove_file(root.join(".cargo/fingerprints.json")).expect("a file");
+    assert_eq!(regressions(&root, &noticed, &[]).status, Some(0));
+    assert_eq!(runs(), 4);
     // Another study, other words, or a change that is none.
     for unnoticed in [["s", "error moved"], ["t", "velocity"], ["u", ""]] {
         let list = noticed.clone() + &entry("unseen", ["1", "4"], unnoticed);

@@ -1,0 +1,167 @@
+//! Whether the diagnosis of each mistake names method, term or field, and module: the table of `reports/regressions.md`, and the
+//! fingerprints that later runs are compared with.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use convergence_study::cli::exit::Unusable;
+use convergence_study::cli::workspace;
+use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose};
+use convergence_study::study::settings::Setting;
+
+use super::list::Regression;
+use super::planted::Found;
+
+/// Lines of a diagnosis that are shown: what fails, what moved first, what it resembles.
+const SHOWN: [&str; 3] = ["fails", "first", "resembles"];
+
+/// Methods that are both wrong where neither is to be named.
+const METHODS: [&str; 2] = ["one-step schemes", "any order"];
+
+/// A mistake, what was found, and how it is diagnosed.
+pub(super) struct Judged<'r> {
+    pub(super) regression: &'r Regression,
+    pub(super) found: Found,
+    place: String,
+    print: Fingerprint,
+    diagnosis: Diagnosis,
+    /// Whether method, term or field, and module are right; nothing where none was declared.
+    right: [Option<bool>; 3],
+}
+
+/// Diagnoses every mistake by the fingerprints of the others, those of the same function left out.
+///
+/// # Errors
+/// Study files that cannot be read.
+pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Result<Vec<Judged<'r>>, Unusable> {
+    let files = workspace::studies(&crate::PROJECT, root)?;
+    let settings: BTreeMap<&str, &Vec<Setting>> =
+        files.iter().map(|file| file.study.header()).map(|header| (header.id.as_str(), &header.settings)).collect();
+    let mut all: Vec<Judged<'r>> = vec![];
+    for (regression, mut found) in found {
+        for study in &mut found.record.studies {
+            study.header.settings = settings.get(study.header.id.as_str()).map_or(vec![], |known| (*known).clone());
+        }
+        let print = Fingerprint::of(&found.record.studies, found.record.changes.as_deref().unwrap_or_default());
+        let place = regression.place(root);
+        all.push(Judged { regression, found, place, print, diagnosis: Diagnosis::default(), right: [None; 3] });
+    }
+    let threshold = threshold(&all);
+    for k in 0..all.len() {
+        let known = known(&all, threshold, &all[k].place);
+        let record = &all[k].found.record;
+        let changes = record.changes.as_deref().unwrap_or_default();
+        all[k].diagnosis = diagnose(&crate::PROJECT, &record.studies, changes, &known).unwrap_or_default();
+        all[k].right = right(all[k].regression, &all[k].diagnosis);
+    }
+    Ok(all)
+}
+
+/// The fingerprints of all, but for mistakes in the function `place`.
+fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
+    let others = all.iter().filter(|one| one.place != place);
+    let known = others.map(|Judged { regression, print, .. }| Known {
+        mistake: regression.name.clone(),
+        file: regression.file.clone(),
+        items: print.clone(),
+    });
+    Fingerprints { threshold, known: known.collect() }
+}
+
+/// The least likeness from which on the nearest of the others is oftener in the same module than not.
+fn threshold(all: &[Judged<'_>]) -> f64 {
+    let mut nearest: Vec<(f64, bool)> = vec![];
+    for one in all {
+        let others = known(all, 0.0, &one.place);
+        if let Some(first) = others.nearest(&one.print).first() {
+            nearest.push((first.likeness, first.file.starts_with(one.regression.module())));
+        }
+    }
+    nearest.sort_by(|(one, _), (next, _)| next.total_cmp(one));
+    let (mut least, mut right) = (1.0, 0);
+    for (count, (likeness, is_right)) in nearest.iter().enumerate() {
+        right += usize::from(*is_right);
+        if 2 * right > count {
+            least = *likeness;
+        }
+    }
+    least
+}
+
+fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
+    let values: Vec<&str> = diagnosis.contrast.settings.iter().map(|(_, value)| value.as_str()).collect();
+    let names = |word: &String| match word.as_str() {
+        "both" => !values.iter().any(|value| METHODS.contains(value)),
+        word => values.contains(&word),
+    };
+    let field = diagnosis.first.first().map(|field| field.name.as_str());
+    let about = |word: &String| names(word) || field == Some(word.as_str());
+    let module = regression.module();
+    let place = diagnosis.look_at.iter().any(|place| place.contains(module))
+        || diagnosis.resembles.iter().any(|one| one.file.starts_with(module));
+    let of = |words: &[String], names: &dyn Fn(&String) -> bool| (!words.is_empty()).then(|| words.iter().any(names));
+    [of(&regression.method, &names), of(&regression.about, &about), Some(place)]
+}
+
+/// The fingerprints as they are committed.
+pub(super) fn fingerprints(all: &[Judged<'_>]) -> Fingerprints {
+    known(all, threshold(all), "")
+}
+
+/// The scores, of the mistakes that were written and of those drawn at random, and what is said of each.
+///
+/// * `passing`: seconds of a run without a mistake.
+pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
+    let [written, drawn] =
+        [false, true].map(|mutant| -> Vec<_> { all.iter().filter(|one| one.regression.mutant == mutant).collect() });
+    let mut page = "## How well causes are named\n\n| mistakes | noticed | method | term or field | module | commonest answers | lines, at most | times a passing run, median | worst |\n| --- | --: | --: | --: | --: | --- | --: | --: | --: |\n".to_owned();
+    page += &(scores("written", &written, passing) + &scores("drawn at random", &drawn, passing));
+    page += "\nRight are those of which the diagnosis names what was declared beside the mistake. \"Commonest answers\" is the score of always giving the commonest one.\n\n## What is said of each\n\n";
+    page + &all.iter().map(said).collect::<String>()
+}
+
+fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
+    let noticed: Vec<&&Judged<'_>> = all.iter().filter(|one| !one.found.record.verdict.is_pass()).collect();
+    let score = |which: usize| {
+        let judged: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
+        percent(judged.iter().filter(|right| **right).count(), judged.len())
+    };
+    let of = |words: &dyn Fn(&Regression) -> Vec<String>| {
+        let declared: Vec<Vec<String>> =
+            noticed.iter().map(|one| words(one.regression)).filter(|words| !words.is_empty()).collect();
+        let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
+        declared.iter().flatten().for_each(|word| *counts.entry(word).or_default() += 1);
+        percent(counts.values().max().copied().unwrap_or(0), declared.len())
+    };
+    let commonest =
+        [of(&|one| one.method.clone()), of(&|one| one.about.clone()), of(&|one| vec![one.module().to_owned()])];
+    let mut times: Vec<f64> = noticed.iter().map(|one| one.found.seconds / passing).collect();
+    times.sort_by(f64::total_cmp);
+    let lines = noticed.iter().map(|one| one.found.lines).max().unwrap_or(0);
+    let [median, worst] = [times.get(times.len() / 2), times.last()].map(|time| time.copied().unwrap_or(f64::NAN));
+    format!(
+        "| {name} | {} of {} | {} | {} | {} | {} | {lines} | {median:.1} | {worst:.1} |\n",
+        noticed.len(),
+        all.len(),
+        score(0),
+        score(1),
+        score(2),
+        commonest.join(", ")
+    )
+}
+
+fn percent(part: usize, whole: usize) -> String {
+    format!("{part}/{whole} ({:.0} %)", 100.0 * part as f64 / whole.max(1) as f64)
+}
+
+fn said(one: &Judged<'_>) -> String {
+    let Judged { regression, found, diagnosis, right, .. } = one;
+    let is_right = right.map(|right| right.map_or("-", |right| if right { "right" } else { "wrong" }));
+    let head = format!("- **{}**, `{}`: ", regression.name, regression.file);
+    if found.record.verdict.is_pass() {
+        return head + "not noticed\n";
+    }
+    let head = format!("{head}method {}, term or field {}, module {}\n", is_right[0], is_right[1], is_right[2]);
+    let lines = diagnosis.lines().into_iter().filter(|(word, _)| SHOWN.contains(word));
+    lines.fold(head, |text, (word, words)| format!("{text}  - {word}: {words}\n"))
+}

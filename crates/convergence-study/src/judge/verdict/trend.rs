@@ -15,7 +15,7 @@ const TURN: f64 = 3.0;
 const TURN_AFTER_POLLUTION: f64 = 2.0;
 
 /// Shares of the tolerance beyond which changes count: three in a row, two in a row, one against the one before, one against fading pollution.
-const DEPARTED: [f64; 4] = [0.1, 1.0 / 6.0, 0.5, 0.2];
+const DEPARTED: [f64; 4] = [0.05, 1.0 / 6.0, 1.0, 0.15];
 
 /// An error is off the line through its neighbours where it is this many times larger or smaller.
 const OFF_THE_LINE: f64 = 2.0;
@@ -173,11 +173,11 @@ mod tests {
     #[test]
     fn a_departure_is_a_change_that_grows() {
         for (changes, tolerance, expected) in [
-            // Three in a row, each larger than the one before, over more than a tenth of the tolerance.
+            // Three in a row, each larger than the one before, over more than a twentieth of the tolerance.
             (&[-1.0, -1.25, -1.5][..], 32.0, true),
             (&[1.0, 1.25, 1.5], 32.0, true),
-            (&[-1.0, -1.25, -1.5], 37.0, true),
-            (&[-1.0, -1.25, -1.5], 38.0, false),
+            (&[-1.0, -1.25, -1.5], 74.0, true),
+            (&[-1.0, -1.25, -1.5], 76.0, false),
             (&[-1.5, -1.25, -1.5], 32.0, false),
             (&[-1.0, -1.5, -1.5], 32.0, false),
             (&[1.0, -1.25, -1.5], 32.0, false),
@@ -187,17 +187,17 @@ mod tests {
             (&[1.0, 1.5], 14.5, true),
             (&[-1.0, -1.5], 15.5, false),
             (&[-1.0, -1.25], 8.0, false),
-            // One against the one before and three times as large, over more than half.
-            (&[1.0, -3.5], 6.5, true),
-            (&[-1.0, 3.5], 6.5, true),
-            (&[0.0, -3.5], 6.5, true),
-            (&[1.0, -3.5], 7.5, false),
-            (&[1.0, -2.5], 4.0, false),
-            (&[0.5, 1.0, -3.5], 8.0, false),
-            // After pollution that fades twice as large, over more than a fifth.
-            (&[1.5, 1.0, -2.5], 12.0, true),
-            (&[-1.5, -1.0, 2.5], 12.0, true),
-            (&[1.5, 1.0, -2.5], 13.0, false),
+            // One against the one before and three times as large, over more than the tolerance.
+            (&[1.0, -3.5], 3.25, true),
+            (&[-1.0, 3.5], 3.25, true),
+            (&[0.0, -3.5], 3.25, true),
+            (&[1.0, -3.5], 3.75, false),
+            (&[1.0, -2.5], 2.0, false),
+            (&[0.5, 1.0, -3.5], 4.0, false),
+            // After pollution that fades twice as large, over more than 0.15.
+            (&[1.5, 1.0, -2.5], 16.0, true),
+            (&[-1.5, -1.0, 2.5], 16.0, true),
+            (&[1.5, 1.0, -2.5], 17.0, false),
             (&[1.5, 1.0, -1.75], 6.0, false),
             (&[0.5, 1.0, -2.5], 12.0, false),
             (&[1.5, -1.0, -1.25], 12.0, false),

@@ -36,6 +36,7 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
         not_finite: vec![],
         untested: vec![],
         spent: Spent::default(),
+        work: vec![],
     }
 }
 

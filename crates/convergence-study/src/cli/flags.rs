@@ -55,7 +55,7 @@ fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
 impl Flags {
     /// Threads and time of a run; as many threads as the machine has where no number is given.
     pub fn effort(&self, case_limit: Option<Duration>) -> Effort {
-        Effort { jobs: screen::jobs(self.jobs), case_limit }
+        Effort { jobs: screen::jobs(self.jobs), case_limit, fail_fast: false }
     }
 
     /// What a command found, for people: all of it, or with `--quiet` the verdict in a sentence.

@@ -1,17 +1,11 @@
 //! `list`: the studies with their last verdicts and their costs.
 
-use std::collections::HashMap;
-use std::fs;
-use std::path::Path;
-use std::time::SystemTime;
-
-use super::exit::{Ended, Outcome, Unusable};
+use super::earlier::Earlier;
+use super::exit::{Ended, Outcome};
 use super::flags::Flags;
 use crate::cli::{screen, selection, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::store::provenance::Provenance;
-use crate::store::record::Record;
 use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
 
@@ -162,57 +156,4 @@ mod tests {
         let (_, head) = fitted(&mut rows, 10);
         assert_eq!(rows[0][head.len() - 1].chars().count(), NARROWEST);
     }
-}
-
-/// Where `verify` leaves its records, below the workspace; of two of the same age the later one counts.
-const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
-
-/// Where `verify` leaves the times of its last run.
-const TIMES: &str = "reports/local/provenance.json";
-
-/// By study.
-#[derive(Debug, Default)]
-struct Earlier {
-    verdicts: HashMap<String, Verdict>,
-    seconds: HashMap<String, f64>,
-}
-
-impl Earlier {
-    /// Reads what there is.
-    ///
-    /// # Errors
-    /// A file that is there and cannot be read, or is no record.
-    fn read(root: &Path) -> Result<Self, Unusable> {
-        let mut records: Vec<(SystemTime, Record)> = vec![];
-        for path in RECORDS.map(|path| root.join(path)).iter().filter(|path| is_there(path)) {
-            let written = fs::metadata(path).and_then(|data| data.modified());
-            records.push((written.map_err(|error| Unusable::file(path, &error))?, Record::read(path)?));
-        }
-        // Stable, so that the order of RECORDS decides between equals; a later one overwrites.
-        records.sort_by_key(|(written, _)| *written);
-        let studies = records.into_iter().flat_map(|(_, record)| record.studies);
-        let verdicts = studies.map(|study| (study.header.id, study.outcome.verdict)).collect();
-        let times = root.join(TIMES);
-        let times = Provenance::read(&times)
-            .map_err(|error| Unusable::file(&times, &error))?
-            .into_iter()
-            .flat_map(|provenance| provenance.studies);
-        let seconds = times.map(|study| (study.id, study.busy_seconds)).collect();
-        Ok(Self { verdicts, seconds })
-    }
-
-    /// The verdict of the newest record that has the study.
-    fn verdict(&self, id: &str) -> Option<Verdict> {
-        self.verdicts.get(id).copied()
-    }
-
-    /// Its time over all threads, if it was in the last run on this machine.
-    fn seconds(&self, id: &str) -> Option<f64> {
-        self.seconds.get(id).copied()
-    }
-}
-
-/// Whether there is anything at that place, be it something that cannot be read.
-fn is_there(path: &Path) -> bool {
-    path.symlink_metadata().is_ok()
 }

@@ -6,6 +6,7 @@
 
 mod compare;
 mod completions;
+mod earlier;
 pub mod exit;
 mod explain;
 pub mod flags;

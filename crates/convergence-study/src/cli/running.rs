@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::cli::interrupt;
+use crate::cli::{interrupt, screen};
+use crate::judge::verdict::Verdict;
 use crate::run::{Progress, Spent};
 use crate::study::Study;
 
@@ -43,10 +44,13 @@ impl Watched {
 
     /// Shows that a case has ended.
     pub fn show(&self, progress: Progress) {
-        if let Some(id) = progress.ended.and_then(|study| self.ids.get(study)) {
-            self.done.lock().unwrap_or_else(PoisonError::into_inner).push(id.clone());
+        if let Some((study, verdict)) = progress.ended {
+            self.done.lock().unwrap_or_else(PoisonError::into_inner).push(self.ids[study].clone());
+            if verdict != Verdict::Pass {
+                self.bar.0.println(format!("{}: {}", screen::verdict(verdict), self.ids[study]));
+            }
         }
-        self.bar.show(progress);
+        self.bar.show(progress, progress.running.map_or("", |study| &self.ids[study]));
     }
 
     /// Removes the bar.
@@ -101,8 +105,10 @@ impl Bar {
     }
 
     /// Moves it to the progress of the run.
-    pub fn show(&self, progress: Progress) {
-        self.0.set_message(format!("{} of {} cases", progress.done_cases, progress.cases));
+    ///
+    /// * `running`: the study that has been running longest.
+    pub fn show(&self, progress: Progress, running: &str) {
+        self.0.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
         self.0.set_position((Self::STEPS * progress.done_cost / progress.cost) as u64);
     }
 

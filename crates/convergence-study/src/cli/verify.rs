@@ -3,17 +3,17 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::exit::Outcome;
+use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched, kept};
-use crate::cli::{github, output, screen, selection, workspace};
+use crate::cli::{earlier, github, output, screen, selection, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
-use crate::run::Finished;
+use crate::run::{Effort, Finished};
 use crate::store::baseline::Change;
-use crate::store::record;
+use crate::store::record::{self, Record};
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -40,6 +40,15 @@ pub struct Arguments {
     /// Every study, also where some fail, and every number that is not what it was, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
+    /// Begin no case once a study has failed; the report is that of a selection
+    #[arg(long, conflicts_with = "bless")]
+    fail_fast: bool,
+    /// Only the studies that did not pass, or moved, in the newest record
+    #[arg(long, conflicts_with_all = ["ids", "bless"])]
+    failed: bool,
+    /// List the slowest studies
+    #[arg(long, conflicts_with = "quiet")]
+    durations: bool,
     /// Ids or patterns of studies; their reports go to reports/local/partial/
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -58,8 +67,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
-    let meant = selection::select(&headers, arguments.tier, &arguments.ids, &list)?;
-    let scope = scope(arguments.tier, &arguments.ids, &all);
+    let ids = if arguments.failed { failed(&root)? } else { arguments.ids.clone() };
+    let meant = selection::select(&headers, arguments.tier, &ids, &list)?;
+    let scope = match scope(arguments.tier, &ids, &all) {
+        // Studies may be missing: it is no report on a tier.
+        Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
+        scope => scope,
+    };
     let mut studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
@@ -69,7 +83,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         studies.iter_mut().for_each(|study| study.compute_anew());
     }
     let flags = &arguments.flags;
-    let effort = flags.effort(arguments.limits.case_limit);
+    let effort = Effort { fail_fast: arguments.fail_fast, ..flags.effort(arguments.limits.case_limit) };
     let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
     let request = Request { scope, effort, bless: *bless, reason: reason.clone(), only: only.clone(), root, reports };
     let watched = Watched::new(&studies, !flags.quiet);
@@ -83,6 +97,17 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     })?;
     github::announce(&Findings { project, record: &record, see_also: None, provenance: None }, flags.format);
     Ok(verification.verdict.into())
+}
+
+/// The studies that did not pass, or of which a number moved, in the newest record.
+fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
+    let Some(Record { changes, studies, .. }) = earlier::records(root)?.pop() else {
+        return Err(Unusable::because("--failed: found no record of a run; expected reports/results.json"));
+    };
+    let moved = |id: &str| changes.iter().flatten().any(|change| change.study == id);
+    let ids = studies.into_iter().filter(|study| study.outcome.verdict != Verdict::Pass || moved(&study.header.id));
+    let ids: Vec<String> = ids.map(|study| study.header.id).collect();
+    if ids.is_empty() { Err(Unusable::because("--failed: nothing failed in the newest record")) } else { Ok(ids) }
 }
 
 /// A reason: it is kept in a file that people read, one line of text.
@@ -108,7 +133,7 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments, took: Duration) -> String {
     let Arguments { verbose, flags: Flags { quiet, .. }, .. } = arguments;
     let (verdict, sentence) = (screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)));
-    let table = if *quiet { String::new() } else { overview(found, request, *verbose) };
+    let table = if *quiet { String::new() } else { overview(found, request, arguments) };
     if found.verdict == Verdict::Pass {
         return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found, request));
     }
@@ -139,7 +164,8 @@ fn blessed(project: &Project, found: &Verification, request: &Request) -> String
 }
 
 /// The table of studies where all pass or all are wanted, how many more fail where not, and where the reports are.
-fn overview(found: &Verification, request: &Request, verbose: bool) -> String {
+fn overview(found: &Verification, request: &Request, Arguments { verbose, durations, .. }: &Arguments) -> String {
+    let (verbose, durations) = (*verbose, *durations);
     let mut text = String::new();
     let shown = found.diagnosis.as_ref().map_or(0, |diagnosis| diagnosis.clearest.len());
     if verbose || found.verdict == Verdict::Pass {
@@ -150,6 +176,13 @@ fn overview(found: &Verification, request: &Request, verbose: bool) -> String {
         let more = failing.saturating_sub(shown);
         let rest = if more > 0 { format!("{more} more: ") } else { String::new() };
         text += &format!("{rest}--verbose lists every study and every number that changed\n");
+    }
+    if durations {
+        let mut slowest: Vec<&Finished> = found.finished.iter().collect();
+        slowest.sort_by_key(|study| std::cmp::Reverse(study.spent.busy));
+        let row = |study: &&Finished| vec![format!("{:.2}", study.spent.busy.as_secs_f64()), study.header.id.clone()];
+        let rows: Vec<Vec<String>> = slowest.iter().take(SLOWEST).map(row).collect();
+        text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
     }
     for Finished { header, spent, .. } in &found.finished {
         text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
@@ -171,6 +204,9 @@ fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
 fn below(path: &Path, root: &Path) -> String {
     visible::path(path.strip_prefix(root).unwrap_or(path))
 }
+
+/// Studies that `--durations` lists.
+const SLOWEST: usize = 10;
 
 /// Changes that are listed one by one; more are grouped by their cause.
 const LISTED: usize = 6;

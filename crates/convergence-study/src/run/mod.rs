@@ -12,6 +12,8 @@ pub mod time_limit;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -46,6 +48,9 @@ pub struct Finished {
     /// The time that it took, which differs from run to run.
     #[serde(skip)]
     pub spent: Spent,
+    /// The work that each case has counted, by its label: the same at every run, and guarded by nothing.
+    #[serde(skip)]
+    pub work: Vec<(String, u64)>,
 }
 
 /// A case without a result.
@@ -89,11 +94,16 @@ pub struct Effort {
     pub jobs: NonZeroUsize,
     /// The longest time that a case may take; `None` for no limit.
     pub case_limit: Option<Duration>,
+    /// Whether no case begins once a study has failed: those that had not ended are then left out.
+    pub fail_fast: bool,
 }
+
+/// The most work that a case may do, by its study and its label; `None` for no limit.
+pub type Allowed<'a> = &'a (dyn Fn(&Header, &str) -> Option<u64> + Sync);
 
 impl From<NonZeroUsize> for Effort {
     fn from(jobs: NonZeroUsize) -> Self {
-        Self { jobs, case_limit: None }
+        Self { jobs, case_limit: None, fail_fast: false }
     }
 }
 
@@ -113,9 +123,22 @@ pub fn run(
     effort: impl Into<Effort>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
+    run_within(studies, effort.into(), &|_, _| None, progress)
+}
+
+/// The same with a limit on the work of each case: a case that goes past it fails.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_within(
+    studies: &[Box<dyn Study>],
+    effort: Effort,
+    allowed: Allowed<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
     refuse_duplicates(studies)?;
     let planned = studies.iter().map(|study| Planned::new(study.header(), || study.plan()));
-    run_planned(planned.collect(), effort.into(), progress)
+    run_planned(planned.collect(), effort, allowed, progress)
 }
 
 /// Runs one study on all threads of the machine, as [`run`] does.
@@ -124,7 +147,7 @@ pub fn run(
 /// The operating system refuses the threads.
 pub fn run_one<K: Kind>(study: &K) -> Finished {
     let planned = vec![Planned::new(study.header(), || plan(study))];
-    let finished = run_planned(planned, available().into(), &|_| {}).map(|mut finished| finished.pop());
+    let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {}).map(|mut finished| finished.pop());
     finished.expect("the threads are refused").expect("a study that was run")
 }
 
@@ -135,15 +158,20 @@ pub fn available() -> NonZeroUsize {
 
 fn run_planned(
     planned: Vec<Planned<'_>>,
-    Effort { jobs, case_limit }: Effort,
+    effort: Effort,
+    allowed: Allowed<'_>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
     let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
     // Threads without a case would only be started and ended.
-    let pool = ThreadPoolBuilder::new().num_threads(jobs.get().min(cases.max(1))).build()?;
-    let done = run_cases(&pool, &planned, case_limit, progress);
-    // Figures are drawn here, which takes its time too.
-    Ok(pool.install(|| planned.into_par_iter().zip(done).map(|(planned, done)| conclude(planned, &done)).collect()))
+    let pool = ThreadPoolBuilder::new().num_threads(effort.jobs.get().min(cases.max(1))).build()?;
+    run_cases(&pool, &planned, effort, allowed, progress);
+    // A study without cases ends here. With `fail_fast` others may not have ended: they are left out.
+    let of = |planned: Planned<'_>| {
+        let own = || planned.cases.is_empty().then(|| conclude(&planned, &[]));
+        planned.finished.get().cloned().or_else(own)
+    };
+    Ok(planned.into_iter().filter_map(of).collect())
 }
 
 /// A study and its plan, or the message of the panic that listing its cases ended in.
@@ -151,6 +179,8 @@ struct Planned<'s> {
     header: &'s Header,
     plan: Result<Box<dyn Plan + 's>, String>,
     cases: Vec<Case<()>>,
+    /// What it found, once its last case has ended.
+    finished: OnceLock<Finished>,
 }
 
 impl<'s> Planned<'s> {
@@ -164,7 +194,7 @@ impl<'s> Planned<'s> {
             Ok((plan, cases)) => (Ok(plan), cases),
             Err(reason) => (Err(reason), vec![]),
         };
-        Self { header, plan, cases }
+        Self { header, plan, cases, finished: OnceLock::new() }
     }
 }
 
@@ -177,40 +207,58 @@ fn refuse_duplicates(studies: &[Box<dyn Study>]) -> Result<(), RunError> {
     }
 }
 
-/// Runs all cases; what was measured of each, for each study in the order of its cases.
+/// Runs all cases. A study is judged, and its figures are drawn, once its last case has ended.
 fn run_cases(
     pool: &ThreadPool,
     planned: &[Planned<'_>],
-    limit: Option<Duration>,
+    effort: Effort,
+    allowed: Allowed<'_>,
     progress: &(dyn Fn(Progress) + Sync),
-) -> Vec<Vec<Done>> {
+) {
     let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
     let counter = Counter::new(&jobs, progress);
+    let stopped = AtomicBool::new(false);
     let run = |job: Job| {
-        let mut done = vec![run_case(&planned[job.study], limit, job)];
-        let is_last = counter.leave(&job);
-        if let (true, Ok(plan)) = (is_last, &planned[job.study].plan) {
-            // A study that asks for more cases gets them one after the other, on this thread.
-            while let Some(case) = caught(|| plan.more()).unwrap_or_else(|reason| {
-                plan.fail(job.case, CaseFailure { reason });
-                None
-            }) {
-                done.push(run_case(&planned[job.study], limit, Job { case, ..job }));
-            }
+        let planned = &planned[job.study];
+        if stopped.load(Ordering::Relaxed) {
+            return;
         }
-        counter.count(&job, is_last);
-        done
+        counter.enter(&job);
+        let first = run_case(planned, effort.case_limit, allowed, job);
+        let ended = counter.leave(&job, first).map(|mut done| {
+            // A study that asks for more cases gets them one after the other, on this thread.
+            let more = |plan: &dyn Plan| {
+                caught(|| plan.more()).unwrap_or_else(|reason| {
+                    plan.fail(job.case, CaseFailure { reason });
+                    None
+                })
+            };
+            while let Some(case) = planned.plan.as_ref().ok().and_then(|plan| more(plan.as_ref())) {
+                done.push(run_case(planned, effort.case_limit, allowed, Job { case, ..job }));
+            }
+            let finished = conclude(planned, &done);
+            let verdict = finished.outcome.verdict;
+            // It is set once, by the last case of the study.
+            let _ = planned.finished.set(finished);
+            stopped.fetch_or(effort.fail_fast && verdict == Verdict::Fail, Ordering::Relaxed);
+            verdict
+        });
+        counter.count(&job, ended);
     };
     // A parallel iterator over the vector would cut it in halves; the bridge hands out one job after the other.
-    let done: Vec<Done> = pool.install(|| jobs.into_iter().par_bridge().flat_map_iter(run).collect());
-    queue::in_order(done, planned.len())
+    pool.install(|| jobs.into_iter().par_bridge().for_each(run));
 }
 
-/// Runs one case, within the limit of its time.
-fn run_case(planned: &Planned<'_>, limit: Option<Duration>, job: Job) -> Done {
+/// Runs one case, within the limits of its time and of its work.
+fn run_case(planned: &Planned<'_>, limit: Option<Duration>, allowed: Allowed<'_>, job: Job) -> Done {
     job.time(|| {
-        let Ok(plan) = &planned.plan else { return };
-        let (ended, up) = time_limit::within(limit, || caught(|| plan.run(job.case)));
+        let Ok(plan) = &planned.plan else { return 0 };
+        // Cases that were asked for later are the plan's alone.
+        let label = planned.cases.get(job.case).map(|case| case.label.clone());
+        let label = label.or_else(|| plan.cases().get(job.case).map(|case| case.label.clone()));
+        let most = allowed(planned.header, &label.unwrap_or_default());
+        let run = || time_limit::within(limit, || caught(|| plan.run(job.case)));
+        let ((ended, up), work) = time_limit::counted(most, run);
         if let Err(reason) = ended {
             plan.fail(job.case, CaseFailure { reason });
         }
@@ -218,12 +266,14 @@ fn run_case(planned: &Planned<'_>, limit: Option<Duration>, job: Job) -> Done {
         if let Some(up) = up {
             plan.fail(job.case, up.into());
         }
+        work
     })
 }
 
 /// The outcome of one study from the results of its cases.
-fn conclude(Planned { header, plan, .. }: Planned<'_>, done: &[Done]) -> Finished {
+fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finished {
     let mut spent = queue::spent(done);
+    let mut work = vec![];
     let started = Instant::now();
     let mut failed_cases = vec![];
     let mut outcome = match plan {
@@ -233,6 +283,7 @@ fn conclude(Planned { header, plan, .. }: Planned<'_>, done: &[Done]) -> Finishe
                 Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
             });
             failed_cases.extend(failed);
+            work.extend(done.iter().map(|done| (cases[done.case].label.clone(), done.work)));
             spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
@@ -245,7 +296,7 @@ fn conclude(Planned { header, plan, .. }: Planned<'_>, done: &[Done]) -> Finishe
     }
     let outcome = soundness::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
-    Finished { header: header.clone(), outcome, failed_cases, not_finite, untested: vec![], spent }
+    Finished { header: (*header).clone(), outcome, failed_cases, not_finite, untested: vec![], spent, work }
 }
 
 fn broken(what: &str, reason: &str) -> Outcome {

@@ -1,10 +1,10 @@
 //! The order in which cases are started, and the order in which their results are read.
 
-use std::cmp::Reverse;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use super::Spent;
+use crate::judge::verdict::Verdict;
 use crate::study::Case;
 
 /// Progress of a run.
@@ -18,8 +18,10 @@ pub struct Progress {
     pub done_cost: f64,
     /// Cost of all cases.
     pub cost: f64,
-    /// The study, by its place in the list, whose last case this was.
-    pub ended: Option<usize>,
+    /// The study, by its place in the list, whose last case this was, and its verdict.
+    pub ended: Option<(usize, Verdict)>,
+    /// The study whose case has been running longest.
+    pub running: Option<usize>,
 }
 
 /// One case of one study.
@@ -33,18 +35,18 @@ pub(super) struct Job {
 /// A case that has ended.
 #[derive(Debug)]
 pub(super) struct Done {
-    study: usize,
-    case: usize,
+    pub(super) case: usize,
     started: Instant,
     ended: Instant,
+    pub(super) work: u64,
 }
 
 impl Job {
-    /// Runs it and reads the clock before and after.
-    pub(super) fn time(&self, run: impl FnOnce()) -> Done {
+    /// Runs it, which returns its work, and reads the clock before and after.
+    pub(super) fn time(&self, run: impl FnOnce() -> u64) -> Done {
         let started = Instant::now();
-        run();
-        Done { study: self.study, case: self.case, started, ended: Instant::now() }
+        let work = run();
+        Done { case: self.case, started, ended: Instant::now(), work }
     }
 }
 
@@ -64,18 +66,6 @@ fn usable(cost: f64) -> f64 {
     if cost.is_finite() && cost > 0.0 { cost } else { 1.0 }
 }
 
-/// The results for each study, in the order of its cases.
-pub(super) fn in_order(mut done: Vec<Done>, studies: usize) -> Vec<Vec<Done>> {
-    done.sort_by_key(|done| Reverse((done.study, done.case)));
-    let take = |study| {
-        let rest = done.partition_point(|done| done.study > study);
-        let mut own = done.split_off(rest);
-        own.reverse();
-        own
-    };
-    (0..studies).map(take).collect()
-}
-
 /// The time that the cases of a study took.
 pub(super) fn spent(done: &[Done]) -> Spent {
     let busy = done.iter().map(|done| done.ended - done.started).sum();
@@ -87,37 +77,58 @@ pub(super) fn spent(done: &[Done]) -> Spent {
 
 /// Counts the cases that have ended and reports the progress.
 pub(super) struct Counter<'p> {
-    /// The progress, and the number of cases left of each study.
-    now: Mutex<(Progress, Vec<usize>)>,
+    now: Mutex<Now>,
     report: &'p (dyn Fn(Progress) + Sync),
+}
+
+struct Now {
+    progress: Progress,
+    /// What the cases of each study took that have ended, and how many are left.
+    studies: Vec<(Vec<Done>, usize)>,
+    /// The studies of the cases that run, those first that began first.
+    running: Vec<usize>,
 }
 
 impl<'p> Counter<'p> {
     pub(super) fn new(jobs: &[Job], report: &'p (dyn Fn(Progress) + Sync)) -> Self {
         let cost = jobs.iter().map(|job| job.cost).sum();
-        let now = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None };
-        let studies = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
-        let mut left = vec![0; studies];
-        jobs.iter().for_each(|job| left[job.study] += 1);
-        Self { now: Mutex::new((now, left)), report }
+        let progress = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None, running: None };
+        let count = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
+        let mut studies: Vec<(Vec<Done>, usize)> = (0..count).map(|_| (vec![], 0)).collect();
+        jobs.iter().for_each(|job| studies[job.study].1 += 1);
+        Self { now: Mutex::new(Now { progress, studies, running: vec![] }), report }
     }
 
-    /// Takes note that a case has ended; whether it was the last of its study.
-    pub(super) fn leave(&self, job: &Job) -> bool {
-        let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
-        state.1[job.study] -= 1;
-        state.1[job.study] == 0
+    fn now(&self) -> MutexGuard<'_, Now> {
+        self.now.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes note that a case begins.
+    pub(super) fn enter(&self, job: &Job) {
+        self.now().running.push(job.study);
+    }
+
+    /// Takes note that a case has ended; what all cases of its study took, where it was the last.
+    pub(super) fn leave(&self, job: &Job, done: Done) -> Option<Vec<Done>> {
+        let mut now = self.now();
+        let (all, left) = &mut now.studies[job.study];
+        all.push(done);
+        *left -= 1;
+        (*left == 0).then(|| std::mem::take(all))
     }
 
     /// Reports while it holds the lock, so that the reported numbers only grow.
     ///
-    /// * `is_last`: whether its study has ended with it.
-    pub(super) fn count(&self, job: &Job, is_last: bool) {
-        let mut state = self.now.lock().unwrap_or_else(PoisonError::into_inner);
-        let now = &mut state.0;
-        now.ended = is_last.then_some(job.study);
-        now.done_cases += 1;
-        now.done_cost += job.cost;
-        (self.report)(*now);
+    /// * `ended`: the verdict on its study, where that has ended with it.
+    pub(super) fn count(&self, job: &Job, ended: Option<Verdict>) {
+        let mut now = self.now();
+        let place = now.running.iter().position(|study| *study == job.study);
+        place.map(|place| now.running.remove(place));
+        let running = now.running.first().copied();
+        let progress = &mut now.progress;
+        (progress.ended, progress.running) = (ended.map(|verdict| (job.study, verdict)), running);
+        progress.done_cases += 1;
+        progress.done_cost += job.cost;
+        (self.report)(*progress);
     }
 }

@@ -3,6 +3,8 @@
 //! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
 //! case, and every time loop asks its own [`Patience`] before a step. The clock is read about once a millisecond, and not at all where
 //! there is no limit. What is computed is the same with a limit and without.
+//!
+//! The rounds are counted, too. A limit on that work ends a case at the same step on every machine.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -11,14 +13,25 @@ use thiserror::Error;
 
 /// The limit was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("stopped at the limit of {} s, after step {step}, t = {t}", .limit.as_secs_f64())]
+#[error("stopped at the limit of {}, after step {step}, t = {t}", self.allowed())]
 pub struct TimeUp {
     /// Steps, or whatever the case counts, that were done.
     pub step: usize,
     /// Simulated time reached.
     pub t: f64,
-    /// The limit.
+    /// The limit of time; none of it is left where that of work was reached.
     pub limit: Duration,
+    /// The limit of work, where it was that.
+    pub work: Option<u64>,
+}
+
+impl TimeUp {
+    fn allowed(&self) -> String {
+        match self.work {
+            Some(work) => format!("{work} node-steps, three times what it took when blessed (work)"),
+            None => format!("{} s", self.limit.as_secs_f64()),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +43,17 @@ struct Deadline {
 thread_local! {
     static DEADLINE: Cell<Option<Deadline>> = const { Cell::new(None) };
     static REACHED: Cell<Option<TimeUp>> = const { Cell::new(None) };
+    /// Work that this thread has counted of its case, and the most that the case may do.
+    static WORK: Cell<(u64, Option<u64>)> = const { Cell::new((0, None)) };
+}
+
+/// Runs a case on this thread, with a limit on its work or without.
+///
+/// * Returns the result of `case`, and the work that its loops have counted: the same at every run.
+pub(crate) fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
+    let before = WORK.replace((0, most));
+    let result = case();
+    (result, WORK.replace(before).0)
 }
 
 /// Runs a case on this thread, with a limit or without.
@@ -55,9 +79,11 @@ pub fn granted() -> Option<Duration> {
 #[derive(Debug, Clone)]
 pub struct Patience {
     deadline: Option<Deadline>,
-    /// Work of a round and work since the clock was read, in units of some 10 to 100 ns.
+    /// Work of a round and work since it was last added up, in units of some 10 to 100 ns.
     round: usize,
     since: usize,
+    /// Whether the clock has been read.
+    begun: bool,
 }
 
 impl Patience {
@@ -69,8 +95,7 @@ impl Patience {
     /// For rounds that each advance so many elements by a step.
     pub fn new(elements: usize) -> Self {
         let round = elements.saturating_add(Self::STEP);
-        // Rounds that cost nothing until the first look would let a loop of few, long ones go on.
-        Self { deadline: DEADLINE.get(), round, since: Self::WORK }
+        Self { deadline: DEADLINE.get(), round, since: 0, begun: false }
     }
 
     /// For rounds of another kind, each long enough for a look at the clock.
@@ -85,16 +110,21 @@ impl Patience {
     /// # Errors
     /// [`TimeUp`] where the limit is reached.
     pub fn check(&mut self, step: usize, t: impl FnOnce() -> f64) -> Result<(), TimeUp> {
-        let Some(Deadline { at, limit }) = self.deadline else { return Ok(()) };
         self.since = self.since.saturating_add(self.round);
-        if self.since < Self::WORK {
+        // A loop of few, long rounds is not to go on until the first look.
+        if self.since < Self::WORK && self.begun {
             return Ok(());
         }
-        self.since = 0;
-        if Instant::now() < at {
+        let (done, most) = WORK.get();
+        let done = done + self.since as u64;
+        WORK.set((done, most));
+        (self.since, self.begun) = (0, true);
+        let work = most.filter(|most| done > *most);
+        let late = self.deadline.filter(|deadline| Instant::now() >= deadline.at);
+        if work.is_none() && late.is_none() {
             return Ok(());
         }
-        let up = TimeUp { step, t: t(), limit };
+        let up = TimeUp { step, t: t(), limit: late.map_or(Duration::ZERO, |deadline| deadline.limit), work };
         REACHED.set(Some(up));
         Err(up)
     }
@@ -127,9 +157,22 @@ mod tests {
     fn a_limit_is_reported_with_step_and_time_and_ends_with_its_case() {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
-        assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit }));
+        assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit, work: None }));
         assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s, after step "));
         assert_eq!(rounds(None, 1000, Duration::ZERO), (1000, None));
+    }
+
+    #[test]
+    fn a_limit_on_work_ends_a_case_at_the_same_round_every_time() {
+        let run = |most| counted(most, || rounds(None, 100_000, Duration::ZERO));
+        let (whole, work) = run(None);
+        assert_eq!(whole, (100_000, None));
+        assert!((10_700_000..10_800_000).contains(&work), "{work}");
+        let (stopped, done) = run(Some(1_000_000));
+        let up = stopped.1.expect("a limit");
+        assert!(up.work == Some(1_000_000) && done > 1_000_000 && stopped.0 < 10_000, "{up}");
+        assert_eq!(run(Some(1_000_000)), (stopped, done));
+        assert!(up.to_string().ends_with("t = 0.5") && up.to_string().contains("(work)"), "{up}");
     }
 
     #[test]

@@ -8,6 +8,7 @@ pub mod junit;
 pub mod provenance;
 pub mod record;
 pub mod regular;
+pub mod work;
 pub mod writing;
 
 use std::io;

@@ -120,7 +120,7 @@ pub trait Plan: Send + Sync {
     fn is_kept(&self, index: usize) -> bool;
 
     /// Judges the results, each case having been run.
-    fn judge(self: Box<Self>) -> Outcome;
+    fn judge(&self) -> Outcome;
 }
 
 /// A typed study as one that the runner takes.
@@ -208,7 +208,7 @@ impl<K: Kind> Plan for Typed<'_, K> {
         self.ran()[index].ok().is_some_and(|found| self.kind.is_kept(found))
     }
 
-    fn judge(self: Box<Self>) -> Outcome {
-        self.kind.judge(&self.ran.into_inner().unwrap_or_else(PoisonError::into_inner))
+    fn judge(&self) -> Outcome {
+        self.kind.judge(&self.ran())
     }
 }

@@ -72,6 +72,23 @@ pub(crate) fn the_cause_is_printed_first_and_what_passes_is_counted() {
     assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("--verbose"), "{out}");
 }
 
+pub(crate) fn what_failed_is_repeated_alone_and_the_slowest_are_listed() {
+    let root = workspace(true);
+    let (status, out, err) = run(&root, &["verify", "--failed"]);
+    assert!(status == Some(2) && out.is_empty() && err.contains("found no record of a run"), "{err}");
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    fs::write(root.path().join("studies/two.toml"), study("two", "c", 1.0)).unwrap();
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    let (status, _, err) = run(&root, &["verify", "--failed"]);
+    assert!(status == Some(2) && err.contains("nothing failed in the newest record"), "{err}");
+    fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
+    let (status, out, _) = run(&root, &["verify", "--fail-fast", "--durations"]);
+    assert!(status == Some(1) && out.contains("seconds  slowest studies\n") && out.contains("partial/index"), "{out}");
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    let (status, out, _) = run(&root, &["verify", "--failed"]);
+    assert!(status == Some(1) && out.contains(": 1 of 1 fail (two); "), "{out}");
+}
+
 pub(crate) fn a_deleted_study_is_one_change_and_is_named() {
     let root = workspace(false);
     fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();

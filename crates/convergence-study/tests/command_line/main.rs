@@ -23,7 +23,7 @@ use changes::{
 use failing::{
     a_changed_claim_fails_until_it_is_blessed_with_a_reason, a_deleted_study_is_one_change_and_is_named,
     claims_of_the_full_tier_are_compared_in_the_quick_one, the_cause_is_printed_first_and_what_passes_is_counted,
-    the_page_links_to_what_is_there_of_the_full_tier,
+    the_page_links_to_what_is_there_of_the_full_tier, what_failed_is_repeated_alone_and_the_slowest_are_listed,
 };
 
 const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
@@ -48,7 +48,11 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 30] = [
+const TESTS: [Test; 31] = [
+    (
+        "what_failed_is_repeated_alone_and_the_slowest_are_listed",
+        what_failed_is_repeated_alone_and_the_slowest_are_listed,
+    ),
     ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
     (
         "a_changed_claim_fails_until_it_is_blessed_with_a_reason",

@@ -3,7 +3,8 @@ use std::time::Duration;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::{self, Effort, RunError};
-use convergence_study::study::Study;
+use convergence_study::store::work::Works;
+use convergence_study::study::{Header, Study};
 
 use crate::fake::{Does, finished, jobs, study};
 
@@ -60,6 +61,42 @@ fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
     let [stopped] = &finished[0].failed_cases[..] else { panic!("{:?}", finished[0].failed_cases) };
     assert!(stopped.reason.starts_with("stopped at the limit of 0.05 s, after step "), "{}", stopped.reason);
     assert_eq!((finished[0].outcome.verdict, finished[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
+}
+
+#[test]
+fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads() {
+    let allowed = |header: &Header, label: &str| (header.id == "dawdles" && label == "n = 16").then_some(1_000_000);
+    let run = |count| {
+        let studies = vec![study("dawdles", Does::Dawdle), study("converges", Does::Converge)];
+        run::run_within(&studies, jobs(count).into(), &allowed, &|_| {}).unwrap()
+    };
+    let [one, two] = [run(1), run(2)];
+    let [stopped] = &one[0].failed_cases[..] else { panic!("{:?}", one[0].failed_cases) };
+    assert!(
+        stopped.reason.starts_with("stopped at the limit of 1000000 node-steps, three times"),
+        "{}",
+        stopped.reason
+    );
+    assert_eq!((&one[0].failed_cases, &one[0].work), (&two[0].failed_cases, &two[0].work));
+    assert_eq!((one[0].outcome.verdict, one[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
+    // What a blessing allows: three times as much, and a fiftieth of all.
+    let mut works = Works::default();
+    works.take(&one);
+    let done = one[0].work.iter().map(|(_, work)| *work).max().unwrap();
+    let header = |id: &str| Header::new(id, "c");
+    assert_eq!(works.allowed(&header("dawdles"), "n = 16"), Some(3 * done + done / 50));
+    assert_eq!(works.allowed(&header("dawdles"), "another"), Some(3 * done + done / 50));
+    assert_eq!(works.allowed(&header("converges"), "n = 16"), None);
+}
+
+#[test]
+fn no_case_begins_once_a_study_has_failed_if_so_wished() {
+    let studies: Vec<Box<dyn Study>> = (0..50).map(|k| study(&format!("stays-{k}"), Does::Stay)).collect();
+    let effort = Effort { fail_fast: true, ..jobs(1).into() };
+    let finished = run::run(&studies, effort, &|_| {}).unwrap();
+    assert!(!finished.is_empty() && finished.len() < 50, "{}", finished.len());
+    let passing = vec![study("a", Does::Converge), study("b", Does::TooShort)];
+    assert_eq!(run::run(&passing, effort, &|_| {}).unwrap().len(), 2);
 }
 
 #[test]

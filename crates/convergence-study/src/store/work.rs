@@ -1,0 +1,76 @@
+//! The work of each case when it was blessed, beside the baseline: a later run may do three times as much.
+//!
+//! The file is `studies/work.json`. It guards nothing: it ends runs that go wrong, at the same step on every machine.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::run::Finished;
+use crate::store::{StoreError, atomic, regular};
+use crate::study::Header;
+
+/// How many times the blessed work of a case is allowed.
+const TIMES: u64 = 3;
+
+/// Share of its tier's work that a case may do beside: a small case may grow more.
+const SPARE: u64 = 50;
+
+/// Tier, study and label of a case.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
+
+impl Works {
+    /// Reads the file; nothing is limited where it is not there.
+    ///
+    /// # Errors
+    /// [`StoreError`] where it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, StoreError> {
+        let path = path.to_owned();
+        match regular::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(StoreError::File { path, error }),
+            Ok(text) => serde_json::from_str(&text).map_err(|error| {
+                let expected = "restore it, or remove it and run `verify --bless`";
+                StoreError::Malformed { path, error, expected }
+            }),
+        }
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// Those of the operating system.
+    pub fn write(&self, path: &Path) -> io::Result<()> {
+        atomic::write(path, serde_json::to_string_pretty(self).map_err(io::Error::from)? + "\n")
+    }
+
+    /// The most work that a case may do: three times that of its blessing, or of the largest case of its study where it is new, and
+    /// two per cent of its tier's; `None` for a study that was never blessed.
+    pub fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
+        let tier = self.0.get(header.tier.name())?;
+        let cases = tier.get(&header.id)?;
+        let own = cases.get(label).or_else(|| cases.values().max())?;
+        let all: u64 = tier.values().flat_map(BTreeMap::values).sum();
+        Some(TIMES * own + all / SPARE)
+    }
+
+    /// Takes the work of studies that were run; cases that count none are left out.
+    pub fn take(&mut self, finished: &[Finished]) {
+        for Finished { header, work, .. } in finished {
+            self.0.values_mut().for_each(|tier| drop(tier.remove(&header.id)));
+            let cases: BTreeMap<String, u64> = work.iter().filter(|(_, work)| *work > 0).cloned().collect();
+            if !cases.is_empty() {
+                self.0.entry(header.tier.name().to_owned()).or_default().insert(header.id.clone(), cases);
+            }
+        }
+    }
+
+    /// Whether nothing is known.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}

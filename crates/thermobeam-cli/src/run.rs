@@ -117,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     arguments.show(complaint, &object, &sentence, || {
         let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
         let worth = if planned.is_some() && known.is_none() { String::new() } else { format!("\n{worth}\n") };
-        summary::summary(scene, &run, planned.as_ref(), &written) + &worth
+        summary::summary(scene, &run, planned.as_ref().map(Planned::lines), &written) + &worth
     })
 }
 

@@ -12,8 +12,8 @@ use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate, Source};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Reason, Unreachable, Work};
 use thermobeam_study::run::family::Family;
+use thermobeam_study::run::motion::Sample;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
-use thermobeam_study::run::tally::Sample;
 use thermobeam_study::scene::{Method, Scene};
 
 /// Within the usual limit of work.

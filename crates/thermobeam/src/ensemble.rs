@@ -103,7 +103,7 @@ impl Ensemble {
     pub fn report(&self, k: usize) -> Result<StepReport, StepError> {
         self.groups[k / WIDTH].outcomes[k % WIDTH].clone().map_err(|failure| {
             let step = self.failed[k].unwrap_or(self.step);
-            StepError { step, t: step as f64 * self.dt[k], failure }
+            StepError { step, t: (step - 1) as f64 * self.dt[k], dt: self.dt[k], failure }
         })
     }
 

@@ -1,4 +1,4 @@
-//! The errors of a simulation: what failed, where and when, and what to change.
+//! The errors of a simulation, by whatever method: what failed, where and when, and what to change.
 
 use std::fmt;
 
@@ -8,12 +8,14 @@ use thiserror::Error;
 
 /// A step that failed. The simulation stays at the previous time level.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("step {step} (to t = {t}): {failure}")]
+#[error("step {step} (from t = {t}, length {dt:e}): {failure}")]
 pub struct StepError {
     /// Number n of the step, counted from 1.
     pub step: usize,
-    /// The time t_n at the end of the step.
+    /// The time at which it starts.
     pub t: f64,
+    /// Its length.
+    pub dt: f64,
     /// The cause.
     pub failure: StepFailure,
 }
@@ -23,9 +25,9 @@ pub struct StepError {
 pub enum StepFailure {
     /// The increments of the iteration do not decrease.
     #[error(
-        "the iteration diverges in the loop of {of}: expected a contraction factor below 1, found {contraction:.3e} \
-         (increment {increment:.3e} after {iterations} iterations): take a smaller dt, {}or the solver \"newton\"",
-        if *of == Loop::Contact { "a larger epsilon, " } else { "" }
+        "the iteration diverges{}: expected a contraction factor below 1, found {contraction:.3e} (increment \
+         {increment:.3e} after {iterations} iterations): take a smaller dt{}",
+        of.map_or(String::new(), |of| format!(" in the loop of {of}")), other_advice(*of)
     )]
     Diverged {
         /// Number of iterations done.
@@ -34,8 +36,8 @@ pub enum StepFailure {
         increment: f64,
         /// Ratio of the last two increments.
         contraction: f64,
-        /// The loop with the largest factor.
-        of: Loop,
+        /// The loop of the fixed point with the largest factor.
+        of: Option<Loop>,
     },
     /// The increments decrease, but not below the tolerance within the allowed number of iterations.
     #[error(
@@ -75,6 +77,42 @@ pub enum StepFailure {
         /// The mean axial force of the matrix.
         n_value: f64,
     },
+    /// More contact events within the smallest step of dG than an impact explains.
+    #[error(
+        "{events} contact events within {within:.3e} (take a smaller restart_dt: the tip's motion is not resolved)"
+    )]
+    EventsTooClose {
+        /// How many.
+        events: usize,
+        /// In which time.
+        within: f64,
+    },
+    /// A contact event that a step of dG shows by its own polynomial, and that no length of the step meets.
+    #[error("no step ends on the obstacle: the tip misses it by {miss:.3e} (take a smaller dt)")]
+    EventNotFound {
+        /// Distance of the tip from the obstacle at the end of the last attempt.
+        miss: f64,
+    },
+    /// What the free end touches by dG contradicts its motion: closed contact pulls, or the open free end penetrates.
+    #[error(
+        "contact contradicts the motion of the free end by a force of {force:.3e}: it pulls where it is closed, or penetrates \
+         where it is open (rounding errors of the position are a force of {noise:.3e}: take a larger epsilon)"
+    )]
+    WrongContact {
+        /// The force with the wrong sign.
+        force: f64,
+        /// Rounding errors of the position, divided by ε.
+        noise: f64,
+    },
+}
+
+/// What else helps a fixed point that diverges.
+fn other_advice(of: Option<Loop>) -> &'static str {
+    match of {
+        Some(Loop::Contact) => ", a larger epsilon, or the solver \"newton\"",
+        Some(_) => ", or the solver \"newton\"",
+        None => "",
+    }
 }
 
 /// What to change where a pivot was lost: one that is not a number tells of an overflow, not of buckling.
@@ -116,6 +154,18 @@ pub enum SetupError {
         /// The value.
         found: f64,
     },
+    /// Initial data of any degree that are not finite.
+    #[error("initial {field} between x = {from} and x = {to}: expected finite numbers, found {found}")]
+    NotFiniteBetween {
+        /// Name of the field.
+        field: &'static str,
+        /// The projection's coefficient that is not finite.
+        found: f64,
+        /// Left end of the element.
+        from: f64,
+        /// Right end of the element.
+        to: f64,
+    },
     /// Initial data that violate a boundary condition of (1.3).
     #[error("initial {field} at x = {x}: expected {allowed} from the boundary condition, found {found}")]
     Boundary {
@@ -142,7 +192,7 @@ pub enum SetupError {
         /// The methods allowed, in words.
         allowed: &'static str,
     },
-    /// A tolerance or an iteration limit out of range.
+    /// A degree, a length of steps, a tolerance or an iteration limit out of range.
     #[error("{name}: expected {allowed}, found {found}")]
     Setting {
         /// Name of the setting.
@@ -150,7 +200,7 @@ pub enum SetupError {
         /// The value.
         found: f64,
         /// The values allowed, in words.
-        allowed: &'static str,
+        allowed: String,
     },
 }
 

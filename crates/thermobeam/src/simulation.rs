@@ -134,9 +134,8 @@ impl Simulation {
         let mut outcome = [Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })];
         self.stepper.advance(&mut outcome);
         let [outcome] = outcome;
-        let step = self.step + 1;
-        let t = step as f64 * self.stepping.dt;
-        let report = outcome.map_err(|failure| StepError { step, t, failure })?;
+        let (step, dt) = (self.step + 1, self.stepping.dt);
+        let report = outcome.map_err(|failure| StepError { step, t: self.t(), dt, failure })?;
         self.step = step;
         Ok(report)
     }
@@ -236,10 +235,10 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
     }
     let Settings { tolerance, max_iterations, .. } = stepping.settings;
     if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return Err(SetupError::Setting { name: "tolerance", found: tolerance, allowed: "a finite number > 0" });
+        return Err(SetupError::Setting { name: "tolerance", found: tolerance, allowed: "a finite number > 0".into() });
     }
     if max_iterations == 0 {
-        return Err(SetupError::Setting { name: "max_iterations", found: 0.0, allowed: "an integer >= 1" });
+        return Err(SetupError::Setting { name: "max_iterations", found: 0.0, allowed: "an integer >= 1".into() });
     }
     Ok(())
 }

@@ -177,7 +177,7 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
         ensemble.advance();
     }
     let error = ensemble.report(2).unwrap_err();
-    assert_eq!((error.step, error.t), (1, 10.0));
+    assert_eq!((error.step, error.dt), (1, 10.0));
     assert!(matches!(error.failure, StepFailure::Indefinite { .. }), "{error}");
     let mut lane = before.level();
     ensemble.observe(2, &mut lane);

@@ -148,7 +148,7 @@ impl Planned {
             line(
                 "made",
                 format!("{error:.3e}"),
-                "believed: the sum of the differences below, or the difference to a run of any order",
+                "estimated: the sum of the differences below, or the difference to a run of any order",
             ),
             line("space", format!("{space:.3e}"), &format!("{parts_by}, in space")),
             line("time", format!("{time:.3e}"), &format!("{parts_by}, in time")),

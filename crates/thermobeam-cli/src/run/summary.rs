@@ -7,12 +7,11 @@ use std::path::PathBuf;
 use thermobeam::dg::ContactEvent;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_study::figures::energy_at_rest;
+use thermobeam_study::run::motion::Sample;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::simulate::Run;
-use thermobeam_study::run::tally::{EnergySummary, Extremes, Sample};
+use thermobeam_study::run::tally::{EnergySummary, Extremes};
 use thermobeam_study::scene::{Method, Scene};
-
-use super::accuracy::Planned;
 
 /// A line of the summary: name, value, meaning.
 pub(super) type Line = (&'static str, String, String);
@@ -22,10 +21,10 @@ pub(super) const UNKNOWN: &str =
     "Six digits are shown; --estimate-error says how many are right, --format json has all.";
 
 /// What happened, in aligned columns; all quantities are dimensionless but for times on the clock.
-pub(super) fn summary(scene: &Scene, run: &Run, planned: Option<&Planned>, written: &[PathBuf]) -> String {
+pub(super) fn summary(scene: &Scene, run: &Run, accuracy: Option<Vec<Line>>, written: &[PathBuf]) -> String {
     let mut text = headline(scene, run);
-    if let Some(planned) = planned {
-        section(&mut text, "accuracy", planned.lines());
+    if let Some(lines) = accuracy {
+        section(&mut text, "accuracy", lines);
     }
     section(&mut text, "work", work(scene, run));
     section(&mut text, &format!("at t = {}", run.last.t), state(&run.last, scene.obstacles));

@@ -78,7 +78,8 @@ fn a_diverging_iteration_keeps_what_was_done() {
     assert!(failure["contraction"].as_f64().is_some_and(|contraction| contraction >= 1.0));
     let t = json["final"]["t"].as_f64().expect("t");
     assert!((t - 0.01 * steps as f64).abs() < 1e-14);
-    for piece in ["diverging.toml", &format!("step {}", steps + 1), "to t = 0.", "100 iterations", "contraction factor"]
+    for piece in
+        ["diverging.toml", &format!("step {}", steps + 1), "from t = 0.", "100 iterations", "contraction factor"]
     {
         assert!(ended_json.stderr.contains(piece), "{piece}: {}", ended_json.stderr);
     }

@@ -32,8 +32,9 @@ use super::tables::Discretisation;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{Unreachable, Work};
+use crate::run::motion::Sample;
 use crate::run::simulate::{Recording, Run, Simulator};
-use crate::run::tally::{EnergySummary, Extremes, Sample};
+use crate::run::tally::{EnergySummary, Extremes};
 use crate::run::together::run_together;
 use crate::scene::{self, Method};
 

@@ -5,9 +5,8 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::driver::RunError;
-use super::motion::{Motion, Report, Watch};
-use super::tally::Sample;
+use super::error::RunError;
+use super::motion::{Motion, Report, Sample, Watch};
 
 /// Frames at most: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;

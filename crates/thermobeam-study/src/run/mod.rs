@@ -1,7 +1,9 @@
 //! Scenes and problems, stepped: whatever moves, what looks at it, and what is recorded, repeated or run side by side.
 
+pub(crate) mod dg;
 pub mod driver;
 pub(crate) mod ensemble;
+pub mod error;
 pub mod family;
 pub mod history;
 pub mod motion;

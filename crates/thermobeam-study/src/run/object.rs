@@ -4,9 +4,10 @@ use serde::Serialize;
 use thermobeam::dg::{self, ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
 
-use super::driver::RunError;
+use super::error::RunError;
+use super::motion::{Sample, Solves};
 use super::simulate::Run;
-use super::tally::{EnergySummary, Extremes, Iterations, Sample, Solves};
+use super::tally::{EnergySummary, Extremes, Iterations};
 use crate::scene::{Method, Scene};
 
 /// The object that `run --format json` prints.
@@ -127,13 +128,9 @@ impl<'a> Object<'a> {
 fn failure(ended: &RunError) -> Failure {
     let of = |kind, step, t, message: String, numbers| Failure { kind, step, t, message, numbers };
     match ended {
-        RunError::Setup(_) | RunError::DgSetup(_) => of("setup", 0, 0.0, ended.to_string(), Numbers::None {}),
-        RunError::Step(StepError { step, t, failure }) => {
+        RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), Numbers::None {}),
+        RunError::Step(StepError { step, t, failure, .. }) => {
             let (kind, numbers) = kind(failure);
-            of(kind, *step, *t, failure.to_string(), numbers)
-        }
-        RunError::DgStep(dg::StepError { step, t, failure, .. }) => {
-            let (kind, numbers) = dg_kind(failure);
             of(kind, *step, *t, failure.to_string(), numbers)
         }
         RunError::TimeUp(up) => {
@@ -158,21 +155,8 @@ fn kind(failure: &StepFailure) -> (&'static str, Numbers) {
         StepFailure::Indefinite { node, pivot, n_value } => {
             ("indefinite", Numbers::Indefinite { node, pivot, n_value })
         }
-    }
-}
-
-fn dg_kind(failure: &dg::StepFailure) -> (&'static str, Numbers) {
-    match *failure {
-        dg::StepFailure::Diverged { iterations, increment, contraction } => {
-            ("diverged", Numbers::Iteration { iterations, increment, contraction })
-        }
-        dg::StepFailure::Indefinite { node, pivot, n_value } => {
-            ("indefinite", Numbers::Indefinite { node, pivot, n_value })
-        }
-        dg::StepFailure::IterationLimit { .. } => ("iteration-limit", Numbers::None {}),
-        dg::StepFailure::NonFinite { .. } => ("non-finite", Numbers::None {}),
-        dg::StepFailure::EventsTooClose { .. } => ("events-too-close", Numbers::None {}),
-        dg::StepFailure::WrongContact { .. } => ("wrong-contact", Numbers::None {}),
-        dg::StepFailure::EventNotFound { .. } => ("event-not-found", Numbers::None {}),
+        StepFailure::EventsTooClose { .. } => ("events-too-close", Numbers::None {}),
+        StepFailure::WrongContact { .. } => ("wrong-contact", Numbers::None {}),
+        StepFailure::EventNotFound { .. } => ("event-not-found", Numbers::None {}),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::run::driver::RunError;
+use crate::run::error::RunError;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::text::number::max_or_nan;

@@ -27,39 +27,17 @@ use std::time::Duration;
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Obstacles;
-use thermobeam::simulation::{self, Problem, Simulation};
-use thermobeam::solve::Level;
+use thermobeam::simulation::{self, Problem};
 
-use super::driver::{Driver, RunError};
+use super::dg::DgMotion;
+use super::driver::Driver;
+use super::error::RunError;
 use super::history::RunHistory;
-use super::motion::{Motion, Report, Watch, motion, run};
-use super::tally::{EnergySummary, Extremes, Iterations, Sample, Solves, Tally};
+use super::motion::{Motion, Report, Sample, Solves, Watch, run};
+use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::expression::Expression;
 use crate::figures::SceneMotion;
-use crate::scene::Scene;
-
-/// Where x = 1/2 lies in a mesh.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Middle {
-    /// The node left of it, or at it.
-    node: usize,
-    /// How far on the way to the next node.
-    fraction: f64,
-}
-
-impl Middle {
-    pub(super) fn of(mesh: &Mesh) -> Self {
-        let nodes = mesh.nodes();
-        // The first node is 0 and the last 1, so that there is always one on either side.
-        let node = nodes.partition_point(|&x| x <= 0.5) - 1;
-        Self { node, fraction: (0.5 - nodes[node]) / (nodes[node + 1] - nodes[node]) }
-    }
-
-    fn value(self, y: &[f64]) -> f64 {
-        (1.0 - self.fraction) * y[self.node] + self.fraction * y[self.node + 1]
-    }
-}
+use crate::scene::{Method, Scene};
 
 /// What to keep beside the summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -228,6 +206,17 @@ pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
     Driver::new(problem(scene), scene.one_step()?)
 }
 
+/// A scene at t = 0.
+///
+/// # Errors
+/// [`RunError`] where the solver refuses the scene's numbers.
+pub fn motion(scene: &Scene) -> Result<Box<dyn Motion>, RunError> {
+    Ok(match scene.method {
+        Method::OneStep(_) => Box::new(driver(scene)?.timed()),
+        Method::Dg(stepping) => Box::new(DgMotion::new(scene, stepping)?),
+    })
+}
+
 /// A scene's initial data on any mesh, boundary values set as in [`problem`].
 pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
     let nodes = mesh.nodes();
@@ -298,65 +287,5 @@ impl Simulator {
         let contact = started_in.map(|started_in| Contact { started_in, events });
         let run = Run::of(&tally, [first, last], motion.steps(), motion.wall(), motion.solves(), motion.is_heated());
         Run { contact, failure, history, ..run }
-    }
-}
-
-/// Reads samples off the levels of a simulation by a one-step scheme.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sampler {
-    middle: Middle,
-}
-
-impl Sampler {
-    pub(crate) fn new(mesh: &Mesh) -> Self {
-        Self { middle: Middle::of(mesh) }
-    }
-
-    pub(crate) fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
-        let Problem { beam, obstacles, .. } = simulation.problem();
-        let energy = simulation.energy(level).total();
-        let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
-        // No step has led to the start, so that its contact force is that of the law.
-        if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
-    }
-}
-
-impl Sample {
-    pub(super) fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
-        let tip = level.u.len() - 1;
-        Self {
-            t,
-            u_tip: level.u[tip],
-            phi_tip: level.phi[tip],
-            u_t_tip: level.v[tip],
-            phi_t_tip: level.w[tip],
-            // The lifting θ_A (1 - x) is linear, so that adding its value in the middle is exact on any mesh.
-            theta_mid: middle.value(&level.theta) + 0.5 * theta_a,
-            // The solver gives a free tip the sign of zero that its displacement has: -0 + 0 is 0.
-            contact_force: level.contact_force + 0.0,
-            energy,
-        }
-    }
-
-    /// The same with the contact force of the law.
-    pub(super) fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
-        let contact_force = obstacles.map_or(0.0, |obstacles| obstacles.force(self.u_tip) + 0.0);
-        Self { contact_force, ..self }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_middle_is_interpolated_where_it_is_no_node() {
-        let value = |nodes: Vec<f64>| {
-            let y: Vec<f64> = nodes.iter().map(|x| 3.0 * x - 1.0).collect();
-            Middle::of(&Mesh::from_nodes(nodes).unwrap()).value(&y)
-        };
-        for nodes in [vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0, 0.1, 0.7, 1.0], vec![0.0, 0.9, 1.0]] {
-            assert!((value(nodes) - 0.5).abs() < 1e-15);
-        }
     }
 }

@@ -1,36 +1,13 @@
-//! What is observed of a run at one time, and summed up over its steps, by whatever scheme.
+//! What is summed up over the steps of a run, by whatever method.
 
 use std::ops::ControlFlow;
 
 use convergence_study::text::number::max_or_nan;
 use serde::Serialize;
 use thermobeam::energy::Balance;
-use thiserror::Error;
 
-use super::driver::RunError;
-use super::motion::{Motion, Report, Watch};
-
-/// Observed quantities at one time; the JSON object of a run has them, except the contact force.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Sample {
-    /// Time.
-    pub t: f64,
-    /// u(1).
-    pub u_tip: f64,
-    /// φ(1).
-    pub phi_tip: f64,
-    /// u_t(1); of a one-step scheme û(1).
-    pub u_t_tip: f64,
-    /// φ_t(1); of a one-step scheme φ̂(1).
-    pub phi_t_tip: f64,
-    /// The physical temperature at x = 1/2.
-    pub theta_mid: f64,
-    /// The contact force, positive on the upper obstacle: g(u(1)); of a one-step scheme that of the step that led here.
-    #[serde(skip)]
-    pub contact_force: f64,
-    /// The energy (3.9), with the term of θ_A.
-    pub energy: f64,
-}
+use super::error::{RunError, Unsound};
+use super::motion::{Motion, Report, Sample, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -39,21 +16,6 @@ pub struct Iterations {
     pub total: usize,
     /// Those of the step that took most.
     pub max: usize,
-}
-
-/// Counts of the solver's work, of whatever method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Solves {
-    /// Solves of a step's linear system.
-    pub passes: usize,
-    /// Factorisations of it.
-    pub factorizations: usize,
-}
-
-impl From<thermobeam::solve::Work> for Solves {
-    fn from(work: thermobeam::solve::Work) -> Self {
-        Self { passes: work.passes, factorizations: work.factorizations }
-    }
 }
 
 /// The free end's range over all times looked at, the start included.
@@ -83,25 +45,6 @@ pub struct EnergySummary {
 /// explains: every step of every scheme lowers the energy, or leaves it, and balances what it loses. Without a term in ρ the
 /// energy of a buckled beam falls without bound, and rounding errors grow with it.
 const UNEXPLAINED: f64 = 1e-3;
-
-/// Why the numbers of a run mean nothing, although every step of it was done.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum Unsound {
-    /// The energy is infinite or NaN.
-    #[error("the energy is {0}: {EXPECTED}")]
-    NotFinite(f64),
-    /// The energy rose by this.
-    #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
-    Rise(f64),
-    /// The balance of the energy is violated by this.
-    #[error(
-        "the balance of the energy is violated by {0:.3e} in a step, where every exactly solved step keeps it: {EXPECTED}"
-    )]
-    Imbalance(f64),
-}
-
-const EXPECTED: &str =
-    "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
 impl EnergySummary {
     /// Whether the energy is finite, rose, or has its balance violated, far beyond what rounding and tolerance explain.

@@ -9,11 +9,12 @@ use thermobeam::scheme::Scheme;
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Level, Settings, Solver};
 
-use super::driver::RunError;
+use super::driver::Middle;
 use super::ensemble::EnsembleDriver;
-use super::motion::Report;
-use super::simulate::{Middle, Run, problem};
-use super::tally::{Sample, Tally};
+use super::error::RunError;
+use super::motion::{Report, Sample};
+use super::simulate::{Run, problem};
+use super::tally::Tally;
 use crate::scene::Scene;
 
 /// What scenes must have in common to run side by side.

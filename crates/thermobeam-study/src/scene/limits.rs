@@ -2,11 +2,11 @@
 //! itself is for `document` to say.
 //!
 //! Every number is far beyond use and far below what brings a machine down. They are checked when a file is read, so that
-//! a slip of the pen is a complaint with its line, and not a process that the operating system ends after an hour.
+//! a typing error is a complaint with its line, and not a process that the operating system ends after an hour.
 
 use convergence_study::input::{Field, InputError};
 
-/// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a slip of the pen.
+/// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a typing error.
 pub(crate) const STEPS: usize = 10_000_000_000;
 
 /// Time steps of a run that keeps numbers of each of them: some 64 bytes, 640 MB.

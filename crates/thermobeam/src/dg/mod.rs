@@ -49,7 +49,6 @@ mod block;
 mod contact_event;
 pub(crate) mod element;
 mod energy;
-mod error;
 mod factor;
 mod forms;
 mod legendre;
@@ -66,7 +65,6 @@ mod time;
 
 pub use contact_event::{ContactEvent, Phase};
 pub use element::MAX_DEGREE;
-pub use error::{SetupError, StepError, StepFailure};
 pub use load::Load;
 pub use problem::{Function, Initial, Problem, Stepping};
 pub use simulation::{Simulation, StepReport};

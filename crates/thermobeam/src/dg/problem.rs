@@ -1,10 +1,10 @@
 //! What is to be simulated, and how: the data, checked once.
 
 use super::element::MAX_DEGREE;
-use super::error::SetupError;
 use super::lengths::MAX_RUNGS;
 use super::space::{Field, Space};
 use super::{Level, MAX_TIME_DEGREE};
+use crate::error::SetupError;
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
 
@@ -142,7 +142,12 @@ pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Re
         });
         if let Some((element, found)) = bad {
             let nodes = space.mesh().nodes();
-            return Err(SetupError::NotFinite { field: name, found, from: nodes[element], to: nodes[element + 1] });
+            return Err(SetupError::NotFiniteBetween {
+                field: name,
+                found,
+                from: nodes[element],
+                to: nodes[element + 1],
+            });
         }
         if field == Field::Theta {
             scale = scale.max(theta_a.abs());

@@ -1,13 +1,13 @@
 //! A simulation that stands at one level and takes steps: their lengths, and where contact cuts them.
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
-use super::error::{SetupError, StepError, StepFailure};
 use super::lengths::Lengths;
 use super::load::Load;
 use super::problem::{Problem, Stepping, check, initial_level};
 use super::space::Space;
 use super::stages::{Stages, Task, stepper};
 use super::{Level, Work};
+use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
 
 /// Rounding errors of the free end's position, in units of the numbers that it is computed from.

@@ -3,7 +3,6 @@
 use super::block::{Block, add_columns};
 use super::contact_event::{Phase, Polynomial};
 use super::energy::Losses;
-use super::error::StepFailure;
 use super::factor::{Factor, LostPivot};
 use super::load::{Forcing, Load};
 use super::operator::Operator;
@@ -11,6 +10,7 @@ use super::residual::{Equations, Path, Terms, terms};
 use super::space::{Field, Space};
 use super::time::{MAX_STAGES, TimeForms};
 use super::{Level, Work};
+use crate::error::StepFailure;
 use crate::parameters::{Beam, Obstacles};
 
 /// Two lengths that share a factorisation: the iteration then contracts by about their relative difference.
@@ -237,7 +237,7 @@ impl<const S: usize> Stages for Stepper<S> {
             forcing.integrate(load, task.level.t, task.h);
         }
         let mut index = None;
-        let mut previous = f64::INFINITY;
+        let (mut previous, mut contraction) = (f64::INFINITY, f64::NAN);
         let mut replaced = false;
         for iteration in 1..=task.max_iterations {
             let equations = task.equations(&self.forms, self.forcing.as_ref());
@@ -247,7 +247,7 @@ impl<const S: usize> Stages for Stepper<S> {
             let n_value = axial.low[0][0];
             self.forces = [force, n_value];
             if !n_value.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: iteration });
+                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
             }
             let chosen = match index {
                 Some(index) => index,
@@ -263,9 +263,9 @@ impl<const S: usize> Stages for Stepper<S> {
                 size += task.level.places[task.space.tip()][0].abs() / task.h;
             }
             if !increment.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: iteration });
+                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
             }
-            let contraction = increment / previous;
+            contraction = increment / previous;
             // The increments that are still to come add up to at most this, once their ratio is known.
             let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
             let known = iteration > 1 && rest <= task.tolerance;
@@ -284,11 +284,11 @@ impl<const S: usize> Stages for Stepper<S> {
                 }
                 replaced = true;
             } else if contraction >= 1.0 && iteration > 4 {
-                return Err(StepFailure::Diverged { iterations: iteration, increment, contraction });
+                return Err(StepFailure::Diverged { iterations: iteration, increment, contraction, of: None });
             }
             previous = increment;
         }
-        Err(StepFailure::IterationLimit { iterations: task.max_iterations, increment: previous })
+        Err(StepFailure::IterationLimit { iterations: task.max_iterations, increment: previous, contraction })
     }
 
     fn tip(&self, space: &Space) -> Polynomial {

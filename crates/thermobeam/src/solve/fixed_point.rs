@@ -108,7 +108,7 @@ impl FixedPoint {
         let iterations = self.settings.max_iterations;
         // NaN, after a single iteration, does not indicate divergence.
         if contraction >= STALLED {
-            Err(StepFailure::Diverged { iterations, increment, contraction, of: self.largest_loop() })
+            Err(StepFailure::Diverged { iterations, increment, contraction, of: Some(self.largest_loop()) })
         } else {
             Err(StepFailure::IterationLimit { iterations, increment, contraction })
         }

@@ -1,7 +1,8 @@
 //! Bad input and steps that cannot be done are errors with names and numbers.
 
 use crate::scenes::{experiment, simulate};
-use thermobeam::dg::{Initial, Problem, SetupError, Simulation, StepError, StepFailure, Stepping};
+use thermobeam::dg::{Initial, Problem, Simulation, Stepping};
+use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::parameters::{Beam, Obstacles};
 
 #[track_caller]
@@ -60,12 +61,12 @@ fn coefficients_and_initial_data_are_checked() {
     assert_eq!(refused(obstacles, good()), "epsilon: expected a finite number > 0, found 0");
     let with = |initial: Initial| Problem { initial, ..base() };
     let lifted = Initial { u: Box::new(|x| 0.5 + x), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(lifted), good()), "initial u at x = 0: expected 0, found 0.5");
+    assert_eq!(refused(with(lifted), good()), "initial u at x = 0: expected 0 from the boundary condition, found 0.5");
     let hot = Initial { theta: Box::new(|x| 2.0 * (1.0 - x)), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(hot), good()), "initial theta at x = 0: expected 0, found 2");
+    assert_eq!(refused(with(hot), good()), "initial theta at x = 0: expected 0 from the boundary condition, found 2");
     let wild = Initial { phi_t: Box::new(|x| 1.0 / (x - x)), ..Initial::at_rest(0.0) };
     let found = Simulation::new(with(wild), good()).err();
-    assert!(matches!(found, Some(SetupError::NotFinite { field: "phi_t", .. })), "{found:?}");
+    assert!(matches!(found, Some(SetupError::NotFiniteBetween { field: "phi_t", .. })), "{found:?}");
 }
 
 /// The error of a step that must fail, after which the simulation stands where it stood.
@@ -98,7 +99,7 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
 fn iterations_that_are_not_enough_are_an_error() {
     let error = failed(simulate(experiment(0.0, 0.0, 6), Stepping { max_iterations: 1, ..good() }));
     assert!(matches!(error.failure, StepFailure::IterationLimit { iterations: 1, .. }), "{error}");
-    assert!(error.to_string().starts_with("step 1 (from t = 0, length 1e-3): increment "), "{error}");
+    assert!(error.to_string().starts_with("step 1 (from t = 0, length 1e-3): the iteration is too slow"), "{error}");
 }
 
 #[test]

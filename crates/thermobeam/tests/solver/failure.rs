@@ -39,8 +39,8 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     simulation.load_mut().unwrap()[node][component] = bad;
                     for _ in 0..2 {
                         let error = simulation.advance().unwrap_err();
-                        let StepError { step, t, failure } = error;
-                        assert_eq!((step, t), (4, 4.0 * stepping.dt));
+                        let StepError { step, t, dt, failure } = error;
+                        assert_eq!((step, t, dt), (4, 3.0 * stepping.dt, stepping.dt));
                         assert!(matches!(failure, StepFailure::NonFinite { .. }), "{stepping:?} {bad}: {failure:?}");
                         assert_eq!((simulation.step(), simulation.t()), (3, 3.0 * stepping.dt));
                         assert_eq!(simulation.level(), before, "{stepping:?} {bad} {component} {node}");

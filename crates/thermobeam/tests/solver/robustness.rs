@@ -88,7 +88,7 @@ fn beyond_the_buckling_force_only_large_steps_are_rejected() {
         let mut simulation = simulate(&problem, stepping(10.0));
         let before = simulation.level();
         let error = simulation.advance().unwrap_err();
-        assert_eq!((error.step, error.t), (1, 10.0));
+        assert_eq!((error.step, error.dt), (1, 10.0));
         let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else { panic!("{error}") };
         assert!(pivot <= 0.0 && (-0.8..-0.79).contains(&n_value), "{error}");
         assert_eq!(simulation.level(), before);

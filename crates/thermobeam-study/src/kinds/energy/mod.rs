@@ -25,12 +25,11 @@ pub mod random;
 pub mod runs;
 
 use convergence_study::study::Study;
-use thermobeam::dg;
 use thermobeam::error::StepFailure;
 
 use super::prelude::*;
 pub use super::watch::Worst;
-use crate::run::driver::RunError;
+use crate::run::error::RunError;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -101,21 +100,12 @@ impl End {
         ("not-finite", End::NotFinite),
     ];
 
-    /// The end of a run at a step that failed.
-    pub fn of(failure: &StepFailure) -> Self {
+    /// The end of a run at a step that failed; `None` for failures to find a contact event, which one-step schemes do not have.
+    pub fn of(failure: &StepFailure) -> Option<Self> {
         match failure {
-            StepFailure::Indefinite { .. } => End::Indefinite,
-            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => End::IterationLimit,
-            StepFailure::NonFinite { .. } => End::NotFinite,
-        }
-    }
-
-    /// The same by the scheme of any order; `None` for failures to find a contact event, which one-step schemes do not have.
-    fn of_any_order(failure: &dg::StepFailure) -> Option<Self> {
-        match failure {
-            dg::StepFailure::Indefinite { .. } => Some(End::Indefinite),
-            dg::StepFailure::Diverged { .. } | dg::StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
-            dg::StepFailure::NonFinite { .. } => Some(End::NotFinite),
+            StepFailure::Indefinite { .. } => Some(End::Indefinite),
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
+            StepFailure::NonFinite { .. } => Some(End::NotFinite),
             _ => None,
         }
     }
@@ -123,8 +113,7 @@ impl End {
     /// The end of a run that a step ended; `None` for other ends.
     pub(crate) fn of_run(failure: &RunError) -> Option<Self> {
         match failure {
-            RunError::Step(error) => Some(Self::of(&error.failure)),
-            RunError::DgStep(error) => Self::of_any_order(&error.failure),
+            RunError::Step(error) => Self::of(&error.failure),
             _ => None,
         }
     }

@@ -225,7 +225,7 @@ impl RandomScenes {
                     continue;
                 }
                 if let Err(error) = ensemble.report(k) {
-                    ends[k] = End::of(&error.failure);
+                    ends[k] = End::of(&error.failure).ok_or(error)?;
                     batch.refused += usize::from(is_definite(&scenes[k].0.beam, dt[k]));
                     continue;
                 }

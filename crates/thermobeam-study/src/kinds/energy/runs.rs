@@ -41,7 +41,7 @@ use crate::figures::looks;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{mapped_mesh, mesh_map};
 use crate::kinds::watch::{SOLVED, Watch, of_allowed};
-use crate::run::driver::{Driver, RunError, Step};
+use crate::run::driver::{Driver, Step};
 use crate::run::simulate;
 use crate::scene::{self, tables};
 
@@ -271,8 +271,7 @@ impl Run {
         });
         log.found.end = match ended {
             Ok(_) => End::Answer,
-            Err(RunError::Step(error)) => End::of(&error.failure),
-            Err(error) => return Err(error.into()),
+            Err(error) => End::of_run(&error).ok_or(error)?,
         };
         Ok(Found { worst: log.watch.worst, drift: log.watch.drift, ..log.found })
     }

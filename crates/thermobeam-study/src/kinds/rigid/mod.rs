@@ -35,7 +35,8 @@ use thermobeam::solve::{Settings, Solver};
 
 use super::prelude::*;
 use super::steady::{at_resolution, listed_scene, settle};
-use crate::run::driver::{RunError, Step};
+use crate::run::driver::Step;
+use crate::run::error::RunError;
 use crate::run::simulate::driver;
 use crate::scene::{Method, tables};
 
@@ -307,7 +308,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<FixedPointRun, Ca
         Ok(_) => None,
         Err(RunError::Step(error)) => {
             contraction = contraction_of(&error);
-            Some(error.t)
+            Some(error.step as f64 * error.dt)
         }
         Err(other) => return Err(other.into()),
     };

@@ -39,7 +39,8 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
 use super::prelude::*;
-use crate::run::driver::{Driver, RunError};
+use crate::run::driver::Driver;
+use crate::run::error::RunError;
 
 pub use map::{Boundary, Crossing, NewtonSteps, Point, Row};
 pub use parts::{Agreement, Contraction};
@@ -232,7 +233,7 @@ impl FixedPointStep {
             StepFailure::Diverged { iterations, contraction, .. }
             | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, contraction),
             StepFailure::NonFinite { iterations, .. } => (iterations, f64::INFINITY),
-            StepFailure::Indefinite { .. } => (0, f64::INFINITY),
+            _ => (0, f64::INFINITY),
         };
         Ok(Self { converged: false, iterations, contraction: Some(contraction) })
     }

@@ -22,7 +22,8 @@ use crate::error::design;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::Nodal;
-use crate::run::driver::{Driver, RunError};
+use crate::run::driver::Driver;
+use crate::run::error::RunError;
 use crate::scene::tables;
 use motion::{Modes, Motion};
 

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use thermobeam::parameters::Beam;
 
 use super::method::Degrees;
+use crate::run::dg::nodal;
 use crate::run::family::Family;
-use crate::run::motion::nodal;
 use crate::scene::Scene;
 
 /// Viscosity, nodes, and the degree at which dG's own error in space is gone.

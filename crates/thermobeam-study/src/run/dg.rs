@@ -1,0 +1,146 @@
+//! The motion of a scene by dG.
+
+use std::time::{Duration, Instant};
+
+use convergence_study::run::time_limit::Patience;
+use thermobeam::dg::{self, ContactEvent, Field, Phase};
+use thermobeam::energy::Balance;
+use thermobeam::error::SetupError;
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::Obstacles;
+use thermobeam::solve::Level;
+
+use super::error::RunError;
+use super::motion::{Motion, Report, Sample, Solves};
+use crate::scene::Scene;
+
+/// Times of a history by dG: more than a figure has columns.
+const ROWS: usize = 4000;
+
+/// Points of a frame by dG.
+const POINTS: usize = 141;
+
+/// A scene by dG.
+pub(crate) struct DgMotion {
+    simulation: dg::Simulation,
+    theta_a: f64,
+    obstacles: Option<Obstacles>,
+    level: dg::Level,
+    patience: Patience,
+    wall: Duration,
+}
+
+impl DgMotion {
+    /// Stands at t = 0.
+    ///
+    /// # Errors
+    /// [`SetupError`] where the solver refuses the scene's numbers.
+    pub(crate) fn new(scene: &Scene, stepping: dg::Stepping) -> Result<Self, SetupError> {
+        let simulation = dg::Simulation::new(scene.dg_problem(), stepping)?;
+        Ok(Self {
+            level: simulation.level().clone(),
+            patience: Patience::new(simulation.space().blocks() * (stepping.degree + 1)),
+            simulation,
+            theta_a: scene.beam.theta_a,
+            obstacles: scene.obstacles,
+            wall: Duration::ZERO,
+        })
+    }
+}
+
+impl Motion for DgMotion {
+    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
+        let Self { simulation, patience, wall, .. } = self;
+        patience.check(simulation.work().steps, || simulation.t())?;
+        let started = Instant::now();
+        let outcome = simulation.step(until);
+        *wall += started.elapsed();
+        Ok(outcome?.map(|done| {
+            let phase = done.event.map_or(simulation.phase(), |event| event.from);
+            Report { dt: done.dt, iterations: done.iterations, in_contact: phase != Phase::Free }
+        }))
+    }
+
+    fn t(&self) -> f64 {
+        self.simulation.t()
+    }
+
+    fn steps(&self) -> usize {
+        self.simulation.work().steps
+    }
+
+    fn at(&mut self, t: f64) -> Sample {
+        let Self { simulation, level, .. } = self;
+        simulation.level_into(t, level);
+        let value = |field, x| level.value_and_slope(simulation.space(), field, x).0;
+        let u_tip = value(Field::U, 1.0);
+        Sample {
+            t,
+            u_tip,
+            phi_tip: value(Field::Phi, 1.0),
+            u_t_tip: value(Field::V, 1.0),
+            phi_t_tip: value(Field::W, 1.0),
+            theta_mid: value(Field::Theta, 0.5) + 0.5 * self.theta_a,
+            contact_force: self.obstacles.map_or(0.0, |obstacles| obstacles.force(u_tip)),
+            energy: simulation.energy(level).total(),
+        }
+    }
+
+    fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64)) {
+        let (from, to) = (self.simulation.old_level().t, self.simulation.t());
+        let time = |k: usize| if k == count { t_end } else { t_end * k as f64 / count as f64 };
+        let first = (from / t_end * count as f64).floor() as usize;
+        (first.max(1)..=count).map(time).skip_while(|&t| t <= from).take_while(|&t| t <= to).for_each(show);
+    }
+
+    fn rows(&self) -> usize {
+        ROWS
+    }
+
+    fn points(&self) -> Vec<f64> {
+        (0..POINTS).map(|i| i as f64 / (POINTS - 1) as f64).collect()
+    }
+
+    fn shape(&self, t: f64) -> Vec<f64> {
+        let u = |x: f64| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
+        self.points().into_iter().map(u).collect()
+    }
+
+    fn on(&self, mesh: &Mesh) -> Level {
+        nodal(self.simulation.space(), self.simulation.level(), mesh.nodes())
+    }
+
+    fn extremes(&self) -> [f64; 2] {
+        self.simulation.tip_range()
+    }
+
+    fn balance(&self) -> Balance {
+        self.simulation.balance()
+    }
+
+    fn solves(&self) -> Solves {
+        let dg::Work { solves, factorizations, .. } = self.simulation.work();
+        Solves { passes: solves, factorizations }
+    }
+
+    fn wall(&self) -> Duration {
+        self.wall
+    }
+
+    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
+        Some((self.simulation.phase(), self.simulation.events()))
+    }
+}
+
+/// A level of any order by its values at the nodes; without contact force.
+pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
+    let at = |field| nodes.iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
+    Level {
+        u: at(Field::U),
+        v: at(Field::V),
+        phi: at(Field::Phi),
+        w: at(Field::W),
+        theta: at(Field::Theta),
+        contact_force: 0.0,
+    }
+}

@@ -19,7 +19,6 @@
 //!
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
 
-mod accept;
 mod change;
 mod claims;
 
@@ -168,8 +167,7 @@ impl Baseline {
             let expected = self.studies.get(&header.id).unwrap_or(&none);
             changes.extend(change::between(&header.id, expected, &outcome.quantities));
         }
-        let was_run = |id: &str| finished.iter().any(|finished| finished.header.id == id);
-        let others = known.unwrap_or_default().iter().filter(|header| !was_run(&header.id));
+        let others = known.unwrap_or_default().iter().filter(|header| find(finished, &header.id).is_none());
         changes.extend(others.flat_map(|header| self.changed_claims(header)));
         for id in self.vanished(known) {
             match self.claims.get(&id).and_then(|claims| claims::vanished(&id, claims)) {
@@ -208,44 +206,67 @@ impl Baseline {
         reason: Option<&str>,
     ) -> Result<(), Refusal> {
         finished.iter().try_for_each(acceptable)?;
-        let vanished = self.vanished(known);
-        if reason.is_none() {
-            self.without_a_reason(finished, &vanished)?;
+        let mut changes = self.compare(finished, known);
+        // The claims of studies that are known and were not run are left alone.
+        let is_left = |id: &str| known.is_some_and(|known| known.iter().any(|header| header.id == *id));
+        changes.retain(|change| find(finished, &change.study).is_some() || !is_left(&change.study));
+        let unreasoned = changes.iter().filter(|change| reason.is_none() && change.movement.needs_a_reason());
+        let claims: Vec<String> = unreasoned.map(|change| visible::visible(&change.to_string())).collect();
+        if !claims.is_empty() {
+            return Err(Refusal::NoReason { claims });
         }
-        for id in &vanished {
-            self.studies.remove(id);
-            self.claims.get_mut(id).into_iter().for_each(|claims| claims::withdraw(claims, reason));
-        }
-        for Finished { header, .. } in finished {
-            let guarded = self.guards(&header.id);
-            claims::bless(header, self.claims.entry(header.id.clone()).or_default(), guarded, reason);
-        }
-        self.claims.retain(|_, claims| !claims.is_empty());
-        for Finished { header, outcome, .. } in finished {
-            let former = self.studies.remove(&header.id).unwrap_or_default();
-            // A number that has not moved keeps its digits: a blessing changes what it is asked to change.
-            let guarded = outcome.quantities.iter().map(|quantity| {
-                let before = former.get(&quantity.name);
-                let kept = before.filter(|former| change::holds(former, quantity)).cloned();
-                let reason = before.and(reason).map(str::to_owned);
-                let new = Guarded { value: quantity.value, tolerance: quantity.tolerance, reason };
-                (quantity.name.clone(), kept.unwrap_or(new))
-            });
-            self.studies.insert(header.id.clone(), guarded.collect());
-        }
-        self.studies.retain(|_, guarded| !guarded.is_empty());
-        Ok(())
+        changes.iter().try_for_each(|change| {
+            let is_new = matches!(change.movement, Movement::New { .. });
+            self.take(finished, change, reason.filter(|_| !is_new))
+        })
     }
 
-    /// Refuses every change of a claim.
-    fn without_a_reason(&self, finished: &[Finished], vanished: &[String]) -> Result<(), Refusal> {
-        let changed = finished.iter().flat_map(|finished| self.changed_claims(&finished.header));
-        let gone = vanished.iter().filter_map(|id| claims::vanished(id, self.claims.get(id)?));
-        let changes: Vec<Change> = changed.chain(gone).filter(|change| change.movement.needs_a_reason()).collect();
-        if changes.is_empty() {
-            return Ok(());
+    /// Takes one of the changes that [`Baseline::compare`] has found; all others stay as they are.
+    ///
+    /// * `reason`: kept beside the number or the claim.
+    ///
+    /// # Errors
+    /// [`Refusal`], and the baseline stays as it was: as for [`Baseline::bless`], the study must pass.
+    pub fn accept(&mut self, finished: &[Finished], change: &Change, reason: &str) -> Result<(), Refusal> {
+        find(finished, &change.study).map_or(Ok(()), acceptable)?;
+        self.take(finished, change, Some(reason))
+    }
+
+    fn take(&mut self, finished: &[Finished], change: &Change, reason: Option<&str>) -> Result<(), Refusal> {
+        let Change { study, name, movement } = change;
+        let reason = reason.map(str::to_owned);
+        let (claims, numbers) = (&mut self.claims, &mut self.studies);
+        match (movement, find(finished, study)) {
+            (Movement::Vanished { .. }, _) => {
+                numbers.get_mut(study).into_iter().for_each(|guarded| drop(guarded.remove(name)));
+            }
+            (Movement::VanishedFile { .. }, _) => {
+                numbers.remove(study);
+                // What stays is the reason.
+                let withdrawn = (claims::ID.to_owned(), Claim { value: None, reason });
+                claims.insert(study.clone(), [withdrawn].into());
+            }
+            (_, None) => return Err(Refusal::NotRun { study: study.clone() }),
+            (Movement::NewFile { guarded, .. }, Some(ran)) => {
+                let claim = |value: &String| Claim {
+                    value: Some(value.clone()),
+                    reason: reason.clone().filter(|_| *guarded > 0),
+                };
+                let all = ran.header.settings.iter().map(|(path, value)| (path.clone(), claim(value)));
+                claims.entry(study.clone()).or_default().extend(all);
+            }
+            (Movement::Claim { to, .. }, Some(_)) => {
+                let claim = Claim { value: to.clone(), reason };
+                claims.entry(study.clone()).or_default().insert(name.clone(), claim);
+            }
+            (Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. }, Some(ran)) => {
+                let found = ran.outcome.quantities.iter().find(|quantity| quantity.name == *name);
+                let new = found.map(|found| Guarded { value: found.value, tolerance: found.tolerance, reason });
+                numbers.entry(study.clone()).or_default().extend(new.map(|new| (name.clone(), new)));
+            }
         }
-        Err(Refusal::NoReason { claims: changes.iter().map(|change| visible::visible(&change.to_string())).collect() })
+        numbers.retain(|_, guarded| !guarded.is_empty());
+        Ok(())
     }
 
     /// A claim as it was blessed: of a study, by its dotted path.
@@ -262,6 +283,10 @@ impl Baseline {
     pub fn guards(&self, id: &str) -> usize {
         self.studies.get(id).map_or(0, BTreeMap::len)
     }
+}
+
+fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
+    finished.iter().find(|finished| finished.header.id == *id)
 }
 
 fn acceptable(Finished { header, outcome, .. }: &Finished) -> Result<(), Refusal> {

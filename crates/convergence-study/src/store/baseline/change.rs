@@ -167,11 +167,6 @@ pub(super) fn between(study: &str, expected: &BTreeMap<String, Guarded>, found: 
     changes
 }
 
-/// Whether a guarded number is what it was.
-pub(super) fn holds(from: &Guarded, to: &Quantity) -> bool {
-    movement(from, to).is_none()
-}
-
 fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
     if !meets(from.value, to.value, from.tolerance) {
         Some(Movement::Moved { from: from.value, to: to.value, tolerance: from.tolerance })

@@ -11,7 +11,7 @@ use crate::study::Header;
 const WHOLE_FILE: &str = "study file";
 
 /// The value that stands for a whole file after it has vanished.
-const ID: &str = "study.id";
+pub(super) const ID: &str = "study.id";
 
 /// A value of a study file as it was blessed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,31 +72,4 @@ pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<Change> {
 fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
     let claims = blessed.into_iter().flatten();
     claims.filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?))).collect()
-}
-
-/// Takes the values of a study's file. Those that have not changed keep the reason of an earlier change; the reason is that of
-/// the others, unless the whole file is new.
-///
-/// * `guarded`: how many numbers of the study are guarded: with some, its file is not new.
-pub(super) fn bless(header: &Header, blessed: &mut Claims, guarded: usize, reason: Option<&str>) {
-    let reason = reason.filter(|_| guarded > 0 || !standing(Some(blessed)).is_empty()).map(str::to_owned);
-    for change in changes(header, Some(blessed), guarded) {
-        if let Movement::Claim { to, .. } = change.movement {
-            blessed.insert(change.name, Claim { value: to, reason: reason.clone() });
-        }
-    }
-    if standing(Some(blessed)).is_empty() {
-        let first = |(path, value): &(String, String)| {
-            (path.clone(), Claim { value: Some(value.clone()), reason: reason.clone() })
-        };
-        blessed.extend(header.settings.iter().map(first));
-    }
-}
-
-/// Withdraws the claims of a study whose file has vanished: what stays is the reason.
-pub(super) fn withdraw(blessed: &mut Claims, reason: Option<&str>) {
-    if !standing(Some(blessed)).is_empty() {
-        blessed.clear();
-        blessed.insert(ID.to_owned(), Claim { value: None, reason: reason.map(str::to_owned) });
-    }
 }

@@ -113,6 +113,8 @@ pub struct Order {
 /// Two records side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
+    /// Errors that differ by less, as a share, are the same.
+    pub within: f64,
     /// What became of all.
     pub change: Change,
     /// Studies that both have.
@@ -140,7 +142,7 @@ pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
     let more = new.studies.iter().map(|study| &study.header.id).filter(|id| find(old, id).is_none());
     gained.extend(more.map(|id| format!("the study {id}")));
     let change = findings.iter().map(|finding| finding.change).max().unwrap_or(Change::Same);
-    Comparison { change, studies, findings, gained }
+    Comparison { within: settings.within, change, studies, findings, gained }
 }
 
 fn whole(study: &str, change: Change, reason: String) -> Finding {

@@ -6,6 +6,7 @@
 use std::{env, fs, path::Path};
 
 use convergence_study::input::error_table::{Choice, Column, RateTable};
+use convergence_study::judge::claims::Claim;
 use convergence_study::judge::richardson::Estimator;
 use convergence_study::judge::verdict::{Judge, Verdict};
 
@@ -95,7 +96,7 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
     for column in &table.columns {
         text += &format!("{}: {}", column.name, numbers(column));
         if let Some(order) = order(&column.name) {
-            let judged = column.judge(&judge, order);
+            let judged = column.judge(&judge, &Claim::new(order, TOLERANCE));
             text += &format!(
                 " | {order}: {}{}",
                 judged.verdict,

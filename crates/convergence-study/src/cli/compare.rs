@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
-
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::screen;
@@ -39,14 +37,6 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or("expected a number >= 0, such as 0.01".to_owned())
 }
 
-/// What `--format json` prints.
-#[derive(Serialize)]
-struct Object<'a> {
-    within: f64,
-    #[serde(flatten)]
-    comparison: &'a Comparison,
-}
-
 /// Compares the records and prints what differs.
 ///
 /// # Errors
@@ -62,7 +52,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let is_worse = comparison.change >= Change::Worse;
     let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
     let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
-    flags.show("compare", verdict, &Object { within: *within, comparison: &comparison }, &words)?;
+    flags.show("compare", verdict, &comparison, &words)?;
     Ok(if is_worse { Ended::Badly } else { Ended::Well })
 }
 

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde_json::json;
 
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
@@ -25,14 +26,6 @@ pub struct Arguments {
     dir: Option<PathBuf>,
     #[command(flatten)]
     flags: Flags,
-}
-
-/// What `explain --format json` prints beside the verdict.
-#[derive(serde::Serialize)]
-struct Object<'a> {
-    /// None for the list of all that can be explained.
-    name: Option<&'a str>,
-    text: &'a str,
 }
 
 /// Prints the explanation.
@@ -66,7 +59,7 @@ fn show(arguments: &Arguments, text: &str) -> Outcome {
     let Arguments { name, flags, .. } = arguments;
     // The first line is the name with what it is.
     let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || text.to_owned());
-    flags.show("explain", Verdict::Pass, &Object { name: name.as_deref(), text }, &words)?;
+    flags.show("explain", Verdict::Pass, &json!({"name": name, "text": text}), &words)?;
     Ok(Ended::Well)
 }
 

@@ -1,5 +1,7 @@
 //! `list`: the studies with their last verdicts and their costs.
 
+use serde_json::json;
+
 use super::earlier::Earlier;
 use super::exit::{Ended, Outcome};
 use super::flags::Flags;
@@ -40,12 +42,6 @@ struct Listed {
     claim: String,
 }
 
-/// What `list --format json` prints beside the verdict, which is the worst of the last ones.
-#[derive(serde::Serialize)]
-struct Object<'a> {
-    studies: &'a [Listed],
-}
-
 const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
 
 /// The narrowest claim that still says something.
@@ -80,7 +76,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         }
         screen::table(&head, &rows)
     });
-    arguments.flags.show("list", verdict, &Object { studies: &studies }, &words)?;
+    // The verdict is the worst of the last ones.
+    arguments.flags.show("list", verdict, &json!({"studies": studies}), &words)?;
     Ok(Ended::Well)
 }
 

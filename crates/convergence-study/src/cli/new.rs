@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use serde_json::json;
 
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
@@ -24,12 +25,6 @@ pub struct Arguments {
     name: String,
     #[command(flatten)]
     flags: Flags,
-}
-
-/// What `new --format json` prints beside the verdict.
-#[derive(serde::Serialize)]
-struct Object {
-    wrote: Vec<String>,
 }
 
 fn name(text: &str) -> Result<String, String> {
@@ -71,7 +66,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     });
     let text = format!("{written}\n{}", next.collect::<String>());
     let words = flags.words(Verdict::Pass, &written, || text);
-    flags.print(Verdict::Pass, &Object { wrote }, &words)?;
+    flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?;
     Ok(Ended::Well)
 }
 

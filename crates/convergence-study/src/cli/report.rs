@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde_json::json;
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
@@ -27,14 +27,6 @@ pub struct Arguments {
     record: PathBuf,
     #[command(flatten)]
     flags: Flags,
-}
-
-/// What `--format json` prints.
-#[derive(Serialize)]
-struct Object<'a> {
-    report: &'a Path,
-    /// Figures whose pictures are not beside the record.
-    missing: &'a [String],
 }
 
 /// Writes the report to `--out`, else to the folder of the record where that is a report's.
@@ -64,7 +56,7 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
         let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
         format!("{verdict}: {sentence}\nreport: {page}, {readme}\n")
     };
-    flags.print(verdict, &Object { report: &folder, missing: &missing }, &flags.words(verdict, &sentence, whole))?;
+    flags.print(verdict, &json!({"report": folder, "missing": missing}), &flags.words(verdict, &sentence, whole))?;
     Ok(verdict.into())
 }
 

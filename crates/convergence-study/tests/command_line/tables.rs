@@ -119,6 +119,16 @@ pub(super) fn wrong_claims_are_answered_with_what_to_do() {
         &["zero on the finest level only. Is that level its own reference?"],
     );
     says("L2", &[0.01, 0.0025, 6.25e-7, 1.5625e-7, 3.9e-8], "2", &["inconclusive", "wild"]);
+    // A least order, of all columns and of one; one that is written otherwise is refused.
+    for (order, status, words) in [
+        (">=1", Some(0), "claimed at least 1 ± 0.05: at least 1, not 0.9"),
+        ("L2=>=1.5", Some(0), "L2: pass"),
+        (">=3", Some(1), "claimed at least 3 ± 0.05: too low"),
+        ("L2=>1", Some(2), "expected a number > 0, or NAME= and a number > 0"),
+    ] {
+        let (found, told) = told(&root, &table("L2", 0.1, &second), &["--order", order, "--tolerance", "0.05"]);
+        assert!(found == status && told.contains(words), "{order}: {told}");
+    }
     // Rates that approach the order slowly: the level that would decide.
     let slow = halved(4, &|h| h * h * (1.0 + 2.0 * h));
     says("L2", &slow, "2", &["inconclusive", "likely to decide (L2: interval ±", "now, about ±"]);

@@ -10,10 +10,12 @@ use clap::Args;
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::input::error_table::{Choice, Column, RateTable, names::position};
+use crate::judge::claims::{Claim, order_from_text};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::project::Project;
 use crate::text::names::{did_you_mean, nearest};
+use crate::verify::quoted;
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
@@ -26,9 +28,9 @@ use crate::text::names::{did_you_mean, nearest};
 pub struct Arguments {
     /// The table, - for standard input
     file: PathBuf,
-    /// The order that theory claims, for all columns or as NAME=P for one; may be repeated. Without one nothing passes
-    #[arg(long, value_name = "[NAME=]P", value_parser = claim, allow_negative_numbers = true)]
-    order: Vec<(Option<String>, f64)>,
+    /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may be repeated. Without one nothing passes
+    #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
+    order: Vec<Claimed>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
     #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
@@ -60,12 +62,29 @@ pub struct Arguments {
     flags: Flags,
 }
 
-fn claim(text: &str) -> Result<(Option<String>, f64), String> {
-    let (name, order) = text.rsplit_once('=').map_or((None, text), |(name, order)| (Some(name.to_owned()), order));
-    match dimension(order.trim()) {
-        Ok(order) => Ok((name, order)),
-        Err(_) => Err("expected a number > 0, or NAME= and a number > 0".to_owned()),
-    }
+/// A value of `--order`.
+#[derive(Debug, Clone)]
+struct Claimed {
+    /// As it was given.
+    text: String,
+    /// The column; `None` for all.
+    name: Option<String>,
+    order: f64,
+    at_least: bool,
+}
+
+fn claimed(text: &str) -> Result<Claimed, String> {
+    let at = text.rfind(">=").or_else(|| text.rfind('=').map(|at| at + 1));
+    let (name, order) = text.split_at(at.unwrap_or(0));
+    let name =
+        if name.is_empty() { Some(None) } else { name.trim_end().strip_suffix('=').map(|name| Some(name.to_owned())) };
+    let claimed = name.zip(order_from_text(order)).map(|(name, (order, at_least))| Claimed {
+        text: text.to_owned(),
+        name,
+        order,
+        at_least,
+    });
+    claimed.ok_or_else(|| "expected a number > 0, or NAME= and a number > 0".to_owned())
 }
 
 fn dimension(text: &str) -> Result<f64, String> {
@@ -73,9 +92,11 @@ fn dimension(text: &str) -> Result<f64, String> {
     dim.ok_or_else(|| "expected a number > 0".to_owned())
 }
 
-/// A column, judged; the order of one without a claim is NaN.
+/// A column, judged.
 struct Judged<'t> {
     column: &'t Column,
+    /// The order of one without a claim is NaN.
+    claim: Claim,
     rate: RateVerdict,
     /// Of a column of values.
     estimate: Option<Estimate>,
@@ -106,32 +127,26 @@ struct Findings<'t> {
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let source = arguments.file.display().to_string();
-    let claims: String = arguments
-        .order
-        .iter()
-        .map(|(name, order)| match name {
-            Some(name) => format!(" --order '{name}={order}'"),
-            None => format!(" --order {order}"),
-        })
-        .collect();
+    let claims: String = arguments.order.iter().map(|claimed| format!(" --order {}", quoted(&claimed.text))).collect();
     let choice = Choice {
         step: arguments.step.clone(),
         columns: arguments.columns.clone(),
         values: arguments.values.clone(),
         names: arguments.names.clone(),
-        claimed: arguments.order.iter().filter_map(|(name, _)| name.clone()).collect(),
+        claimed: arguments.order.iter().filter_map(|claimed| claimed.name.clone()).collect(),
         dim: arguments.dim,
         command: format!("{} rates {source}{claims}", project.command),
     };
     let table = RateTable::read_with(&arguments.file, &choice)?;
-    let orders = orders(arguments, &table)?;
     let mut columns = vec![];
-    for (k, column) in all(&table).enumerate() {
-        let order = orders[k];
-        let estimator = if k < table.columns.len() { None } else { Some(Estimator::new(arguments.tolerance)?) };
-        let estimate = estimator.map(|estimator| column.estimate(&estimator, order));
-        let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, order), |estimate| estimate.judged.clone());
-        columns.push(Judged { column, rate, estimate, decides: arguments.all || !order.is_nan() });
+    for (k, (column, claim)) in all(&table).zip(claims_of(arguments, &table)?).enumerate() {
+        let is_value = k >= table.columns.len();
+        let estimate = match is_value {
+            true => Some(column.estimate(&Estimator::new(arguments.tolerance)?, claim.order)),
+            false => None,
+        };
+        let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, &claim), |estimate| estimate.judged.clone());
+        columns.push(Judged { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() });
     }
     let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
     let findings = Findings { project, source, table: &table, columns, judge: &judge, verdict };
@@ -148,45 +163,47 @@ fn all(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
     table.columns.iter().chain(&table.values)
 }
 
-/// The order that is claimed of each column, NaN for none.
-fn orders(arguments: &Arguments, table: &RateTable) -> Result<Vec<f64>, Unusable> {
-    let names = || all(table).map(|column| column.name.as_str());
-    let for_all: Vec<f64> =
-        arguments.order.iter().filter(|(name, _)| name.is_none()).map(|(_, order)| *order).collect();
+/// What is claimed of each column; the order NaN for nothing.
+fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unusable> {
+    let (named, for_all): (Vec<&Claimed>, Vec<&Claimed>) =
+        arguments.order.iter().partition(|claimed| claimed.name.is_some());
     if let [first, second, ..] = for_all[..] {
         let expected = "expected one order for all columns, and --order NAME=P for others";
-        return Err(Unusable::because(&format!("{expected}; found --order {first} and --order {second}")));
+        let found = format!("{expected}; found --order {} and --order {}", first.text, second.text);
+        return Err(Unusable::because(&found));
     }
-    let mut orders = vec![for_all.first().copied().unwrap_or(f64::NAN); names().count()];
-    let mut named = vec![];
-    for (name, order) in &arguments.order {
-        let Some(name) = name else { continue };
-        let k = position(names(), name).ok_or_else(|| unknown(name, *order, table))?;
-        if named.contains(&k) {
-            let found = format!(
-                "--order {name}={order}: expected each column once; found `{}` a second time",
-                names().nth(k).unwrap_or(name)
-            );
-            return Err(Unusable::because(&found));
+    let names: Vec<&str> = all(table).map(|column| column.name.as_str()).collect();
+    let mut of: Vec<Option<&Claimed>> = vec![None; names.len()];
+    for claimed in named {
+        let name = claimed.name.as_deref().unwrap_or_default();
+        let k = position(names.iter().copied(), name).ok_or_else(|| unknown(name, &claimed.text, &names))?;
+        if of[k].replace(claimed).is_some() {
+            let expected = format!("--order {}: expected each column once", claimed.text);
+            return Err(Unusable::because(&format!("{expected}; found `{}` a second time", names[k])));
         }
-        named.push(k);
-        orders[k] = *order;
     }
-    Ok(orders)
+    let claim = |(k, of): (usize, &Option<&Claimed>)| {
+        let (order, at_least) =
+            of.or(for_all.first().copied()).map_or((f64::NAN, false), |one| (one.order, one.at_least));
+        if at_least && k >= table.columns.len() {
+            let expected = "expected an order alone for values";
+            return Err(Unusable::because(&format!("{expected}; found --order '>={order}' for `{}`", names[k])));
+        }
+        Ok(Claim { at_least, ..Claim::new(order, arguments.tolerance) })
+    };
+    of.iter().enumerate().map(claim).collect()
 }
 
 /// What is wrong with a claim about a column that is not judged.
-fn unknown(name: &str, order: f64, table: &RateTable) -> Unusable {
-    let names = || all(table).map(|column| column.name.as_str());
-    let known: Vec<&str> = names().take(LISTED).collect();
-    let more = if names().count() > LISTED { ", ..." } else { "" };
+fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
+    let more = if names.len() > LISTED { ", ..." } else { "" };
     let hint = if name.contains('=') || name.contains(',') {
         "; repeat --order for each column".to_owned()
     } else {
-        did_you_mean(&nearest(name, names()).map(str::to_owned))
+        did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned))
     };
-    let known = known.join(", ") + more;
-    Unusable::because(&format!("--order {name}={order}: expected a column of errors: {known}; found `{name}`{hint}"))
+    let known = names[..names.len().min(LISTED)].join(", ") + more;
+    Unusable::because(&format!("--order {claim}: expected a column of errors: {known}; found `{name}`{hint}"))
 }
 
 /// Most names that a message lists.

@@ -9,11 +9,13 @@ use serde_json::{Value, json};
 use super::{Findings, Judged, advice};
 use crate::cli::{github, screen};
 use crate::explain::section;
-use crate::judge::shown::{self, Shown};
-use crate::judge::verdict::{Aside, Verdict};
+use crate::judge::claims::Claim;
+use crate::judge::fit::Level;
+use crate::judge::shown::{self, MOST_PLACES, Shown};
+use crate::judge::verdict::{Aside, SetAside, Verdict};
 use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit};
-use crate::text::number::{pair_text, short_text};
+use crate::text::number::{order_text, pair_text, short_text};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would have the colours of the first.
@@ -22,7 +24,14 @@ const DRAWN: usize = 8;
 impl Judged<'_> {
     /// Rate, claim, the reason where that is not a pass, and the limit of values.
     fn found(&self) -> String {
-        let found = self.shown().found();
+        let found = match self.claim {
+            Claim { at_least: true, order, tolerance, .. } => {
+                let passes = format!("at least {}, not {}", order_text(order), order_text(order - 2.0 * tolerance));
+                let why = if self.rate.verdict.is_pass() { &passes } else { &self.rate.because };
+                format!("{}, claimed {}: {why}", self.rate.rate_in_words(MOST_PLACES), self.claim)
+            }
+            _ => self.shown().found(),
+        };
         match self.estimate.as_ref().map(|estimate| (&estimate.bar, &estimate.gci)) {
             Some((Ok(bar), gci)) => {
                 let [low, high] = pair_text(bar.limit);
@@ -94,19 +103,17 @@ fn sentence(findings: &Findings<'_>) -> String {
 /// the norm's.
 pub(super) fn object(findings: &Findings<'_>) -> Value {
     let rate = |judged: &Judged<'_>| {
-        let rate = &judged.rate;
-        let levels: Vec<Value> =
-            judged.column.levels.iter().map(|level| json!({"step": level.step, "error": level.error})).collect();
-        let aside: Vec<Value> =
-            rate.set_aside.iter().map(|aside| json!({"level": aside.level, "because": aside.because.text()})).collect();
-        let mut object = json!({
-            "norm": judged.column.name, "order": rate.order, "tolerance": rate.tolerance, "pairwise": rate.pairwise,
-            "fitted": rate.fitted,
-            "constant": rate.constant, "interval": rate.interval, "extrapolated": rate.extrapolated,
-            "verdict": rate.verdict.name(),
-            "reason": if judged.is_claimed() { &rate.reason } else { "no order is claimed" }, "code": rate.kind.code(),
-            "decides": judged.decides, "levels": levels, "set_aside": aside,
-        });
+        let mut object = json!(judged.rate);
+        let level = |level: &Level| json!({"step": level.step, "error": level.error});
+        let aside = |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
+        object["norm"] = json!(judged.column.name);
+        object["decides"] = json!(judged.decides);
+        object["at_least"] = json!(judged.claim.at_least);
+        object["levels"] = judged.column.levels.iter().map(level).collect();
+        object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
+        if !judged.is_claimed() {
+            object["reason"] = json!("no order is claimed");
+        }
         if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
             object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
         }
@@ -133,7 +140,8 @@ pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
     atomic::write(&folder.join("rates.svg"), figure(findings))?;
     atomic::write(&folder.join("rates.md"), markdown(findings, "![Errors over steps](rates.svg)\n\n"))?;
     let case = |judged: &Judged<'_>| {
-        let claim = if judged.is_claimed() { format!(": order {}", judged.rate.order) } else { String::new() };
+        let least = if judged.claim.at_least { "at least " } else { "" };
+        let claim = if judged.is_claimed() { format!(": order {least}{}", judged.rate.order) } else { String::new() };
         (judged.column.name.clone() + &claim, judged.rate.verdict, judged.found())
     };
     let mut cases: Vec<_> = findings.columns.iter().filter(|column| column.decides).map(case).collect();

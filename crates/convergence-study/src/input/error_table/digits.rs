@@ -1,5 +1,6 @@
 //! Printed digits: what rounding leaves open decides nothing.
 
+use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::richardson::{Estimate, Estimator, Value};
 use crate::judge::verdict::{Judge, RateVerdict, Reason, Verdict};
@@ -27,8 +28,8 @@ impl Column {
     /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could
     /// make a pass of another verdict,
     /// or take it away, the digits are what is missing.
-    pub fn judge(&self, judge: &Judge, order: f64) -> RateVerdict {
-        let judged = judge.judge(&self.levels, order);
+    pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
+        let (judged, order) = (claim.judge(judge, &self.levels), claim.order);
         let doubt = |k: usize| self.doubt(k, order);
         let is_told = matches!(judged.kind, Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels);
         if is_told || order.is_nan() || (0..self.levels.len()).all(|k| doubt(k) < NOTHING) {
@@ -38,14 +39,15 @@ impl Column {
         let wider = finest.map_or(0.0, |(k, pair)| (doubt(k) + doubt(k + 1)) / (pair[0].step / pair[1].step).ln());
         if judged.verdict != Verdict::Pass {
             let corners = self.corners(order);
-            let may_be = |verdict: Verdict| corners.iter().any(|levels| judge.judge(levels, order).verdict == verdict);
+            let may_be = |verdict: Verdict| corners.iter().any(|levels| claim.judge(judge, levels).verdict == verdict);
             let is_poor =
                 wider > judge.tolerance() && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
             return if is_poor || may_be(Verdict::Pass) { self.without_digits(judged) } else { judged };
         }
         let Some([low, high]) = judged.interval else { return judged };
         let interval = Some([low - wider, high + wider]);
-        if low - wider < order - judge.tolerance() || high + wider > order + judge.tolerance() {
+        let is_above = high + wider > order + judge.tolerance() && !claim.at_least;
+        if low - wider < order - judge.tolerance() || is_above {
             return self.without_digits(RateVerdict { interval, ..judged });
         }
         RateVerdict { interval, ..judged }

@@ -30,6 +30,7 @@ use std::io;
 use std::path::Path;
 
 use crate::input::{self, InputError};
+use crate::judge::claims::Claim;
 use crate::judge::verdict::{Judge, RateVerdict};
 pub use choice::Choice;
 pub use column::limit;
@@ -93,7 +94,8 @@ impl RateTable {
 
     /// Judges every column of errors against its order.
     pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
-        self.columns.iter().map(|column| (column.name.clone(), column.judge(judge, order(&column.name)))).collect()
+        let claim = |column: &Column| Claim::new(order(&column.name), judge.tolerance());
+        self.columns.iter().map(|column| (column.name.clone(), column.judge(judge, &claim(column)))).collect()
     }
 }
 

@@ -39,7 +39,7 @@ const SAME_STEP: f64 = 1e-5;
 /// What has become of something. Ordered, so that the maximum of several is what became of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Change {
+pub enum Shift {
     /// The same.
     Same,
     /// The data prove neither a difference nor that there is none.
@@ -53,7 +53,7 @@ pub enum Change {
     Lost,
 }
 
-impl Change {
+impl Shift {
     /// `same`, `not proven`, `better`, `worse` or `lost`.
     pub fn name(self) -> &'static str {
         match self {
@@ -94,7 +94,7 @@ pub struct Finding {
     /// The error; nothing where it is the study as a whole.
     pub norm: Option<String>,
     /// What became of it.
-    pub change: Change,
+    pub change: Shift,
     /// Why.
     pub reason: String,
     /// Rate and interval in the old and in the new record; nothing where there are too few levels.
@@ -116,7 +116,7 @@ pub struct Comparison {
     /// Errors that differ by less, as a share, are the same.
     pub within: f64,
     /// What became of all.
-    pub change: Change,
+    pub change: Shift,
     /// Studies that both have.
     pub studies: usize,
     /// Every error and every study that has changed as a whole, in the order of the old record.
@@ -136,16 +136,16 @@ pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
                 studies += 1;
                 compare_study(was, &new.studies[place], settings, &mut findings, &mut gained);
             }
-            None => findings.push(whole(id, Change::Lost, "the new record does not have the study".to_owned())),
+            None => findings.push(whole(id, Shift::Lost, "the new record does not have the study".to_owned())),
         }
     }
     let more = new.studies.iter().map(|study| &study.header.id).filter(|id| find(old, id).is_none());
     gained.extend(more.map(|id| format!("the study {id}")));
-    let change = findings.iter().map(|finding| finding.change).max().unwrap_or(Change::Same);
+    let change = findings.iter().map(|finding| finding.change).max().unwrap_or(Shift::Same);
     Comparison { within: settings.within, change, studies, findings, gained }
 }
 
-fn whole(study: &str, change: Change, reason: String) -> Finding {
+fn whole(study: &str, change: Shift, reason: String) -> Finding {
     Finding { study: study.to_owned(), norm: None, change, reason, orders: [None; 2] }
 }
 
@@ -161,8 +161,8 @@ fn compare_study(
     gained.extend(found.iter().filter(|name| !known.contains(name)).map(|name| format!("{id}: {name}")));
     let before = findings.len();
     for name in known {
-        let pair = [was, is].map(|study| Series::new(&study.outcome, name));
-        let (change, reason) = pair[1].lost(&pair[0]).map_or_else(|| settings.judged(&pair), |why| (Change::Lost, why));
+        let pair = [was, is].map(|study| ErrorSequence::new(&study.outcome, name));
+        let (change, reason) = pair[1].lost(&pair[0]).map_or_else(|| settings.judged(&pair), |why| (Shift::Lost, why));
         let orders = pair.each_ref().map(|series| series.order(settings));
         findings.push(Finding { study: id.clone(), norm: Some(name.clone()), change, reason, orders });
     }
@@ -170,9 +170,9 @@ fn compare_study(
     let words =
         || format!("the verdict was {}, is {}: {}", was.outcome.verdict, is.outcome.verdict, is.outcome.summary);
     match (was.outcome.verdict, is.outcome.verdict) {
-        (was, is) if is > was && own < Some(Change::Worse) => findings.push(whole(id, Change::Worse, words())),
-        (Verdict::Fail, Verdict::Pass) if own < Some(Change::Better) => {
-            findings.push(whole(id, Change::Better, words()));
+        (was, is) if is > was && own < Some(Shift::Worse) => findings.push(whole(id, Shift::Worse, words())),
+        (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => {
+            findings.push(whole(id, Shift::Better, words()));
         }
         _ => {}
     }
@@ -191,8 +191,8 @@ fn names(outcome: &Outcome) -> Vec<&String> {
 }
 
 /// One error on the levels of one record, and its rate.
-struct Series<'r> {
-    points: Vec<Point<'r>>,
+struct ErrorSequence<'r> {
+    points: Vec<AtLevel<'r>>,
     /// Whether the steps fall from level to level; a grid of parameters has no one step.
     is_sequence: bool,
     rate: Option<&'r RateVerdict>,
@@ -200,21 +200,21 @@ struct Series<'r> {
 
 /// One level.
 #[derive(Debug, Clone, Copy)]
-struct Point<'r> {
+struct AtLevel<'r> {
     at: &'r [(String, f64)],
     level: Level,
     work: Option<f64>,
 }
 
-impl<'r> Series<'r> {
+impl<'r> ErrorSequence<'r> {
     fn new(outcome: &'r Outcome, name: &str) -> Self {
         let point = |level: &'r crate::study::LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
             let level_at = Level { step: level.step.unwrap_or(f64::NAN), error: *error };
-            Some(Point { at: &level.parameters, level: level_at, work: level.work.filter(|work| *work > 0.0) })
+            Some(AtLevel { at: &level.parameters, level: level_at, work: level.work.filter(|work| *work > 0.0) })
         };
-        let points: Vec<Point<'r>> = outcome.levels.iter().filter_map(point).collect();
-        let falls = |pair: &[Point<'_>]| pair[1].level.step < pair[0].level.step;
+        let points: Vec<AtLevel<'r>> = outcome.levels.iter().filter_map(point).collect();
+        let falls = |pair: &[AtLevel<'_>]| pair[1].level.step < pair[0].level.step;
         let is_sequence = points.iter().all(|point| point.level.step > 0.0) && points.windows(2).all(falls);
         Self { points, is_sequence, rate: outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate) }
     }
@@ -244,17 +244,17 @@ impl<'r> Series<'r> {
     }
 
     /// The logarithm of the error at the level of a point, and how far off it may be.
-    fn error_at(&self, point: &Point<'_>, floor: f64) -> Option<[f64; 2]> {
+    fn error_at(&self, point: &AtLevel<'_>, floor: f64) -> Option<[f64; 2]> {
         if let Some(same) = self.points.iter().find(|known| known.at == point.at) {
             return Some([same.level.error.max(floor).ln(), 0.0]);
         }
-        let place = |known: &Point<'_>| Some([known.level.step.ln(), known.level.error.max(floor).ln()]);
+        let place = |known: &AtLevel<'_>| Some([known.level.step.ln(), known.level.error.max(floor).ln()]);
         between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, point.level.step.ln())
     }
 
     /// The logarithm of the work that an error takes, and how far off it may be.
     fn work_at(&self, error: f64) -> Option<[f64; 2]> {
-        let place = |point: &Point<'_>| Some([point.level.error.ln(), point.work?.ln()]);
+        let place = |point: &AtLevel<'_>| Some([point.level.error.ln(), point.work?.ln()]);
         between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, error.ln())
     }
 }
@@ -284,32 +284,32 @@ fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
 
 impl Settings {
     /// What became of an error that both records have, and why.
-    fn judged(&self, pair: &[Series<'_>; 2]) -> (Change, String) {
+    fn judged(&self, pair: &[ErrorSequence<'_>; 2]) -> (Shift, String) {
         let order = self.order(pair);
-        let lower = order.clone().filter(|(change, _)| *change == Change::Worse);
+        let lower = order.clone().filter(|(change, _)| *change == Shift::Worse);
         lower.or_else(|| self.broken(pair)).or_else(|| self.larger(pair)).or(order).unwrap_or_else(|| self.cost(pair))
     }
 
-    fn order(&self, pair: &[Series<'_>; 2]) -> Option<(Change, String)> {
+    fn order(&self, pair: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
         let orders = pair.each_ref().map(|series| series.order(self));
         if let [Some(old), Some(new)] = orders {
             let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
             if apart && (new.order - old.order).abs() > ORDER_SHIFT {
-                let change = if new.order < old.order { Change::Worse } else { Change::Better };
+                let change = if new.order < old.order { Shift::Worse } else { Shift::Better };
                 let words = |Order { order, interval: [low, high] }| format!("{order:.3} ({low:.3} to {high:.3})");
                 return Some((change, format!("order {} → {}", words(old), words(new))));
             }
         }
         let [old, new] = [pair[0].rate?, pair[1].rate?];
         let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
-        failed.then(|| (Change::Worse, format!("the claimed order was pass, is {}: {}", new.verdict, new.reason)))
+        failed.then(|| (Shift::Worse, format!("the claimed order was pass, is {}: {}", new.verdict, new.reason)))
     }
 
     /// Levels whose error has become negative, infinite or NaN.
-    fn broken(&self, [old, new]: &[Series<'_>; 2]) -> Option<(Change, String)> {
+    fn broken(&self, [old, new]: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
         let is_error = |error: f64| error >= 0.0 && error.is_finite();
         let was =
-            |point: &Point<'_>| old.points.iter().any(|known| known.at == point.at && is_error(known.level.error));
+            |point: &AtLevel<'_>| old.points.iter().any(|known| known.at == point.at && is_error(known.level.error));
         let broken: Vec<String> = new
             .points
             .iter()
@@ -317,13 +317,13 @@ impl Settings {
             .map(|point| label(point.at))
             .collect();
         let reason = || format!("no longer a finite number >= 0 at {}", broken.join("; "));
-        (!broken.is_empty()).then(|| (Change::Worse, reason()))
+        (!broken.is_empty()).then(|| (Shift::Worse, reason()))
     }
 
     /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its doubt.
-    fn ratios<'p>(&self, [old, new]: &'p [Series<'_>; 2]) -> Vec<(&'p Point<'p>, [f64; 2])> {
+    fn ratios<'p>(&self, [old, new]: &'p [ErrorSequence<'_>; 2]) -> Vec<(&'p AtLevel<'p>, [f64; 2])> {
         let floor = self.judge.floor();
-        let ratio = |point: &'p Point<'p>| {
+        let ratio = |point: &'p AtLevel<'p>| {
             let [before, doubt] = old.error_at(point, floor)?;
             let ratio = point.level.error.max(floor).ln() - before;
             // Two zeros without a floor are the same.
@@ -332,16 +332,16 @@ impl Settings {
         new.points.iter().filter(|point| point.level.error >= 0.0).filter_map(ratio).collect()
     }
 
-    fn larger(&self, pair: &[Series<'_>; 2]) -> Option<(Change, String)> {
+    fn larger(&self, pair: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
         let (ratios, limit) = (self.ratios(pair), self.within.ln_1p());
         let larger: Vec<_> = ratios.iter().filter(|(_, [ratio, doubt])| ratio - doubt > limit).collect();
         let (point, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
         let times = plain_text(ratio.exp());
         let levels = format!("{} of {} levels that both have", larger.len(), ratios.len());
-        Some((Change::Worse, format!("errors larger at {levels}: {}: {times} times", label(point.at))))
+        Some((Shift::Worse, format!("errors larger at {levels}: {}: {times} times", label(point.at))))
     }
 
-    fn cost(&self, pair: &[Series<'_>; 2]) -> (Change, String) {
+    fn cost(&self, pair: &[ErrorSequence<'_>; 2]) -> (Shift, String) {
         let (ratios, limit) = (self.ratios(pair), self.within.ln_1p());
         if ratios.is_empty() {
             let why = if pair.iter().all(|series| series.points.is_empty()) {
@@ -349,31 +349,31 @@ impl Settings {
             } else {
                 "no level is at a step that both have reached"
             };
-            return (Change::NotProven, format!("no difference of orders is proven; {why}"));
+            return (Shift::NotProven, format!("no difference of orders is proven; {why}"));
         }
         if ratios.iter().all(|(_, [ratio, doubt])| ratio + doubt < -limit) {
             let most = ratios.iter().map(|(_, [ratio, _])| *ratio).fold(f64::NEG_INFINITY, f64::max);
             return (
-                Change::Better,
+                Shift::Better,
                 format!("errors smaller: {} times or less at {} levels", plain_text(most.exp()), ratios.len()),
             );
         }
         if !ratios.iter().all(|(_, [ratio, doubt])| ratio.abs() + doubt <= limit) {
-            return (Change::NotProven, format!("no difference of errors is proven at {} levels", ratios.len()));
+            return (Shift::NotProven, format!("no difference of errors is proven at {} levels", ratios.len()));
         }
         let work = self.work(pair).filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
         match work {
             Some([ratio, _]) => {
-                let change = if ratio > 0.0 { Change::Worse } else { Change::Better };
+                let change = if ratio > 0.0 { Shift::Worse } else { Shift::Better };
                 (change, format!("the same error takes {:.3} times the work", ratio.exp()))
             }
-            None => (Change::Same, format!("errors the same at {} levels", ratios.len())),
+            None => (Shift::Same, format!("errors the same at {} levels", ratios.len())),
         }
     }
 
     /// The logarithm of the new work over the old one for the smallest error that both have reached, and its doubt: an error within the
     /// limit is taken for the same, so the work is known no better than it grows with the accuracy.
-    fn work(&self, [old, new]: &[Series<'_>; 2]) -> Option<[f64; 2]> {
+    fn work(&self, [old, new]: &[ErrorSequence<'_>; 2]) -> Option<[f64; 2]> {
         let error = old.points.last()?.level.error.max(new.points.last()?.level.error);
         if !(error > self.judge.floor()) {
             return None;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use convergence_study::compare::{Change, Comparison, Settings, WITHIN, compare};
+use convergence_study::compare::{Comparison, Settings, Shift, WITHIN, compare};
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
 use convergence_study::run::{Finished, Spent};
 use convergence_study::store::record::{Record, json};
@@ -58,9 +58,9 @@ fn compared(old: Finished, new: Finished) -> Comparison {
 }
 
 /// The errors that differ, each with what became of it.
-fn found(comparison: &Comparison) -> Vec<(&str, Change)> {
+fn found(comparison: &Comparison) -> Vec<(&str, Shift)> {
     let norms = comparison.findings.iter().filter_map(|finding| Some((finding.norm.as_deref()?, finding.change)));
-    norms.filter(|(_, change)| *change != Change::Same).collect()
+    norms.filter(|(_, change)| *change != Shift::Same).collect()
 }
 
 /// Why the first error is what it is.
@@ -76,7 +76,7 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     let old = studies(&smooth(1.0, 2.0), &smooth(3.0, 1.0));
     let new = studies(&smooth(1.05, 2.0), &smooth(3.0, 0.5));
     let comparison = compare(&old, &new, &Settings::new(None, WITHIN).unwrap());
-    assert_eq!(found(&comparison), [("L2", Change::Worse), ("H1", Change::Worse)]);
+    assert_eq!(found(&comparison), [("L2", Shift::Worse), ("H1", Shift::Worse)]);
     assert_eq!((comparison.studies, comparison.gained.len(), comparison.findings.len()), (3, 0, 6));
     let [larger, lower] = [2, 5].map(|k| &comparison.findings[k]);
     assert_eq!((larger.study.as_str(), lower.study.as_str()), ("b", "c"));
@@ -85,21 +85,21 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     assert!(lower.reason.starts_with("order 1.0") && lower.reason.contains("→ 0.5"), "{}", lower.reason);
     // The other way round both are better.
     let comparison = compare(&new, &old, &Settings::new(None, WITHIN).unwrap());
-    assert_eq!(found(&comparison), [("L2", Change::Better), ("H1", Change::Better)]);
-    assert_eq!(compare(&old, &old, &Settings::new(None, WITHIN).unwrap()).change, Change::Same);
+    assert_eq!(found(&comparison), [("L2", Shift::Better), ("H1", Shift::Better)]);
+    assert_eq!(compare(&old, &old, &Settings::new(None, WITHIN).unwrap()).change, Shift::Same);
 }
 
 #[test]
 fn a_difference_below_the_limit_is_none() {
     let new = || study("a", &COUNTS, smooth(1.005, 2.0), smooth(3.0, 1.0));
-    assert_eq!(compared(sound("a"), new()).change, Change::Same);
+    assert_eq!(compared(sound("a"), new()).change, Shift::Same);
     let strict = Settings::new(None, 0.001).unwrap();
-    assert_eq!(compare(&record(vec![sound("a")]), &record(vec![new()]), &strict).change, Change::Worse);
+    assert_eq!(compare(&record(vec![sound("a")]), &record(vec![new()]), &strict).change, Shift::Worse);
 }
 
 #[test]
 fn the_errors_of_other_levels_are_interpolated() {
-    for (constant, change) in [(1.0, Change::Same), (1.05, Change::Worse), (0.95, Change::Better)] {
+    for (constant, change) in [(1.0, Shift::Same), (1.05, Shift::Worse), (0.95, Shift::Better)] {
         let new = || study("a", &[12, 24, 48, 96, 192], smooth(constant, 2.0), smooth(constant, 1.0));
         let old = || study("a", &COUNTS, smooth(1.0, 2.0), smooth(1.0, 1.0));
         let comparison = compared(old(), new());
@@ -111,7 +111,7 @@ fn the_errors_of_other_levels_are_interpolated() {
     }
     // No step in common, and none between two of the other.
     let apart = compared(sound("a"), study("a", &[256, 512, 1024, 2048], smooth(2.0, 2.0), smooth(3.0, 1.0)));
-    assert_eq!(apart.change, Change::NotProven);
+    assert_eq!(apart.change, Shift::NotProven);
 }
 
 #[test]
@@ -131,18 +131,18 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
         (coarser(), vec!["L2", "H1"], "the new record does not have the finest level, n = 128"),
     ] {
         let comparison = compared(sound("a"), new.clone());
-        assert_eq!(found(&comparison), lost.iter().map(|norm| (*norm, Change::Lost)).collect::<Vec<_>>(), "{why}");
+        assert_eq!(found(&comparison), lost.iter().map(|norm| (*norm, Shift::Lost)).collect::<Vec<_>>(), "{why}");
         assert!(comparison.findings.iter().any(|finding| finding.reason == why), "{comparison:?}");
         // The other way round something is gained.
         let gained = compared(new, sound("a"));
-        assert_eq!(gained.change, Change::Same, "{gained:?}");
+        assert_eq!(gained.change, Shift::Same, "{gained:?}");
         assert_eq!(gained.gained.iter().any(|name| name == "a: H1"), why.ends_with("the error"), "{gained:?}");
     }
     let settings = Settings::new(None, WITHIN).unwrap();
     let [old, new] = [record(vec![sound("a"), sound("b")]), record(vec![sound("a"), sound("c")])];
     let comparison = compare(&old, &new, &settings);
-    assert_eq!((comparison.change, comparison.gained), (Change::Lost, vec!["the study c".to_owned()]));
-    assert_eq!(comparison.findings.last().map(|finding| (&*finding.study, finding.change)), Some(("b", Change::Lost)));
+    assert_eq!((comparison.change, comparison.gained), (Shift::Lost, vec!["the study c".to_owned()]));
+    assert_eq!(comparison.findings.last().map(|finding| (&*finding.study, finding.change)), Some(("b", Shift::Lost)));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn the_same_error_for_more_work_is_worse() {
     let mut new = sound("a");
     new.outcome.levels.iter_mut().for_each(|level| level.work = level.work.map(|work| 1.2 * work));
     let comparison = compared(sound("a"), new);
-    assert_eq!(found(&comparison), [("L2", Change::Worse), ("H1", Change::Worse)]);
+    assert_eq!(found(&comparison), [("L2", Shift::Worse), ("H1", Shift::Worse)]);
     assert!(reason(&comparison).contains("takes 1.200 times the work"), "{comparison:?}");
 }
 
@@ -159,7 +159,7 @@ fn an_error_that_is_a_number_no_more_is_worse() {
     let mut new = sound("a");
     new.outcome.levels[1].errors[0].1 = f64::NAN;
     let comparison = compared(sound("a"), new);
-    assert_eq!(found(&comparison), [("L2", Change::Worse)]);
+    assert_eq!(found(&comparison), [("L2", Shift::Worse)]);
     assert_eq!(reason(&comparison), "no longer a finite number >= 0 at n = 16");
 }
 
@@ -168,7 +168,7 @@ fn an_error_that_becomes_negative_is_worse() {
     let mut new = sound("a");
     new.outcome.levels[1].errors[0].1 *= -1.0;
     let comparison = compared(sound("a"), new.clone());
-    assert_eq!(found(&comparison), [("L2", Change::Worse)]);
+    assert_eq!(found(&comparison), [("L2", Shift::Worse)]);
     assert_eq!(reason(&comparison), "no longer a finite number >= 0 at n = 16");
     assert_eq!(found(&compared(new.clone(), new)), [], "it was no error before");
 }
@@ -188,11 +188,11 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
         unjudged(levels)
     };
     for (scales, change, reason) in [
-        ([30.0, 2.0, 200.0], Change::Worse, "errors larger"),
-        ([1.0 / 30.0, 0.5, 0.005], Change::Better, "errors smaller"),
-        ([30.0, 0.5, 200.0], Change::Worse, "errors larger at 2 of 3 levels that both have: n = 32: 200 times"),
-        ([1.0 / 30.0, 1.0, 0.5], Change::NotProven, "no difference of errors is proven"),
-        ([1.001, 1.0, 0.999], Change::Same, "errors the same"),
+        ([30.0, 2.0, 200.0], Shift::Worse, "errors larger"),
+        ([1.0 / 30.0, 0.5, 0.005], Shift::Better, "errors smaller"),
+        ([30.0, 0.5, 200.0], Shift::Worse, "errors larger at 2 of 3 levels that both have: n = 32: 200 times"),
+        ([1.0 / 30.0, 1.0, 0.5], Shift::NotProven, "no difference of errors is proven"),
+        ([1.001, 1.0, 0.999], Shift::Same, "errors the same"),
     ] {
         let comparison = compared(without_rates([1.0; 3]), without_rates(scales));
         assert_eq!(comparison.change, change, "{comparison:?}");
@@ -207,9 +207,9 @@ fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let of = |seed: f64| unjudged(study("a", &COUNTS, noisy(seed), |h| 1e-13 * (seed * h).cos().abs()).outcome.levels);
     let compared =
         |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &Settings::new(None, within).unwrap());
-    assert_eq!(compared(0.1).change, Change::Same, "{:?}", compared(0.1));
+    assert_eq!(compared(0.1).change, Shift::Same, "{:?}", compared(0.1));
     // Errors at the same step are deterministic: what scatters by 3 % has changed by more than 1 %.
-    assert_eq!(found(&compared(WITHIN)), [("L2", Change::Worse)]);
+    assert_eq!(found(&compared(WITHIN)), [("L2", Shift::Worse)]);
 }
 
 #[test]
@@ -219,10 +219,10 @@ fn a_study_without_errors_is_compared_by_its_verdict() {
         Finished { outcome: Outcome { verdict, ..plain.outcome }, ..plain }
     };
     let worse = compared(plain(Verdict::Pass), plain(Verdict::Fail));
-    assert_eq!((worse.change, reason(&worse)), (Change::Worse, "the verdict was pass, is fail: s"));
-    assert_eq!(compared(plain(Verdict::Fail), plain(Verdict::Pass)).change, Change::Better);
+    assert_eq!((worse.change, reason(&worse)), (Shift::Worse, "the verdict was pass, is fail: s"));
+    assert_eq!(compared(plain(Verdict::Fail), plain(Verdict::Pass)).change, Shift::Better);
     let unsure = compared(plain(Verdict::Pass), plain(Verdict::Inconclusive));
-    assert_eq!((unsure.change, reason(&unsure)), (Change::Worse, "the verdict was pass, is inconclusive: s"));
+    assert_eq!((unsure.change, reason(&unsure)), (Shift::Worse, "the verdict was pass, is inconclusive: s"));
 }
 
 /// A record of six levels without claims, and the same with some errors larger.
@@ -241,18 +241,18 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
         ([1.0, 1.0, 1.0, 0.5, 0.25, 1.2], "errors larger at 1 of 6 levels that both have: n = 256: 1.2 times"),
     ] {
         let comparison = compared(unclaimed(before), unclaimed(factors));
-        assert_eq!((comparison.change, &*comparison.findings[0].reason), (Change::Worse, reason));
+        assert_eq!((comparison.change, &*comparison.findings[0].reason), (Shift::Worse, reason));
     }
-    assert_eq!(compared(unclaimed(before), unclaimed([1.009; 6])).change, Change::Same);
+    assert_eq!(compared(unclaimed(before), unclaimed([1.009; 6])).change, Shift::Same);
     // A claim whose interval has become too wide: two finest errors 1.5 times, or the finest 3 times larger.
     for factor in [1.5, 3.0] {
         let larger = |h: f64| smooth(1.0, 2.0)(h) * if h < 0.01 { factor } else { 1.0 };
         let new = study("a", &COUNTS, larger, smooth(3.0, 1.0));
-        assert_eq!(found(&compared(sound("a"), new))[0].1, Change::Worse, "{factor}");
+        assert_eq!(found(&compared(sound("a"), new))[0].1, Shift::Worse, "{factor}");
     }
     // Both at round-off differ by nothing, however much.
     let tiny = |factor: f64| unclaimed([1e-13, 1e-13, 1e-13, 1e-13, 1e-13, factor * 1e-13]);
-    assert_eq!(compared(tiny(1.0), tiny(100.0)).change, Change::Same);
+    assert_eq!(compared(tiny(1.0), tiny(100.0)).change, Shift::Same);
 }
 
 /// Elements and steps in all pairs, and records of before, without steps.
@@ -269,16 +269,16 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
         unjudged(pairs.map(at).collect())
     };
     let comparison = compared(grid(1.0), grid(1.05));
-    assert_eq!(found(&comparison), [("L2", Change::Worse)]);
+    assert_eq!(found(&comparison), [("L2", Shift::Worse)]);
     assert!(reason(&comparison).starts_with("errors larger at 9 of 9 levels"), "{comparison:?}");
     let mut coarser = grid(1.0);
     coarser.outcome.levels.pop();
-    assert_eq!(compared(grid(1.0), coarser).change, Change::Lost);
-    assert_eq!(compared(grid(1.0), grid(1.0)).change, Change::Same);
+    assert_eq!(compared(grid(1.0), coarser).change, Shift::Lost);
+    assert_eq!(compared(grid(1.0), grid(1.0)).change, Shift::Same);
     let mut old = sound("a");
     old.outcome.levels.iter_mut().for_each(|level| level.step = None);
     let new = study("a", &COUNTS, smooth(1.05, 2.0), smooth(3.0, 1.0));
-    assert_eq!(found(&compared(old, new)), [("L2", Change::Worse)]);
+    assert_eq!(found(&compared(old, new)), [("L2", Shift::Worse)]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::screen;
-use crate::compare::{Change, Comparison, Finding, Order, Settings, WITHIN, compare};
+use crate::compare::{Comparison, Finding, Order, Settings, Shift, WITHIN, compare};
 use crate::judge::verdict::Verdict;
 use crate::store::record::Record;
 use crate::text::visible::{self, visible};
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let [old, new] = [old, new].map(|path| visible::path(path));
         return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));
     }
-    let is_worse = comparison.change >= Change::Worse;
+    let is_worse = comparison.change >= Shift::Worse;
     let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
     let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
     flags.show("compare", verdict, &comparison, &words)?;
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 fn text(comparison: &Comparison, all: bool) -> String {
     let mut text = String::new();
     for Finding { study, norm, change, reason, .. } in &comparison.findings {
-        if all || *change != Change::Same {
+        if all || *change != Shift::Same {
             let norm = norm.as_ref().map_or(String::new(), |norm| format!("{}: ", visible(norm)));
             text += &format!("{study}: {norm}{}: {}\n", change.name(), visible(reason));
         }
@@ -89,9 +89,9 @@ fn orders(comparison: &Comparison) -> String {
 }
 
 fn sentence(comparison: &Comparison) -> String {
-    let count = |change: Change| comparison.findings.iter().filter(|finding| finding.change == change).count();
+    let count = |change: Shift| comparison.findings.iter().filter(|finding| finding.change == change).count();
     let [lost, worse, better, same, open] =
-        [Change::Lost, Change::Worse, Change::Better, Change::Same, Change::NotProven].map(count);
+        [Shift::Lost, Shift::Worse, Shift::Better, Shift::Same, Shift::NotProven].map(count);
     let some = |count: usize, what: &str| if count == 0 { String::new() } else { format!("{count} {what}") };
     let (lost, open) = (some(lost, "lost, "), some(open, "not proven, "));
     let (change, studies) = (comparison.change.name(), comparison.studies);

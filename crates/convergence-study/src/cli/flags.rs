@@ -14,7 +14,7 @@ use crate::judge::verdict::Verdict;
 use crate::run::Effort;
 use crate::store::atomic;
 
-/// Number of the form of [`Answer`]: higher where a key of any command has changed its meaning or is gone.
+/// Number of the form of [`Printed`]: higher where a key of any command has changed its meaning or is gone.
 const SCHEMA: u32 = 2;
 
 /// What every command takes.
@@ -41,7 +41,7 @@ fn jobs(text: &str) -> Result<NonZeroUsize, String> {
 
 /// The JSON object of a command: its verdict before what it found.
 #[derive(Serialize)]
-struct Answer<'a, T> {
+struct Printed<'a, T> {
     schema: u32,
     verdict: &'static str,
     #[serde(flatten)]
@@ -49,7 +49,7 @@ struct Answer<'a, T> {
 }
 
 fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
-    output::json(&Answer { schema: SCHEMA, verdict: verdict.name(), found })
+    output::json(&Printed { schema: SCHEMA, verdict: verdict.name(), found })
 }
 
 impl Flags {

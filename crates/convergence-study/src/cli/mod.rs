@@ -117,18 +117,18 @@ pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcom
 }
 
 #[derive(Debug, Parser)]
-struct Program {
+struct CommandLine {
     #[command(subcommand)]
     command: Command,
 }
 
 /// The command line of a project that adds no commands of its own.
 pub fn program(project: &Project) -> clap::Command {
-    command_line::<Program>(project, &[("Commands", &COMMANDS)])
+    command_line::<CommandLine>(project, &[("Commands", &COMMANDS)])
 }
 
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
     let line = program(project);
-    ended(line.clone(), |asked: Program| asked.command.run(project, line))
+    ended(line.clone(), |asked: CommandLine| asked.command.run(project, line))
 }

@@ -27,19 +27,25 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
 
 /// Shows the progress of a run, and reports it when the run is interrupted.
 pub struct Watched {
-    bar: Bar,
+    /// For the cases of studies, with the time left estimated from the cost of what is left.
+    bar: ProgressBar,
     ids: Vec<String>,
     done: Arc<Mutex<Vec<String>>>,
 }
 
 impl Watched {
+    /// Steps of the bar.
+    const STEPS: f64 = 1000.0;
+
     /// For these studies; `bar`: whether a progress bar is wanted.
     pub fn new(studies: &[Box<dyn Study>], bar: bool) -> Self {
         let ids: Vec<String> = studies.iter().map(|study| study.header().id.clone()).collect();
         let done = Arc::new(Mutex::new(vec![]));
         let (told, count) = (Arc::clone(&done), ids.len());
         interrupt::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
-        Self { bar: Bar::new(bar), ids, done }
+        let target = if bar { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(Self::STEPS as u64), target);
+        Self { bar: bar.with_style(style("{bar:40} {msg}, {eta} left")), ids, done }
     }
 
     /// Shows that a case has ended.
@@ -47,16 +53,23 @@ impl Watched {
         if let Some((study, verdict)) = progress.ended {
             self.done.lock().unwrap_or_else(PoisonError::into_inner).push(self.ids[study].clone());
             if verdict != Verdict::Pass {
-                self.bar.0.println(format!("{}: {}", screen::verdict(verdict), self.ids[study]));
+                self.bar.println(format!("{}: {}", screen::verdict(verdict), self.ids[study]));
             }
         }
-        self.bar.show(progress, progress.running.map_or("", |study| &self.ids[study]));
+        // The study that has been running longest.
+        let running = progress.running.map_or("", |study| &self.ids[study]);
+        self.bar.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
+        self.bar.set_position((Self::STEPS * progress.done_cost / progress.cost) as u64);
     }
 
     /// Removes the bar.
     pub fn clear(&self) {
-        self.bar.clear();
+        self.bar.finish_and_clear();
     }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 /// How many results are those of an earlier run; `None` where none is.
@@ -70,14 +83,7 @@ fn sentence(done: &[String], count: usize) -> String {
     format!("{} of {count} studies had run{names}", done.len())
 }
 
-const TEMPLATE: &str = "{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left";
-
-/// A bar on standard error for so many steps; hidden with `quiet`, or where standard error is not a terminal.
-pub fn bar(name: &str, steps: usize, quiet: bool) -> ProgressBar {
-    counting(name, steps, "steps", quiet)
-}
-
-/// The same for other things than steps, which `unit` names.
+/// A bar on standard error for so many things, which `unit` names; hidden with `quiet`, or where standard error is not a terminal.
 pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
@@ -86,34 +92,6 @@ pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> Pr
         // Writing to the bar's line cannot fail.
         let _ = write!(text, "{:.0} {unit}/s", state.per_sec());
     };
-    let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(count as u64).with_style(style.with_key("rate", rate)).with_prefix(name.to_owned())
-}
-
-/// A bar for the cases of studies, with the time left estimated from the cost of what is left.
-pub struct Bar(ProgressBar);
-
-impl Bar {
-    const STEPS: f64 = 1000.0;
-
-    /// A bar, or none where it is not wanted.
-    pub fn new(wanted: bool) -> Self {
-        let target = if wanted { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(Self::STEPS as u64), target);
-        let style = ProgressStyle::with_template("{bar:40} {msg}, {eta} left");
-        Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
-    }
-
-    /// Moves it to the progress of the run.
-    ///
-    /// * `running`: the study that has been running longest.
-    pub fn show(&self, progress: Progress, running: &str) {
-        self.0.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
-        self.0.set_position((Self::STEPS * progress.done_cost / progress.cost) as u64);
-    }
-
-    /// Removes it.
-    pub fn clear(&self) {
-        self.0.finish_and_clear();
-    }
+    let style = style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
+    ProgressBar::new(count as u64).with_style(style).with_prefix(name.to_owned())
 }

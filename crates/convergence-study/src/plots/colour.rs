@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Layer};
 use super::marker::tick;
 use super::rect::Rect;
 use super::ruler::{Ruler, Ticks, on_scale, power_of_ten};
-use super::sheet::Sheet;
+use super::sheet::Page;
 use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};
 use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap, ViridisRGB};
@@ -76,7 +76,7 @@ impl ColourScale {
     }
 
     /// Draws the bar in the sheet's right margin.
-    pub(super) fn draw_bar(&self, sheet: &mut Sheet) {
+    pub(super) fn draw_bar(&self, sheet: &mut Page) {
         let plot = sheet.plot;
         let left = plot.right + BAR_GAP;
         let bar = Rect { left, right: left + BAR_WIDTH, ..plot };

@@ -19,7 +19,7 @@ const GUIDE_SPACING: f64 = 21.0;
 
 /// What a page is to hold.
 #[derive(Clone, Debug)]
-pub(super) struct Plan {
+pub(super) struct Layout {
     pub(super) title: Option<String>,
     pub(super) x: Ruler,
     pub(super) y: Ruler,
@@ -34,7 +34,7 @@ pub(super) struct Plan {
 }
 
 /// A page with everything in its place.
-pub(super) struct Sheet {
+pub(super) struct Page {
     pub(super) canvas: Canvas,
     pub(super) plot: Rect,
     pub(super) x: Ruler,
@@ -42,12 +42,12 @@ pub(super) struct Sheet {
     x_ticks: Ticks,
     y_ticks: Ticks,
     legend: Legend,
-    plan: Plan,
+    plan: Layout,
 }
 
-impl Plan {
+impl Layout {
     /// Measures all texts and places the plot area between them.
-    pub(super) fn lay_out(self) -> Sheet {
+    pub(super) fn lay_out(self) -> Page {
         let y_ticks = self.y.ticks(8);
         let left = EDGE + LABEL_SIZE + 10.0 + widest(&y_ticks) + 12.0;
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
@@ -57,7 +57,7 @@ impl Plan {
         let plot = Rect { left, top, right, bottom: top + style::PLOT_HEIGHT };
         let legend = Legend::arrange(self.legend.clone(), style::WIDTH - 2.0 * EDGE);
         let height = legend_top(&plot) + legend.height() + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
-        Sheet {
+        Page {
             canvas: Canvas::new(style::WIDTH, height.round()),
             x: self.x.laid_out(plot.left, plot.right),
             y: self.y.laid_out(plot.bottom, plot.top),
@@ -85,7 +85,7 @@ fn ticks_that_fit(ruler: &Ruler, width: f64) -> Ticks {
     fewer.into_iter().find(fits).unwrap_or_else(|| ruler.ticks(1))
 }
 
-impl Sheet {
+impl Page {
     /// Position of a data point, if its axes can show it.
     pub(super) fn px(&self, (x, y): (f64, f64)) -> Option<Point> {
         Some((self.x.px(x)?, self.y.px(y)?))
@@ -93,7 +93,7 @@ impl Sheet {
 
     /// Draws the grid: to be called before the data.
     pub(super) fn draw_grid(&mut self) {
-        let Sheet { plot, x, y, x_ticks, y_ticks, canvas, .. } = self;
+        let Page { plot, x, y, x_ticks, y_ticks, canvas, .. } = self;
         let upright = |pen: &Pen<'_>, v: f64, colour| {
             pen.line(&[(x.px_of(v), plot.top), (x.px_of(v), plot.bottom)], colour, 1.0);
         };
@@ -130,7 +130,7 @@ impl Sheet {
 
     /// Draws what surrounds the data, and closes the document.
     pub(super) fn finish(mut self) -> String {
-        let Sheet { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
+        let Page { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
         canvas.draw(Layer::default(), |pen| {
             pen.frame(*plot, style::INK, style::THIN);
             draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
@@ -138,7 +138,7 @@ impl Sheet {
             draw_headlines(pen, plot, plan, x);
         });
         self.draw_foot();
-        let Plan { title, x_label, y_label, .. } = self.plan;
+        let Layout { title, x_label, y_label, .. } = self.plan;
         let attributes = readable::axes(&self.plot, (&x_label, &self.x), (&y_label, &self.y));
         self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")), &attributes)
     }
@@ -188,7 +188,7 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
     pen.text_upwards(&label, (EDGE + 0.5 * LABEL_SIZE, plot.centre().1), LABEL_SIZE);
 }
 
-fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Plan, x: &Ruler) {
+fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
     if let Some(title) = &plan.title {
         let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
         pen.text(&title, (0.5 * style::WIDTH, EDGE + 10.0), TITLE_SIZE, Anchor::Center, style::INK);

@@ -4,7 +4,7 @@ use super::Scale;
 use super::colour::ColourScale;
 use super::heat::{fewest_runs, paint};
 use super::ruler::{Ruler, on_scale};
-use super::sheet::Plan;
+use super::sheet::Layout;
 use super::xy::left_out;
 use plotters::style::RGBColor;
 
@@ -37,7 +37,7 @@ pub fn space_time(figure: &SpaceTime) -> String {
     let colours = ColourScale::diverging(&figure.label, values);
     let picture = picture(figure, &t, &x, &colours);
     let non_finite = figure.frames.iter().flatten().filter(|&&v| on_scale(Scale::Linear, v).is_none()).count();
-    let plan = Plan {
+    let plan = Layout {
         title: figure.title.clone(),
         x: t,
         y: x,

@@ -8,7 +8,7 @@ use super::look::{Look, look};
 use super::marker::Marks;
 use super::rect::{Point, Rect, keep_outside};
 use super::ruler::{Ruler, Ticks, on_scale};
-use super::sheet::{Plan, Sheet};
+use super::sheet::{Layout, Page};
 use super::style::{Dash, TICK_SIZE, WHITE, text_width};
 use super::xy::left_out;
 use super::{Axis, Scale, Series, readable, style};
@@ -56,10 +56,10 @@ pub fn parameter_map(figure: &Surface) -> String {
     })
 }
 
-fn draw(figure: &Surface, on_top: impl FnOnce(&mut Sheet, &Lattice, &ColourScale)) -> String {
+fn draw(figure: &Surface, on_top: impl FnOnce(&mut Page, &Lattice, &ColourScale)) -> String {
     let lattice = Lattice::new(figure);
     let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, lattice.values.iter().flatten().copied());
-    let plan = Plan {
+    let plan = Layout {
         title: figure.title.clone(),
         x: span(figure.x.scale, &edges(&lattice.x, ALONE)),
         y: span(figure.y.scale, &edges(&lattice.y, ALONE)),
@@ -112,12 +112,12 @@ impl Lattice {
     }
 
     /// Edges of the cells in px.
-    fn edges_on(&self, sheet: &Sheet) -> [Vec<f64>; 2] {
+    fn edges_on(&self, sheet: &Page) -> [Vec<f64>; 2] {
         [(&self.x, &sheet.x), (&self.y, &sheet.y)]
             .map(|(at, ruler)| edges(at, ALONE).iter().map(|&v| ruler.px_of(v)).collect())
     }
 
-    fn vertices(&self, sheet: &Sheet, z: Scale) -> Vec<Vec<Vertex>> {
+    fn vertices(&self, sheet: &Page, z: Scale) -> Vec<Vec<Vertex>> {
         let row = |(&y, values): (&f64, &Vec<f64>)| {
             let cells = self.x.iter().zip(values);
             let vertex =
@@ -144,7 +144,7 @@ struct Vertex {
 }
 
 /// Iso lines at the colour bar's ticks, labelled like them.
-fn draw_contours(sheet: &mut Sheet, rows: &[Vec<Vertex>], levels: &Ticks) {
+fn draw_contours(sheet: &mut Page, rows: &[Vec<Vertex>], levels: &Ticks) {
     let mut labels: Vec<(Point, &str)> = Vec::new();
     let plot = sheet.plot;
     let lines: Vec<_> = levels.major.iter().map(|level| iso_segments(rows, level.at)).collect();
@@ -238,7 +238,7 @@ fn boundary_look(k: usize) -> Look {
     Look { colour, ..look(k) }
 }
 
-fn draw_marks(sheet: &mut Sheet, lattice: &Lattice) {
+fn draw_marks(sheet: &mut Page, lattice: &Lattice) {
     let [x, y] = lattice.edges_on(sheet);
     sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
         for (k, row) in lattice.marked.iter().enumerate() {
@@ -254,7 +254,7 @@ fn draw_marks(sheet: &mut Sheet, lattice: &Lattice) {
 }
 
 /// All rims before all lines: where two boundaries agree, the gaps of the dashed one show the other.
-fn draw_boundaries(sheet: &mut Sheet, figure: &Surface) {
+fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {
             let look = boundary_look(k);

@@ -6,7 +6,7 @@ use super::look::{Look, look};
 use super::marker::Marks;
 use super::rect::{Point, Rect};
 use super::ruler::{Ruler, on_scale};
-use super::sheet::{Plan, Sheet, guide_margin};
+use super::sheet::{Layout, Page, guide_margin};
 use super::style::TICK_SIZE;
 use super::{Axis, Guide, Phases, Scale, Series, readable, style};
 use crate::text::number::counted;
@@ -133,13 +133,13 @@ impl Xy {
         sheet.finish()
     }
 
-    fn plan(&self) -> Plan {
+    fn plan(&self) -> Layout {
         let x = self.x_ruler();
         let above = self.beyond.as_ref().and_then(|(from, text)| {
             let from = on_scale(self.x.scale, *from)?.max(x.lo);
             (from < x.hi).then(|| (0.5 * (from + x.hi), text.clone()))
         });
-        Plan {
+        Layout {
             title: self.title.clone(),
             x,
             y: self.y_ruler(),
@@ -175,7 +175,7 @@ impl Xy {
         notes
     }
 
-    fn draw_ground(&self, sheet: &mut Sheet) {
+    fn draw_ground(&self, sheet: &mut Page) {
         let plot = sheet.plot;
         let ends = self.phases.intervals.iter().filter_map(|&(a, b)| {
             let (a, b) = (sheet.x.px(a)?, sheet.x.px(b)?);
@@ -193,7 +193,7 @@ impl Xy {
         });
     }
 
-    fn draw_curves(&self, sheet: &mut Sheet) {
+    fn draw_curves(&self, sheet: &mut Page) {
         let share = ENVELOPE_COLUMNS / self.curves.len().max(1);
         let columns = (sheet.plot.width() as usize).min(share).max(1);
         for curve in &self.curves {
@@ -219,7 +219,7 @@ impl Xy {
         }
     }
 
-    fn draw_outlines(&self, sheet: &mut Sheet) {
+    fn draw_outlines(&self, sheet: &mut Page) {
         for outline in &self.outlines {
             let mut path: Vec<Point> = outline.corners.iter().filter_map(|&p| sheet.px(p)).collect();
             path.extend(path.first().copied());

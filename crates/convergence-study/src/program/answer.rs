@@ -80,8 +80,8 @@ struct Once(Value);
 
 impl<'de> Deserialize<'de> for Once {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Read;
-        impl<'de> Visitor<'de> for Read {
+        struct OnceVisitor;
+        impl<'de> Visitor<'de> for OnceVisitor {
             type Value = Once;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -131,7 +131,7 @@ impl<'de> Deserialize<'de> for Once {
                 Ok(Once(object.into()))
             }
         }
-        deserializer.deserialize_any(Read)
+        deserializer.deserialize_any(OnceVisitor)
     }
 }
 

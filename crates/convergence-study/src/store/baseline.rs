@@ -36,7 +36,7 @@ use crate::study::Header;
 use crate::text::{json, visible};
 
 pub use change::{Change, Movement};
-pub use claims::Claim;
+pub use claims::BlessedClaim;
 use claims::Claims;
 
 /// Version of the file's form.
@@ -70,12 +70,6 @@ pub struct Guarded {
     /// Why it was changed; nothing where nobody said so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-}
-
-/// What every version of the file has.
-#[derive(Deserialize)]
-struct Version {
-    schema: u32,
 }
 
 /// Why a run was not taken for the baseline.
@@ -132,16 +126,7 @@ impl Baseline {
             Err(error) => return Err(StoreError::File { path: path.to_owned(), error }),
             Ok(text) => text,
         };
-        let malformed = |error| StoreError::Malformed {
-            path: path.to_owned(),
-            error,
-            expected: "restore it, or remove it and run `verify --bless`",
-        };
-        // Another schema has other keys, so its version is read alone.
-        match serde_json::from_str(&text).map_err(malformed)? {
-            Version { schema: SCHEMA } => serde_json::from_str(&text).map_err(malformed),
-            Version { schema } => Err(StoreError::Schema { path: path.to_owned(), found: schema, expected: EXPECTED }),
-        }
+        crate::store::parsed(&text, path, SCHEMA, ["restore it, or remove it and run `verify --bless`", EXPECTED])
     }
 
     /// Writes the file, as a whole or not at all.
@@ -243,12 +228,12 @@ impl Baseline {
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
                 // What stays is the reason.
-                let withdrawn = (claims::ID.to_owned(), Claim { value: None, reason });
+                let withdrawn = (claims::ID.to_owned(), BlessedClaim { value: None, reason });
                 claims.insert(study.clone(), [withdrawn].into());
             }
             (_, None) => return Err(Refusal::NotRun { study: study.clone() }),
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
-                let claim = |value: &String| Claim {
+                let claim = |value: &String| BlessedClaim {
                     value: Some(value.clone()),
                     reason: reason.clone().filter(|_| *guarded > 0),
                 };
@@ -256,7 +241,7 @@ impl Baseline {
                 claims.entry(study.clone()).or_default().extend(all);
             }
             (Movement::Claim { to, .. }, Some(_)) => {
-                let claim = Claim { value: to.clone(), reason };
+                let claim = BlessedClaim { value: to.clone(), reason };
                 claims.entry(study.clone()).or_default().insert(name.clone(), claim);
             }
             (Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. }, Some(ran)) => {
@@ -270,7 +255,7 @@ impl Baseline {
     }
 
     /// A claim as it was blessed: of a study, by its dotted path.
-    pub fn claim(&self, id: &str, path: &str) -> Option<&Claim> {
+    pub fn claim(&self, id: &str, path: &str) -> Option<&BlessedClaim> {
         self.claims.get(id)?.get(path)
     }
 

@@ -12,8 +12,10 @@ pub mod work;
 pub mod writing;
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 use crate::judge::random::SplitMix;
@@ -50,6 +52,31 @@ pub enum StoreError {
         /// The version that is read.
         expected: &'static str,
     },
+}
+
+/// What a file holds in the form of a schema. Another schema has other keys, so the number is read first.
+///
+/// * `expected`: what to do about a file of another form, and about another schema.
+pub(crate) fn parsed<T: DeserializeOwned>(
+    text: &str,
+    path: &Path,
+    schema: u32,
+    expected: [&'static str; 2],
+) -> Result<T, StoreError> {
+    #[derive(Deserialize)]
+    struct Version {
+        schema: u32,
+    }
+    let path = path.to_owned();
+    match serde_json::from_str(text) {
+        Ok(Version { schema: found }) if found != schema => {
+            Err(StoreError::Schema { path, found, expected: expected[1] })
+        }
+        Ok(_) => {
+            serde_json::from_str(text).map_err(|error| StoreError::Malformed { path, error, expected: expected[0] })
+        }
+        Err(error) => Err(StoreError::Malformed { path, error, expected: expected[0] }),
+    }
 }
 
 /// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.

@@ -15,7 +15,7 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::diagnosis::Diagnosis;
-use crate::store::{StoreError, regular};
+use crate::store::{StoreError, parsed, regular};
 use crate::text::number::{committed, committed_rate};
 
 /// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
@@ -59,11 +59,8 @@ impl Record {
     /// # Errors
     /// [`StoreError`].
     pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let path = path.to_owned();
-        match regular::read_to_string(&path) {
-            Ok(text) => Self::parse(&text, &path),
-            Err(error) => Err(StoreError::File { path, error }),
-        }
+        let text = regular::read_to_string(path);
+        Self::parse(&text.map_err(|error| StoreError::File { path: path.to_owned(), error })?, path)
     }
 
     /// The same from its text.
@@ -71,12 +68,7 @@ impl Record {
     /// # Errors
     /// [`StoreError`], naming `path`.
     pub fn parse(text: &str, path: &Path) -> Result<Self, StoreError> {
-        let path = path.to_owned();
-        match serde_json::from_str::<Self>(text) {
-            Ok(record) if record.schema == SCHEMA => Ok(record),
-            Ok(record) => Err(StoreError::Schema { path, found: record.schema, expected: "1" }),
-            Err(error) => Err(StoreError::Malformed { path, error, expected: EXPECTED }),
-        }
+        parsed(text, path, SCHEMA, [EXPECTED, "1"])
     }
 
     /// The record of a run.

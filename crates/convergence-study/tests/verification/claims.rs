@@ -5,7 +5,7 @@ use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::{blessing, sentence};
-use convergence_study::store::baseline::{Baseline, Change, Claim, Refusal};
+use convergence_study::store::baseline::{Baseline, BlessedClaim, Change, Refusal};
 use convergence_study::store::junit::junit;
 use convergence_study::study::{Header, Study, Tier, erased};
 use convergence_study::verify::{Request, Scope, Verification, verify};
@@ -120,9 +120,12 @@ fn a_changed_claim_is_blessed_with_a_reason_which_is_kept() {
     baseline.bless(&ran(), None, None).unwrap();
     baseline.write(&file).unwrap();
     let baseline = Baseline::read(&file).unwrap();
-    let kept = Claim { value: Some("0.49".to_owned()), reason: Some("three levels only".to_owned()) };
+    let kept = BlessedClaim { value: Some("0.49".to_owned()), reason: Some("three levels only".to_owned()) };
     assert_eq!(baseline.claim("a", "expect[0].tolerance"), Some(&kept));
-    assert_eq!(baseline.claim("a", "expect[0].order"), Some(&Claim { value: Some("1".to_owned()), reason: None }));
+    assert_eq!(
+        baseline.claim("a", "expect[0].order"),
+        Some(&BlessedClaim { value: Some("1".to_owned()), reason: None })
+    );
     assert!(baseline.compare(&ran(), None).is_empty());
 }
 
@@ -135,7 +138,7 @@ fn a_claim_or_a_study_is_withdrawn_with_a_reason_which_stays() {
     assert!(refused.to_string().ends_with("\n  b: study file was deleted: it had 3 values"), "{refused}");
     baseline.bless(&ran(), Some(std::slice::from_ref(&a)), Some("b is a special case of a")).unwrap();
     assert!(baseline.compare(&ran(), Some(std::slice::from_ref(&a))).is_empty());
-    let withdrawn = |reason: &str| Claim { value: None, reason: Some(reason.to_owned()) };
+    let withdrawn = |reason: &str| BlessedClaim { value: None, reason: Some(reason.to_owned()) };
     assert_eq!(baseline.claim("b", "study.id"), Some(&withdrawn("b is a special case of a")));
     assert_eq!(baseline.guards("b"), 0);
 
@@ -167,7 +170,7 @@ fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
         baseline.bless(&ran(), None, Some("merged by hand")).unwrap();
         accepted.accept(&ran(), &changes[0], "merged by hand").unwrap();
         for baseline in [baseline, accepted] {
-            let kept = Claim { value: Some("1".to_owned()), reason: Some("merged by hand".to_owned()) };
+            let kept = BlessedClaim { value: Some("1".to_owned()), reason: Some("merged by hand".to_owned()) };
             assert_eq!(baseline.claim("a", "expect[0].order"), Some(&kept));
             assert!(baseline.compare(&ran(), None).is_empty());
         }

@@ -1,6 +1,6 @@
 //! What to do next about a column that does not pass, from its numbers where they show more than the reason.
 
-use super::{Findings, Judged};
+use super::{JudgedColumn, Judgement};
 use crate::input::error_table::limit;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Reason, Verdict};
@@ -14,11 +14,12 @@ const STOP: f64 = 0.5;
 const AHEAD: usize = 3;
 
 /// What the reason means for a column, and what to do.
-pub(super) fn words(judged: &Judged<'_>, findings: &Findings<'_>) -> String {
+pub(super) fn words(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, general) = (&judged.rate, &judged.column.name, judged.rate.kind.advice());
     let errors: Vec<f64> = judged.column.levels.iter().map(|level| level.error).collect();
-    let grows =
-        |judged: &&Judged<'_>| judged.rate.pairwise.len() > 1 && judged.rate.pairwise.iter().all(|rate| *rate < 0.0);
+    let grows = |judged: &&JudgedColumn<'_>| {
+        judged.rate.pairwise.len() > 1 && judged.rate.pairwise.iter().all(|rate| *rate < 0.0)
+    };
     let stays =
         matches!(rate.kind, Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow) || rate.kind.wants_a_level();
     if judged.estimate.is_some() || !(stays || rate.kind == Reason::ZeroError) {
@@ -52,7 +53,7 @@ fn stop(rates: &[f64]) -> Option<usize> {
 }
 
 /// Which level would decide, were the rates to go on as they do: their changes shrink as the last two did.
-fn next_level(judged: &Judged<'_>, findings: &Findings<'_>) -> String {
+fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (mut levels, rates) = (judged.column.levels.clone(), &judged.rate.pairwise);
     let changes: Vec<f64> = rates.windows(2).map(|two| two[1] - two[0]).collect();
     let [.., mut change] = changes[..] else { return String::new() };

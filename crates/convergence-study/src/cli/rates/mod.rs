@@ -93,7 +93,7 @@ fn dimension(text: &str) -> Result<f64, String> {
 }
 
 /// A column, judged.
-struct Judged<'t> {
+struct JudgedColumn<'t> {
     column: &'t Column,
     /// The order of one without a claim is NaN.
     claim: Claim,
@@ -104,18 +104,18 @@ struct Judged<'t> {
     decides: bool,
 }
 
-impl Judged<'_> {
+impl JudgedColumn<'_> {
     fn is_claimed(&self) -> bool {
         !self.rate.order.is_nan()
     }
 }
 
 /// All that is printed and written.
-struct Findings<'t> {
+struct Judgement<'t> {
     project: &'t Project,
     source: String,
     table: &'t RateTable,
-    columns: Vec<Judged<'t>>,
+    columns: Vec<JudgedColumn<'t>>,
     judge: &'t Judge,
     verdict: Verdict,
 }
@@ -146,10 +146,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             false => None,
         };
         let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, &claim), |estimate| estimate.judged.clone());
-        columns.push(Judged { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() });
+        columns.push(JudgedColumn { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() });
     }
     let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
-    let findings = Findings { project, source, table: &table, columns, judge: &judge, verdict };
+    let findings = Judgement { project, source, table: &table, columns, judge: &judge, verdict };
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
         shown::write(&findings, folder)?;

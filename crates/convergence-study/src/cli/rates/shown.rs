@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{Findings, Judged, advice};
+use super::{JudgedColumn, Judgement, advice};
 use crate::cli::{github, screen};
 use crate::explain::section;
 use crate::judge::claims::Claim;
@@ -21,7 +21,7 @@ use crate::text::visible::{self, visible};
 /// Most columns in the figure: more would have the colours of the first.
 const DRAWN: usize = 8;
 
-impl Judged<'_> {
+impl JudgedColumn<'_> {
     /// Rate, claim, the reason where that is not a pass, and the limit of values.
     fn found(&self) -> String {
         let found = match self.claim {
@@ -50,13 +50,13 @@ impl Judged<'_> {
 }
 
 /// The errors with the rates beside them, a verdict for each column, what to do, and the verdict on all.
-pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
+pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     let mut text = String::new();
     if !quiet || findings.table.is_guessed {
         text += &format!("{}\n", findings.table.reading);
     }
     if !quiet {
-        let columns: Vec<Shown<'_>> = findings.columns.iter().map(Judged::shown).collect();
+        let columns: Vec<Shown<'_>> = findings.columns.iter().map(JudgedColumn::shown).collect();
         text += &(shown::table(&findings.table.step, &columns, findings.judge.floor()) + "\n");
     }
     for judged in
@@ -89,7 +89,7 @@ pub(super) fn text(findings: &Findings<'_>, quiet: bool) -> String {
 }
 
 /// The overall verdict in words.
-fn sentence(findings: &Findings<'_>) -> String {
+fn sentence(findings: &Judgement<'_>) -> String {
     let deciding = || findings.columns.iter().filter(|column| column.decides);
     let passed = deciding().filter(|column| column.rate.verdict == Verdict::Pass).count();
     match deciding().count() {
@@ -101,8 +101,8 @@ fn sentence(findings: &Findings<'_>) -> String {
 
 /// What `rates --format json` prints, beside the verdict: rates as in `study --format json`, the column's name for
 /// the norm's.
-pub(super) fn object(findings: &Findings<'_>) -> Value {
-    let rate = |judged: &Judged<'_>| {
+pub(super) fn object(findings: &Judgement<'_>) -> Value {
+    let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
         let level = |level: &Level| json!({"step": level.step, "error": level.error});
         let aside = |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
@@ -135,11 +135,11 @@ pub(super) fn object(findings: &Findings<'_>) -> Value {
 ///
 /// # Errors
 /// That of the operating system, with the name of the file.
-pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
+pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     atomic::write(&folder.join("rates.svg"), figure(findings))?;
     atomic::write(&folder.join("rates.md"), markdown(findings, "![Errors over steps](rates.svg)\n\n"))?;
-    let case = |judged: &Judged<'_>| {
+    let case = |judged: &JudgedColumn<'_>| {
         let least = if judged.claim.at_least { "at least " } else { "" };
         let claim = if judged.is_claimed() { format!(": order {least}{}", judged.rate.order) } else { String::new() };
         (judged.column.name.clone() + &claim, judged.rate.verdict, judged.found())
@@ -156,10 +156,11 @@ pub(super) fn write(findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
 }
 
 /// The errors over the steps, columns with a claim first.
-fn figure(findings: &Findings<'_>) -> String {
-    let mut drawn: Vec<&Judged<'_>> = findings.columns.iter().filter(|judged| judged.estimate.is_none()).collect();
+fn figure(findings: &Judgement<'_>) -> String {
+    let mut drawn: Vec<&JudgedColumn<'_>> =
+        findings.columns.iter().filter(|judged| judged.estimate.is_none()).collect();
     drawn.sort_by_key(|judged| !judged.decides);
-    let series = |judged: &&Judged<'_>| ErrorSeries {
+    let series = |judged: &&JudgedColumn<'_>| ErrorSeries {
         label: judged.column.name.clone(),
         points: judged.column.levels.iter().map(|level| (level.step, level.error)).collect(),
         order: Some(judged.rate.order).filter(|order| !order.is_nan()),
@@ -172,7 +173,8 @@ fn figure(findings: &Findings<'_>) -> String {
     let mut slopes: Vec<f64> = series.iter().filter_map(|series| series.order).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
-    let at_floor = |judged: &&Judged<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
+    let at_floor =
+        |judged: &&JudgedColumn<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
     let floor = drawn.iter().any(at_floor).then(|| Guide { label: "floor".to_owned(), value: findings.judge.floor() });
     let (x_label, y_label) = (findings.table.step.clone(), "error".to_owned());
     convergence(&Convergence { title: None, x_label, y_label, series, slopes, floor, ..Convergence::default() })
@@ -181,7 +183,7 @@ fn figure(findings: &Findings<'_>) -> String {
 /// What is printed, as a page.
 ///
 /// * `picture`: where the figure goes, with the empty line below it.
-fn markdown(findings: &Findings<'_>, picture: &str) -> String {
+fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     let plain = |c: char| if "\\|*_`<[]".contains(c) { vec!['\\', c] } else { vec![c] };
     let source: String = visible(&findings.source).chars().flat_map(plain).collect();
     let text = visible::lines(&text(findings, false));

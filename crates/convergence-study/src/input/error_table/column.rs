@@ -11,7 +11,7 @@ const SAME: f64 = 1e-5;
 const NEAR: f64 = 1.5;
 
 /// A column of the grid, row by row.
-pub(super) struct Found {
+pub(super) struct Cells {
     /// As messages show it.
     pub(super) name: String,
     pub(super) word: Word,
@@ -24,7 +24,7 @@ pub(super) struct Found {
     pub(super) is_index: bool,
 }
 
-impl Found {
+impl Cells {
     pub(super) fn value(&self, row: usize) -> Option<f64> {
         self.numbers[row].map(|number| number.value)
     }

@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
-use super::column::{Found, limit};
+use super::column::{Cells, limit};
 use super::names::{self, Word, reciprocal};
 use super::number::{halves, number};
-use super::text::Grid;
+use super::text::RawTable;
 use super::{Choice, Column, RateTable};
 use crate::input::{Complaint, InputError, shorten};
 use crate::judge::verdict::Level;
@@ -18,12 +18,12 @@ const LISTED: usize = 12;
 const NEIGHBOURS: usize = 40;
 
 /// A grid and what is asked of it.
-struct Reader<'g, 't> {
-    grid: Grid<'t>,
+struct TableReader<'g, 't> {
+    grid: RawTable<'t>,
     file: &'g str,
     choice: &'g Choice,
     /// The columns of the grid.
-    columns: Vec<Found>,
+    columns: Vec<Cells>,
 }
 
 /// What a column that nobody has chosen holds.
@@ -47,7 +47,7 @@ struct Sorted {
 }
 
 /// Reads the step and the errors that are meant.
-pub(super) fn read(grid: Grid<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
+pub(super) fn read(grid: RawTable<'_>, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
     let width = grid.rows.iter().map(Vec::len).max().unwrap_or(0);
     let names = choice.names.clone().unwrap_or_else(|| match grid.names[..] {
         [] => vec![String::new(); grid.misfit.unwrap_or(width)],
@@ -61,7 +61,7 @@ pub(super) fn read(grid: Grid<'_>, file: &str, choice: &Choice) -> Result<RateTa
         let numbers: Vec<_> = grid.rows.iter().map(|row| value(row.get(k)?)).collect();
         let word = Word::of(name);
         let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(1)) && grid.rows.len() > 1;
-        Found {
+        Cells {
             name: if name.is_empty() { format!("column {}", k + 1) } else { name.clone() },
             word,
             halves: halves(&numbers),
@@ -70,18 +70,18 @@ pub(super) fn read(grid: Grid<'_>, file: &str, choice: &Choice) -> Result<RateTa
             is_index: may_count && grid.counts_rows(k),
         }
     };
-    let mut columns: Vec<Found> = names.iter().enumerate().map(column).collect();
+    let mut columns: Vec<Cells> = names.iter().enumerate().map(column).collect();
     for name in choice.columns.iter().flatten().chain(&choice.claimed).chain(&choice.values) {
         if let Some(k) = names::position(columns.iter().map(|column| column.name.as_str()), name) {
             columns[k].is_claimed = true;
         }
     }
-    let reader = Reader { grid, file, choice, columns };
+    let reader = TableReader { grid, file, choice, columns };
     reader.check(width)?;
     reader.read()
 }
 
-impl Reader<'_, '_> {
+impl TableReader<'_, '_> {
     /// Refuses what is no table, and names that cannot be those of its columns.
     fn check(&self, width: usize) -> Result<(), InputError> {
         if width == 0 {
@@ -122,7 +122,7 @@ impl Reader<'_, '_> {
         let is_exact = self.columns[step].regular().is_some() || dim.is_some();
         let step_halves = if is_exact { vec![0.0; steps.len()] } else { self.columns[step].halves.clone() };
         let read = |&k: &usize| {
-            let Found { name, halves, .. } = &self.columns[k];
+            let Cells { name, halves, .. } = &self.columns[k];
             let level = |(row, step): (usize, &f64)| Ok(Level { step: *step, error: self.must(row, k)? });
             let levels = steps.iter().enumerate().map(level).collect::<Result<_, InputError>>()?;
             Ok(Column { name: name.clone(), levels, halves: halves.clone(), step_halves: step_halves.clone() })
@@ -151,7 +151,7 @@ impl Reader<'_, '_> {
         let mut order: Vec<usize> = (0..steps.len()).collect();
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
         self.grid.rows = order.iter().map(|row| std::mem::take(&mut self.grid.rows[*row])).collect();
-        for Found { numbers, halves, .. } in &mut self.columns {
+        for Cells { numbers, halves, .. } in &mut self.columns {
             *numbers = order.iter().map(|row| numbers[*row]).collect();
             *halves = order.iter().map(|row| halves[*row]).collect();
         }
@@ -244,7 +244,7 @@ impl Reader<'_, '_> {
             return Ok((self.find(wanted, "--step")?, String::new()));
         }
         let of = |wanted: fn(Word) -> bool| -> Vec<usize> {
-            let is_free = |column: &Found| wanted(column.word) && !column.is_claimed && !column.is_constant();
+            let is_free = |column: &Cells| wanted(column.word) && !column.is_claimed && !column.is_constant();
             (0..self.columns.len()).filter(|k| is_free(&self.columns[*k])).collect()
         };
         let steps = of(|word| word == Word::Step);
@@ -272,7 +272,7 @@ impl Reader<'_, '_> {
         {
             return Ok((k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
         }
-        let described = |column: &Found| {
+        let described = |column: &Cells| {
             let why = match column.word {
                 _ if column.is_index => " (the number of the row)",
                 Word::Logarithm => " (give the values, not their logarithms)",
@@ -299,7 +299,7 @@ impl Reader<'_, '_> {
 
     /// The dimension for a column that counts; `None` for a step.
     fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
-        let Found { name, word, .. } = &self.columns[step];
+        let Cells { name, word, .. } = &self.columns[step];
         let is_edge = reciprocal(name).is_some()
             || matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt");
         let is_count = self.is_count(step);
@@ -405,7 +405,7 @@ impl Reader<'_, '_> {
         let columns = |columns: &[usize]| self.choice.command(|choice| choice.columns = Some(self.named(columns)));
         if errors.is_empty() && values.is_empty() {
             let is_open =
-                |column: &Found| matches!(column.word, Word::Unknown | Word::Error) && column.value(0).is_none();
+                |column: &Cells| matches!(column.word, Word::Unknown | Word::Error) && column.value(0).is_none();
             if let Some(k) = self.columns.iter().position(is_open) {
                 return self.must(0, k).err();
             }

@@ -35,7 +35,7 @@ use crate::judge::verdict::{Judge, RateVerdict};
 pub use choice::Choice;
 pub use column::limit;
 pub use digits::Column;
-use text::Grid;
+use text::RawTable;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +89,7 @@ impl RateTable {
     /// # Errors
     /// As [`RateTable::read_with`], but for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        columns::read(Grid::read(&text::plain(text)), file_name, choice)
+        columns::read(RawTable::read(&text::plain(text)), file_name, choice)
     }
 
     /// Judges every column of errors against its order.

@@ -2,11 +2,11 @@
 
 use super::names::Word;
 use super::number::{is_dash, number};
-use super::text::Grid;
+use super::text::RawTable;
 use crate::text::number::counted;
 
 /// A name and the numbers behind it.
-struct Entry<'t> {
+struct Pair<'t> {
     name: &'t str,
     values: Vec<&'t str>,
     /// Whether `=` or `:` stands between.
@@ -16,7 +16,7 @@ struct Entry<'t> {
 /// What lines hold.
 #[derive(Default)]
 struct Entries<'t> {
-    list: Vec<Entry<'t>>,
+    list: Vec<Pair<'t>>,
     /// How many brackets are open.
     depth: usize,
     /// A name at the end of the line above, `"h": [`.
@@ -33,7 +33,7 @@ fn is_mark(c: char) -> bool {
 /// Reads names and numbers; `None` where there are none, or fewer than rows of numbers.
 ///
 /// * `must_mark`: whether `=` or `:` must stand between them.
-pub(super) fn read(text: &str, must_mark: bool) -> Option<Grid<'_>> {
+pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if must_mark && !text.contains([':', '=']) {
         return None;
     }
@@ -46,7 +46,7 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<Grid<'_>> {
     }
     let longest = list.iter().map(|entry| entry.values.len()).max()?;
     let grid = if longest > 1 { lists(list, longest) } else { records(&list) };
-    Some(Grid { text, ..grid })
+    Some(RawTable { text, ..grid })
 }
 
 impl<'t> Entries<'t> {
@@ -74,12 +74,12 @@ impl<'t> Entries<'t> {
             let name = name.rsplit(": ").next().unwrap_or(name).trim_matches(is_mark);
             let is_on_line = self.list.len() > before_line;
             match (self.above.take().filter(|_| name.is_empty()), self.list.last_mut()) {
-                (Some(name), _) => self.list.push(Entry { name, values: vec![word], is_marked: true }),
+                (Some(name), _) => self.list.push(Pair { name, values: vec![word], is_marked: true }),
                 (None, Some(last)) if name.is_empty() && (self.depth > 0 || (is_on_line && label > 0)) => {
                     last.values.push(word);
                 }
                 _ if name.is_empty() => is_row = is_row || label == 0,
-                _ => self.list.push(Entry { name, values: vec![word], is_marked }),
+                _ => self.list.push(Pair { name, values: vec![word], is_marked }),
             }
             label = position;
         }
@@ -98,8 +98,8 @@ impl<'t> Entries<'t> {
 }
 
 /// A column for each list; rates, which are one fewer, begin on the second level.
-fn lists(entries: Vec<Entry<'_>>, longest: usize) -> Grid<'_> {
-    let mut grid = Grid { rows: vec![vec![]; longest], ..Grid::default() };
+fn lists(entries: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
+    let mut grid = RawTable { rows: vec![vec![]; longest], ..RawTable::default() };
     for mut entry in entries {
         if entry.values.len() + 1 == longest && longest > 2 {
             entry.values.insert(0, &entry.name[..0]);
@@ -116,7 +116,7 @@ fn lists(entries: Vec<Entry<'_>>, longest: usize) -> Grid<'_> {
 }
 
 /// A row for each time that the names come round. What is printed more often than the step, by a solver, is left out.
-fn records<'t>(entries: &[Entry<'t>]) -> Grid<'t> {
+fn records<'t>(entries: &[Pair<'t>]) -> RawTable<'t> {
     let mut names: Vec<(&'t str, usize)> = vec![];
     for entry in entries {
         match names.iter_mut().find(|(name, _)| *name == entry.name) {
@@ -142,5 +142,5 @@ fn records<'t>(entries: &[Entry<'t>]) -> Grid<'t> {
             row[column] = entry.values[0];
         }
     }
-    Grid { names, rows, left_out: others.into_iter().map(why).collect(), ..Grid::default() }
+    RawTable { names, rows, left_out: others.into_iter().map(why).collect(), ..RawTable::default() }
 }

@@ -7,7 +7,7 @@ use crate::input::{Place, Source};
 
 /// A table as it is written. Names and cells are pieces of its text, which tell their places.
 #[derive(Debug, Default)]
-pub(super) struct Grid<'t> {
+pub(super) struct RawTable<'t> {
     pub(super) text: &'t str,
     /// A name for each column, empty for none.
     pub(super) names: Vec<&'t str>,
@@ -185,7 +185,7 @@ struct Head<'t> {
     is_comment: bool,
 }
 
-impl<'t> Grid<'t> {
+impl<'t> RawTable<'t> {
     /// Finds the table in a text that has been made [`plain`].
     pub(super) fn read(text: &'t str) -> Self {
         if let Some(grid) = pairs::read(text, true) {

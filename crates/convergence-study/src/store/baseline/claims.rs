@@ -16,7 +16,7 @@ pub(super) const ID: &str = "study.id";
 /// A value of a study file as it was blessed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Claim {
+pub struct BlessedClaim {
     /// Its text in the form of [`Header::settings`]; `null` where it was withdrawn.
     pub value: Option<String>,
     /// Why it was changed or withdrawn; nothing for the first value.
@@ -25,7 +25,7 @@ pub struct Claim {
 }
 
 /// The claims of one study, by the dotted path of the value.
-pub(super) type Claims = BTreeMap<String, Claim>;
+pub(super) type Claims = BTreeMap<String, BlessedClaim>;
 
 /// What differs between the claims as they were blessed and the file as it is: by path; one change for a file that is new.
 ///

@@ -19,19 +19,7 @@ const CIRCLES: [(&str, &[&[&str]]); 4] = [
     ),
     ("thermobeam", &[&["solve/control", "solve/newton", "solve/stepper"]]),
     ("thermobeam-exact", &[&["expression", "function"]]),
-    (
-        "thermobeam-study",
-        &[
-            &["error/design", "kinds/controls/sensitivity", "kinds/controls/untested", "kinds/convergence"],
-            &["error/evaluator", "error/reference"],
-            &["kinds/bifurcation/judge", "kinds/bifurcation/report"],
-            &["kinds/energy/file", "kinds/energy/runs"],
-            &["kinds/exact_experiments/judge", "kinds/exact_experiments/report"],
-            &["kinds/experiment/judge", "kinds/experiment/report"],
-            &["kinds/rigid/judge", "kinds/rigid/report"],
-            &["kinds/solvers/map/figures", "kinds/solvers/map/judge"],
-        ],
-    ),
+    ("thermobeam-study", &[&["kinds/controls/sensitivity", "kinds/controls/untested", "kinds/convergence"]]),
 ];
 
 /// The modules of other crates from bottom to top, where they are ordered: each may use itself and those before it. This crate's are in
@@ -78,23 +66,17 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "any_order",
         ],
     ),
-    ("thermobeam-study", &["figures", "scene", "run", "error", "predict", "sweep", "kinds"]),
+    ("thermobeam-study", &["figures", "scene", "run", "error", "predict", "sweep", "kinds", "timing"]),
 ];
 
 /// Uses against these orders that are still there: crate, file, file used.
-const ARROWS_UP: [(&str, &str, &str); 12] = [
+const ARROWS_UP: [(&str, &str, &str); 6] = [
     ("thermobeam", "solve/balance", "energy"),
     ("thermobeam", "solve/balance", "energy/sums"),
     ("thermobeam", "solve/stepper", "energy"),
     ("thermobeam-exact", "expression", "function"),
     ("thermobeam-exact", "factors", "solution"),
-    ("thermobeam-study", "error/design", "kinds/convergence"),
-    ("thermobeam-study", "error/evaluator", "kinds/tables"),
-    ("thermobeam-study", "error/free_vibration", "kinds/tables"),
-    ("thermobeam-study", "error/reference", "kinds/tables/discretisation"),
-    ("thermobeam-study", "run/any_order_time", "error/curve"),
     ("thermobeam-study", "run/family", "error/design"),
-    ("thermobeam-study", "run/simulate/object", "predict/estimate"),
 ];
 
 /// A module by its path inside the crate; empty for the root.

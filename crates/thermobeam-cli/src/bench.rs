@@ -7,9 +7,10 @@ use convergence_study::project::Project;
 use convergence_study::report;
 use convergence_study::store::atomic;
 use convergence_study::study::{FromFile, Kind, Table};
-use thermobeam_study::kinds::work_precision::{self, Rival, WorkPrecision};
+use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
 use thermobeam_study::run::step_time;
 use thermobeam_study::scene::Scene;
+use thermobeam_study::timing::{self, Rival};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
@@ -65,7 +66,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let mut page = Page { text: heading(project, &path), folder: out.clone(), tables: vec![], shows, clock };
     let paper = root.join(SCENE);
     if paper.exists() {
-        let tables = work_precision::beside(&Scene::read(paper)?, rival.as_ref());
+        let tables = timing::beside(&Scene::read(paper)?, rival.as_ref());
         for table in tables.map_err(|failure| Unusable::because(&failure.reason))? {
             page.add(table)?;
         }
@@ -142,16 +143,16 @@ fn heading(project: &Project, scene: &Path) -> String {
 
 /// Run time against error, in every quantity.
 fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
-    let runs = study.timed().map_err(|failure| Unusable::because(&failure.reason))?;
+    let runs = timing::timed(study).map_err(|failure| Unusable::because(&failure.reason))?;
     let id = &study.header().id;
     for &quantity in study.quantities() {
-        let table = study.seconds(quantity, &runs);
+        let table = timing::table(study, quantity, &runs);
         if table.rows.is_empty() {
             continue;
         }
         page.add(table)?;
         let caption = format!("{id}: error ({}) over seconds", quantity.name());
-        page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &study.seconds_figure(quantity, &runs))?;
+        page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &timing::figure(study, quantity, &runs))?;
     }
     Ok(())
 }

@@ -9,9 +9,11 @@ use convergence_study::study::{Axis, Claim, FromFile as _, Header};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
+use thermobeam_study::exact::norm::Norm;
+use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::tables::{Manufactured, Norm, Product, Refine};
+use thermobeam_study::kinds::tables::Refine;
 
 const TOML: &str = r#"
     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }

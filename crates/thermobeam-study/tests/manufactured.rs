@@ -5,9 +5,9 @@ use std::path::Path;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here};
-use thermobeam_study::error::design::{Defect, Disagreement, Prepared};
+use thermobeam_study::error::design::{Defect, Disagreement};
+use thermobeam_study::exact::norm::{Norm, Norms};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::tables::{Norm, Norms};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
@@ -19,7 +19,7 @@ fn convergence(name: &str) -> Convergence {
 
 fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
     let (beam, obstacles) = study.solver_coefficients();
-    Prepared::new(study, elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
+    study.prepared(elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
 }
 
 /// Norms of the table, in its order; errors to the digits given.

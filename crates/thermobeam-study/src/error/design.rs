@@ -11,15 +11,16 @@
 
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
+use crate::exact::norm::Norms;
+use crate::exact::solution::Manufactured;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
-use crate::kinds::convergence::Convergence;
-use crate::kinds::tables::Norms;
 use crate::run::driver::Driver;
 use convergence_study::study::{Axis, CaseFailure};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::ContactRule;
+use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Stepping};
+use thermobeam::solve::Settings;
 
 /// A mistake made on purpose in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,9 +70,28 @@ pub struct Disagreement {
     pub defect: Option<Defect>,
 }
 
+/// What runs on all meshes share: the exact solution, the design, and how it is stepped.
+#[derive(Debug, Clone, Copy)]
+pub struct Theory<'a> {
+    /// The exact solution.
+    pub exact: &'a Manufactured,
+    /// Coefficients from which the sources are derived.
+    pub beam: Beam,
+    /// Obstacles from which the boundary load is derived.
+    pub obstacles: Option<Obstacles>,
+    /// The axis whose error is isolated; `None`: coupled.
+    pub isolated: Option<Axis>,
+    /// Final time.
+    pub t_end: f64,
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// How each step is solved.
+    pub settings: Settings,
+}
+
 /// Space vectors and error meter of one mesh: what several runs on it share.
 pub struct Prepared<'a> {
-    study: &'a Convergence,
+    theory: Theory<'a>,
     mesh: Mesh,
     nodal: Nodal,
     sources: Sources,
@@ -79,21 +99,14 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Computes the space vectors of the study's design.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] where the study's map makes no mesh of so many elements.
-    pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, CaseFailure> {
-        let mesh = study.refine.mesh(elements)?;
-        let time_isolated = study.refine.isolate && study.refine.axis == Axis::Time;
-        let sources = if time_isolated {
-            Sources::discrete(&study.exact, &study.beam, &mesh)
-        } else {
-            Sources::strong(&study.exact, &study.beam, &mesh)
-        };
-        let meter = ErrorMeter::new(&study.exact, &mesh, time_isolated);
-        let nodal = Nodal::of(&study.exact, &mesh);
-        Ok(Self { study, mesh, nodal, sources, meter })
+    /// Computes the space vectors of the design.
+    pub fn new(theory: Theory<'a>, mesh: Mesh) -> Self {
+        let Theory { exact, ref beam, .. } = theory;
+        let time_isolated = theory.isolated == Some(Axis::Time);
+        let sources =
+            if time_isolated { Sources::discrete(exact, beam, &mesh) } else { Sources::strong(exact, beam, &mesh) };
+        let (meter, nodal) = (ErrorMeter::new(exact, &mesh, time_isolated), Nodal::of(exact, &mesh));
+        Self { theory, mesh, nodal, sources, meter }
     }
 
     /// Runs so many steps and returns the errors, each the maximum over n = 1..N.
@@ -114,7 +127,7 @@ impl<'a> Prepared<'a> {
 }
 
 struct DesignRun<'a> {
-    study: &'a Convergence,
+    theory: Theory<'a>,
     dt: f64,
     defect: Option<Defect>,
     sources: &'a Sources,
@@ -128,27 +141,25 @@ struct DesignRun<'a> {
 
 impl<'a> DesignRun<'a> {
     fn new(prepared: &'a mut Prepared<'_>, steps: usize, disagreement: Disagreement) -> Result<Self, CaseFailure> {
-        let Prepared { study, mesh, nodal, sources, meter } = prepared;
+        let Prepared { theory, mesh, nodal, sources, meter } = prepared;
+        let theory = *theory;
         let Disagreement { beam, obstacles, defect } = disagreement;
         let mut old = Factors::default();
-        old.at(&study.exact, 0.0);
-        let initial = initial(nodal, &study.beam, mesh, &old, beam.theta_a);
-        let dt = study.refine.dt(steps);
-        let stepping = Stepping { scheme: study.refine.scheme, settings: study.refine.settings, dt, loaded: true };
+        old.at(theory.exact, 0.0);
+        let initial = initial(nodal, &theory.beam, mesh, &old, beam.theta_a);
+        let dt = theory.t_end / steps as f64;
+        let stepping = Stepping { scheme: theory.scheme, settings: theory.settings, dt, loaded: true };
         let driver = Driver::new(Problem { beam, obstacles, mesh: mesh.clone(), initial }, stepping)?;
         let (new, source) = (old.clone(), old.clone());
-        Ok(Self { study, dt, defect, sources, meter, driver, old, new, source })
+        Ok(Self { theory, dt, defect, sources, meter, driver, old, new, source })
     }
 
     /// Step n and its errors.
     fn step(&mut self, n: usize) -> Result<Norms, CaseFailure> {
-        let exact = &self.study.exact;
+        let exact = self.theory.exact;
         self.new.at(exact, n as f64 * self.dt);
-        let (n_value, force) = if self.study.refine.isolate && self.study.refine.axis == Axis::Space {
-            self.discrete_factors()
-        } else {
-            self.exact_factors(n)
-        };
+        let (n_value, force) =
+            if self.theory.isolated == Some(Axis::Space) { self.discrete_factors() } else { self.exact_factors(n) };
         let loads = match self.defect {
             Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
             Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
@@ -164,15 +175,15 @@ impl<'a> DesignRun<'a> {
     /// Source factors, N and contact force at t_{n-½}.
     fn exact_factors(&mut self, n: usize) -> (f64, f64) {
         let at = if self.defect == Some(Defect::SourceAtNewLevel) { n as f64 } else { n as f64 - 0.5 };
-        self.source.at(&self.study.exact, at * self.dt);
+        self.source.at(self.theory.exact, at * self.dt);
         let values = &self.source.u.value;
-        let force = self.study.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
+        let force = self.theory.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
         (self.sources.axial_force(values), force)
     }
 
     /// What the scheme makes of the time sequence between t_{n-1} and t_n.
     fn discrete_factors(&mut self) -> (f64, f64) {
-        let scheme = self.study.refine.scheme;
+        let scheme = self.theory.scheme;
         self.source.of_step(&self.old, &mut self.new, scheme.inertia, self.dt);
         if self.defect == Some(Defect::SourceAtNewLevel) {
             self.source.u.value.clone_from(&self.new.u.value);
@@ -182,7 +193,7 @@ impl<'a> DesignRun<'a> {
         let n_value = if self.defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
         let (u_old, u_new) = (self.sources.tip(old), self.sources.tip(new));
         let force =
-            self.study.obstacles.map_or(0.0, |obstacles| self.contact(&obstacles, scheme.contact, u_new, u_old));
+            self.theory.obstacles.map_or(0.0, |obstacles| self.contact(&obstacles, scheme.contact, u_new, u_old));
         (n_value, force)
     }
 

@@ -1,15 +1,16 @@
 //! The error of a discrete level: in the norm of Theorem 3.4, to the interpolant (superclose), and at the tip.
 //!
-//! Against an exact solution, or against a run of any order ([`Reference`]), whose own error does not matter. The reference's mesh must
+//! Against an exact solution, or against a run of any order ([`Traced`]), whose own error does not matter. The reference's mesh must
 //! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
 
-use crate::error::reference::Reference;
+use crate::error::levels::{distance, prolong, restrict};
+use crate::error::reference::Traced;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
-use crate::kinds::tables::{Manufactured, Norm, Product};
+use crate::exact::norm::Norm;
+use crate::exact::solution::{Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
-use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 
 /// What is measured.
@@ -39,7 +40,7 @@ impl ErrorMeasure {
 
 enum Answer<'a> {
     Exact { exact: &'a Manufactured, meter: Box<ErrorMeter>, factors: Factors, tip: Vec<f64> },
-    Computed { reference: &'a Reference, stride: usize, nodes: Vec<f64>, lengths: [Vec<f64>; 2] },
+    Computed { reference: &'a Traced, stride: usize, nodes: Vec<f64>, lengths: [Vec<f64>; 2] },
 }
 
 /// Measures the levels of one mesh.
@@ -52,7 +53,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// [`CaseFailure`] without either, or where the reference's mesh does not contain the nodes.
-    pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Reference>) -> Result<Self, CaseFailure> {
+    pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Traced>) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
         let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
         let answer = match (reference, family.exact()) {
@@ -93,58 +94,4 @@ impl<'a> Evaluator<'a> {
             }
         }
     }
-}
-
-/// Distance of two levels of one mesh in the norm of Theorem 3.4.
-pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
-    let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
-    let [v, u, w, phi, theta] = [(&a.v, &b.v), (&a.u, &b.u), (&a.w, &b.w), (&a.phi, &b.phi), (&a.theta, &b.theta)]
-        .map(|(a, b)| difference(a, b));
-    TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
-}
-
-fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    Level {
-        u: map(&level.u),
-        v: map(&level.v),
-        phi: map(&level.phi),
-        w: map(&level.w),
-        theta: map(&level.theta),
-        contact_force: level.contact_force,
-    }
-}
-
-/// `weight * a + (1 - weight) * b`, field by field.
-pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
-    let mix =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weight * a + (1.0 - weight) * b).collect::<Vec<f64>>();
-    Level {
-        u: mix(&a.u, &b.u),
-        v: mix(&a.v, &b.v),
-        phi: mix(&a.phi, &b.phi),
-        w: mix(&a.w, &b.w),
-        theta: mix(&a.theta, &b.theta),
-        contact_force: weight * a.contact_force + (1.0 - weight) * b.contact_force,
-    }
-}
-
-/// Values at every `stride`-th node.
-pub(crate) fn restrict(level: &Level, stride: usize) -> Level {
-    map_fields(level, |y| y.iter().step_by(stride).copied().collect())
-}
-
-/// The same P1 functions by their values at the nodes of another mesh, which must contain the old nodes.
-pub fn prolong(level: &Level, nodes: &[f64], fine: &[f64]) -> Level {
-    map_fields(level, |y| {
-        let mut left = 0;
-        fine.iter()
-            .map(|&x| {
-                while left + 2 < nodes.len() && nodes[left + 1] <= x {
-                    left += 1;
-                }
-                let fraction = (x - nodes[left]) / (nodes[left + 1] - nodes[left]);
-                (1.0 - fraction) * y[left] + fraction * y[left + 1]
-            })
-            .collect()
-    })
 }

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use crate::exact::function::{Factor, Function};
-use crate::kinds::tables::{Manufactured, Product};
+use crate::exact::solution::{Manufactured, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, ParameterError};
 use thermobeam::vibration::{Mode, TimeFactor};

@@ -4,4 +4,5 @@ pub(crate) mod curve;
 pub mod design;
 pub mod evaluator;
 pub mod free_vibration;
+pub mod levels;
 pub mod reference;

@@ -12,8 +12,7 @@ use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
-use super::evaluator::distance;
-use crate::kinds::tables::Discretisation;
+use super::levels::distance;
 use crate::run::motion::{Motion, Report};
 use crate::run::rerun::resampled;
 use crate::run::simulate::{Recording, Simulator};
@@ -31,23 +30,23 @@ pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
     resampled(&scene.mesh, FINER * finest)
 }
 
-/// A run of any order, kept at equidistant times by its values at the nodes of a mesh.
+/// A run kept at equidistant times by its values at the nodes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
-    /// The mesh; where it is finer than the run's own, its linear functions stand for the run's polynomials.
+pub struct Traced {
+    /// The mesh; where it is finer than that of a run of any order, its linear functions stand for the run's polynomials.
     pub mesh: Mesh,
-    /// At `t_end k / samples`, k = 1 ...; without contact force.
+    /// At `t_end k / samples`, k = 1 ...; of a run of any order without contact force.
     pub levels: Vec<Level>,
-    /// Energies at the same times, of the polynomials.
+    /// Energies (3.9) at the same times, of a run of any order those of the polynomials.
     pub energies: Vec<f64>,
-    /// (t, u(1, t)) at equidistant times.
+    /// (t, u(1, t)) at equidistant times, as many as a figure shows.
     pub tip: Vec<(f64, f64)>,
-    /// Smallest and largest u(1).
+    /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
 }
 
-impl Reference {
-    /// Runs a scene over [0, t_end].
+impl Traced {
+    /// Runs a scene by dG over [0, t_end].
     ///
     /// * `mesh`: where its values are kept; a mesh that contains the nodes of all that is compared.
     /// * `samples`: times of comparison, each the end of a step.
@@ -55,14 +54,8 @@ impl Reference {
     ///
     /// # Errors
     /// [`CaseFailure`] where the run does not come to its end.
-    pub fn compute(
-        scene: &Scene,
-        how: &Discretisation,
-        mesh: Mesh,
-        t_end: f64,
-        samples: usize,
-        curve: usize,
-    ) -> Result<Self, CaseFailure> {
+    pub fn compute(scene: &Scene, mesh: Mesh, samples: usize, curve: usize) -> Result<Self, CaseFailure> {
+        let t_end = scene.t_end;
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
@@ -74,7 +67,7 @@ impl Reference {
             }
             Ok(ControlFlow::Continue(()))
         };
-        let run = Simulator::new(&how.of(scene, t_end)?)?.watched(Recording::Curve(curve), &times, &mut observe);
+        let run = Simulator::new(scene)?.watched(Recording::Curve(curve), &times, &mut observe);
         let run = run.finished()?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         Ok(Self { tip: run.tip(), mesh, levels, energies, tip_range })

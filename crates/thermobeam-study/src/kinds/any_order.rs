@@ -30,19 +30,13 @@
 use convergence_study::plots::look::look;
 use convergence_study::plots::marker::Marks;
 use convergence_study::plots::xy::{Curve, Xy};
-use convergence_study::run::time_limit::Patience;
-use convergence_study::study::levels::summary;
 use convergence_study::text::number::counted;
 use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
 
 use super::prelude::*;
-use super::tables::{Control, Manufactured, control, manufactured, mapped_mesh, mesh_map};
+use super::tables::{Control, control, manufactured, mapped_mesh, mesh_map};
 use crate::error::free_vibration;
 use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
-use crate::expression::Expression;
-use crate::scene::tables;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -259,20 +253,19 @@ impl Kind for AnyOrder {
         Ok(Errors { fields: together(values), slopes: together(slopes), inside_u, inside_u_t })
     }
 
-    fn judge(&self, ran: &[Ran<Resolution, Errors>]) -> Outcome {
+    fn judge(&self, ran: &[OneRun]) -> Outcome {
         let completion = completion(ran, |&Errors { fields, slopes, inside_u, inside_u_t }| {
-            let named = [("fields", fields), ("slopes", slopes), ("u inside", inside_u), ("u_t inside", inside_u_t)];
-            readings::not_finite(&named.map(|(name, error)| Reading::new(name, error)))
+            not_finite(&[("fields", fields), ("slopes", slopes), ("u inside", inside_u), ("u_t inside", inside_u_t)])
         });
+        // Fewer where some are missing.
         let mut rest = ran;
         let of_series = |series| {
-            // Fewer where some are missing.
             let series: &RunsOfDegree = series;
             let (mine, others) = rest.split_at(series.runs.len().min(rest.len()));
             rest = others;
             (series, mine)
         };
-        let runs: Vec<(&RunsOfDegree, &[Run])> = self.series.iter().map(of_series).collect();
+        let runs: Vec<(&RunsOfDegree, &[OneRun])> = self.series.iter().map(of_series).collect();
         if self.over == Over::Degree {
             self.over_degrees(&runs, completion)
         } else {
@@ -281,7 +274,7 @@ impl Kind for AnyOrder {
     }
 }
 
-type Run = Ran<Resolution, Errors>;
+type OneRun = Ran<Resolution, Errors>;
 
 impl AnyOrder {
     /// The coefficients from which the loads are derived.
@@ -324,26 +317,24 @@ impl AnyOrder {
     }
 
     /// Rates over h or dt, a figure for each degree's errors together.
-    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Run])], completion: Check) -> Outcome {
-        let mut all = Outcome::new("", vec![], vec![]);
+    fn over_steps(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
+        let (mut rates, mut levels, mut figures, mut quantities) = (vec![], vec![], vec![], vec![]);
         for (series, runs) in runs {
             let Resolution { degree, time_degree, .. } = series.runs[0];
             let (letter, degree) = if self.over == Over::Time { ("q", time_degree) } else { ("p", degree) };
             let title = format!("{letter} = {degree}");
             let caption = format!("Errors for {title}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
-            let levels = self.levels(series, runs);
-            let one = levels.outcome(&self.header.id, &what, Some(&title), &caption, vec![]);
-            all.rates.extend(one.rates);
-            all.levels.extend(one.levels);
-            all.figures.extend(one.figures);
-            all.quantities.extend(one.quantities);
+            let one = self.levels(series, runs).outcome(&self.header.id, &what, Some(&title), &caption, vec![]);
+            rates.extend(one.rates);
+            levels.extend(one.levels);
+            figures.extend(one.figures);
+            quantities.extend(one.quantities);
         }
-        let Outcome { rates, levels, figures, quantities, .. } = all;
         Outcome { levels, figures, quantities, ..Outcome::new(summary(&rates), rates, vec![completion]) }
     }
 
-    fn levels(&self, series: &RunsOfDegree, ran: &[Run]) -> Levels {
+    fn levels(&self, series: &RunsOfDegree, ran: &[OneRun]) -> Levels {
         /// Name and order of an error, and the error itself.
         type ClaimOf = (String, usize, fn(&Errors) -> f64);
         let Resolution { degree: p, time_degree: q, .. } = series.runs[0];
@@ -364,7 +355,7 @@ impl AnyOrder {
             claim: Some(Claim::new(order as f64, series.tolerance)),
             look,
         };
-        let refinement = |ran: &Run| {
+        let refinement = |ran: &OneRun| {
             let Resolution { degree, elements, time_degree, steps } = ran.case.data;
             let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
             let step = match self.over {
@@ -381,11 +372,11 @@ impl AnyOrder {
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
-    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Run])], completion: Check) -> Outcome {
+    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
         let mut checks = vec![completion];
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
         for (k, (series, runs)) in runs.iter().enumerate() {
-            let error = |run: &Run| run.ok().map_or(f64::NAN, |errors| errors.fields);
+            let error = |run: &OneRun| run.ok().map_or(f64::NAN, |errors| errors.fields);
             let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));

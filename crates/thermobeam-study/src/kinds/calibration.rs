@@ -13,16 +13,11 @@
 //! most = 0.006           # or least = ...
 //! ```
 
-use std::path::Path;
-
-use convergence_study::input::{InputError, Section};
 use convergence_study::judge::calibration::{
     CLAIMS, ELEMENTS_OF_A_TABLE, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
 };
-use convergence_study::plots::{self, Axis, History, Series};
-use convergence_study::study::levels;
-use convergence_study::study::outcome::{Check, Figure, Table};
-use convergence_study::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+
+use super::prelude::*;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -137,21 +132,22 @@ pub struct Calibration {
 impl FromFile for Calibration {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "measure", "expect"])?;
-        let sections = |key: &str| {
-            let allowed = format!("at least one table [[{key}]]");
-            let field = root.require(key, &allowed)?;
-            let items = field.items(&allowed)?;
-            if items.is_empty() {
-                Err(field.refuse_as_written(allowed))
-            } else {
-                items.iter().map(|item| item.section()).collect()
-            }
-        };
-        let (measures, expected): (Vec<Section<'_>>, Vec<Section<'_>>) = (sections("measure")?, sections("expect")?);
+        let allowed = |key: &str| format!("at least one table [[{key}]]");
+        let (measure, expect) = (allowed("measure"), allowed("expect"));
         Ok(Self {
             header,
-            measures: measures.iter().map(Measure::read).collect::<Result<_, _>>()?,
-            expected: expected.iter().map(Expectation::read).collect::<Result<_, _>>()?,
+            measures: root.list(
+                "measure",
+                &measure,
+                |item| Measure::read(&item.section()?),
+                |list| !list.is_empty(),
+            )?,
+            expected: root.list(
+                "expect",
+                &expect,
+                |item| Expectation::read(&item.section()?),
+                |list| !list.is_empty(),
+            )?,
         })
     }
 }
@@ -181,7 +177,7 @@ impl Kind for Calibration {
     fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
         let sheets: Vec<Sheet> = ran.iter().filter_map(Ran::ok).flatten().cloned().collect();
         let mut checks: Vec<Check> = self.expected.iter().flat_map(|expected| expected.checks(&sheets)).collect();
-        checks.push(levels::completion(ran, |_| vec![]));
+        checks.push(completion(ran, |_| vec![]));
         let summary = format!("{} shares of {} sheets are within their limits", checks.len() - 1, sheets.len());
         let figures = figures(&sheets, &self.header.id);
         Outcome { tables: sheets.iter().map(table).collect(), figures, ..Outcome::new(summary, vec![], checks) }
@@ -195,11 +191,8 @@ fn text(value: f64) -> String {
 fn table(sheet: &Sheet) -> Table {
     let name = |row: &Row| if row.declared { row.name.clone() } else { format!("({})", row.name) };
     let cells = |row: &Row| std::iter::once(name(row)).chain(row.values.iter().map(|value| text(*value))).collect();
-    Table {
-        title: sheet.title.clone(),
-        head: std::iter::once(String::new()).chain(sheet.columns.iter().cloned()).collect(),
-        rows: sheet.rows.iter().map(cells).collect(),
-    }
+    let head = std::iter::once(String::new()).chain(sheet.columns.iter().cloned());
+    Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
 }
 
 /// What is drawn of a row.
@@ -209,10 +202,14 @@ type Points<'p> = &'p dyn Fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, x_label: &str, y: &str, points: Points<'_>| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-        let series = sheet.rows.iter().map(|row| Series { label: row.name.clone(), points: points(sheet, row) });
-        let history =
-            History { x_label: x_label.to_owned(), y: Axis::linear(y), series: series.collect(), ..History::default() };
-        Some(Figure { file: format!("{id}-{key}.svg"), caption: caption.to_owned(), svg: plots::history(&history) })
+        let series = |row: &Row| plots::Series { label: row.name.clone(), points: points(sheet, row) };
+        let history = plots::History {
+            x_label: x_label.to_owned(),
+            y: plots::Axis::linear(y),
+            series: sheet.rows.iter().map(series).collect(),
+            ..plots::History::default()
+        };
+        Some(over_time(id, key, caption, &history))
     };
     let trade = |_: &Sheet, row: &Row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()

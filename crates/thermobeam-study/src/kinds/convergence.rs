@@ -31,18 +31,13 @@
 
 use convergence_study::study::Untested;
 use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
-use convergence_study::study::levels::summary;
 use convergence_study::study::until_decided::{self, Next};
-use thermobeam::parameters::{Beam, Obstacles};
 
 use super::controls::untested;
 use super::prelude::*;
-use super::tables::{
-    Control, Manufactured, Norm, Norms, Refine, control, expectations, manufactured, norm_levels, not_finite, refine,
-};
+use super::tables::{Control, Refine, control, expectations, manufactured, norm_levels, not_finite, refine};
 use super::terms;
-use crate::error::design::{Disagreement, Prepared};
-use crate::scene::tables;
+use crate::error::design::{Disagreement, Prepared, Theory};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -128,7 +123,7 @@ impl Kind for Convergence {
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
         let (beam, obstacles) = self.solver_coefficients();
-        Prepared::new(self, elements)?.run(steps, Disagreement { beam, obstacles, defect: None })
+        self.prepared(elements)?.run(steps, Disagreement { beam, obstacles, defect: None })
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
@@ -167,6 +162,17 @@ impl Convergence {
     /// The coefficients that the solver works with: those of the control, or else those of the sources.
     pub fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
         self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
+    }
+
+    /// The runs on a mesh, prepared.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] where the study's map makes no mesh of so many elements.
+    pub fn prepared(&self, elements: usize) -> Result<Prepared<'_>, CaseFailure> {
+        let Refine { axis, isolate, t_end, scheme, settings, .. } = self.refine;
+        let (exact, beam, obstacles, isolated) = (&self.exact, self.beam, self.obstacles, isolate.then_some(axis));
+        let theory = Theory { exact, beam, obstacles, isolated, t_end, scheme, settings };
+        Ok(Prepared::new(theory, self.refine.mesh(elements)?))
     }
 
     /// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.

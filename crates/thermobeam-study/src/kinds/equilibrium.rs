@@ -6,17 +6,12 @@
 //! error on the finest mesh, and that a beam whose steady state is straight ends straight, but for the motion left.
 
 use convergence_study::judge::richardson;
-use convergence_study::judge::verdict::Judge;
 use convergence_study::text::number::decimals;
-use thermobeam::equilibrium::Contact;
-use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
 
 use super::prelude::*;
 use super::steady::{Nearest, Rest, at_resolution, exact_states, listed_scenes, name_of, settle};
 use super::tables::{DISCRETISATION_KEYS, Discretisation};
-use crate::error::reference::Reference;
-use crate::scene::tables;
+use crate::error::reference::Traced;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -67,35 +62,26 @@ pub struct EndStates {
 
 /// A scene on one mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct OnMesh {
+pub struct EndOn {
     /// Its place in the list of scenes.
     pub scene: usize,
     /// Linear elements; `None` for the run of any order.
     pub elements: Option<usize>,
 }
 
-/// A number of the displacement and one of the rotation.
+/// A beam at rest, and the exact stable state next to it. Pairs are of u and of φ.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fields {
-    /// Of u.
-    pub u: f64,
-    /// Of φ.
-    pub phi: f64,
-}
-
-/// A beam at rest, and the exact stable state next to it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct End {
+pub struct RestingEnd {
     /// When it came to rest.
     pub t: f64,
     /// u(1) and φ(1).
-    pub tip: Fields,
+    pub tip: [f64; 2],
     /// u(1) and φ(1) of the exact state.
-    pub exact_tip: Fields,
+    pub exact_tip: [f64; 2],
     /// The contact of the exact state.
     pub contact: Contact,
     /// Largest errors at the nodes.
-    pub error: Fields,
+    pub error: [f64; 2],
 }
 
 impl FromFile for EndStates {
@@ -129,14 +115,14 @@ impl FromFile for EndStates {
 }
 
 impl Kind for EndStates {
-    type Data = OnMesh;
-    type Found = End;
+    type Data = EndOn;
+    type Found = RestingEnd;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<OnMesh>> {
+    fn cases(&self) -> Vec<Case<EndOn>> {
         let case = |(scene, elements): (usize, Option<usize>)| {
             let (how, cost) = match (elements, &self.any_order) {
                 (None, Some((how, t_end, _))) => (how.label(), how.cost(*t_end)),
@@ -145,7 +131,7 @@ impl Kind for EndStates {
                     (format!("n = {n}"), REST / self.dt * n as f64)
                 }
             };
-            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: OnMesh { scene, elements } }
+            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: EndOn { scene, elements } }
         };
         let scenes = || 0..self.scenes.len();
         let linear = scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));
@@ -153,7 +139,7 @@ impl Kind for EndStates {
         linear.chain(any_order).map(case).collect()
     }
 
-    fn run(&self, &OnMesh { scene, elements }: &OnMesh) -> Result<End, CaseFailure> {
+    fn run(&self, &EndOn { scene, elements }: &EndOn) -> Result<RestingEnd, CaseFailure> {
         let scene = &self.scenes[scene];
         let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
         if let Some(elements) = elements {
@@ -162,22 +148,20 @@ impl Kind for EndStates {
             return end(&scene, &scene.mesh, t, &level);
         }
         let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
-        let found = Reference::compute(scene, how, Mesh::uniform(COMPARED)?, *t_end, 1, 0)?;
+        let found = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1, 0)?;
         end(scene, &found.mesh, *t_end, found.levels.last().ok_or_else(|| absent("the run has no end"))?)
     }
 
-    fn judge(&self, ran: &[Ran<OnMesh, End>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<EndOn, RestingEnd>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
         let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
         // What lies below the floor is known to the last of the motion only.
         let floor = MOTION * self.speed;
         let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
-        let mut checks = vec![completion(ran, |end| {
-            let End { t, tip, exact_tip, error, .. } = end;
+        let mut checks = vec![completion(ran, |RestingEnd { t, tip, exact_tip, error, .. }| {
             let fields = [("tip", tip), ("exact tip", exact_tip), ("error", error)];
-            let broken = fields.iter().filter(|(_, Fields { u, phi })| !(u.is_finite() && phi.is_finite()));
-            let names = broken.map(|(name, _)| format!("{name} of u or φ"));
-            names.chain(not_finite(&[("time of rest", *t)])).collect()
+            let of_fields = fields.map(|(name, [u, phi])| Reading::new(format!("{name} of u or φ"), u + phi));
+            readings::not_finite(&[&of_fields[..], &[Reading::new("time of rest", *t)]].concat())
         })];
         checks.extend(scenes.iter().map(Ends::check));
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
@@ -187,13 +171,17 @@ impl Kind for EndStates {
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.".to_owned(),
             &rates,
         );
-        let tips = scenes.iter().filter(|ends| !ends.is_straight()).flat_map(Ends::tips);
+        let rows: Vec<_> = scenes.iter().map(|ends| (vec![ends.scene.name.clone()], ends.readings())).collect();
+        let bent_rows = rows.iter().zip(&scenes).filter(|(_, ends)| !ends.is_straight());
+        let tips = readings::guarded(bent_rows.flat_map(|((_, readings), _)| readings));
+        let elements = self.elements.last().unwrap_or(&0);
+        let title = format!("Ends of long runs ({elements} elements, and extrapolated) and exact steady states");
         let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
         Outcome {
             levels: self.levels(scenes.iter()).errors(),
-            tables: vec![self.table(&scenes)],
+            tables: vec![readings::table(title, &["scene"], &rows)],
             figures: vec![figure],
-            quantities: tips.chain(bent.quantities(&rates)).collect(),
+            quantities: [tips, bent.quantities(&rates)].concat(),
             headline: format!("largest error at the finest mesh {worst:.1e}, of {} ends", scenes.len()),
             ..Outcome::new(
                 format!("{} long runs end at most {worst:.1e} from an exact steady state", scenes.len()),
@@ -205,16 +193,16 @@ impl Kind for EndStates {
 }
 
 /// The end of a run, and the stable state next to it.
-fn end(scene: &Scene, mesh: &Mesh, t: f64, level: &Level) -> Result<End, CaseFailure> {
+fn end(scene: &Scene, mesh: &Mesh, t: f64, level: &Level) -> Result<RestingEnd, CaseFailure> {
     let stable: Vec<_> = exact_states(scene)?.into_iter().filter(|state| state.stable).collect();
     let none = || CaseFailure { reason: "there is no stable steady state".to_owned() };
-    let Nearest { state, errors: [u, phi], .. } = Nearest::of(mesh, level, &stable).ok_or_else(none)?;
-    Ok(End {
+    let Nearest { state, errors, .. } = Nearest::of(mesh, level, &stable).ok_or_else(none)?;
+    Ok(RestingEnd {
         t,
-        tip: Fields { u: level.u[mesh.elements()], phi: level.phi[mesh.elements()] },
-        exact_tip: Fields { u: state.u_tip, phi: state.phi_tip },
+        tip: [level.u[mesh.elements()], level.phi[mesh.elements()]],
+        exact_tip: [state.u_tip, state.phi_tip],
         contact: state.contact,
-        error: Fields { u, phi },
+        error: errors,
     })
 }
 
@@ -222,13 +210,12 @@ impl EndStates {
     /// Largest errors at the nodes over the mean mesh width.
     fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
         let columns = scenes.enumerate().flat_map(|(k, ends)| {
-            let column = |look: usize, field: &str, error: fn(&Fields) -> f64| ErrorColumn {
-                name: format!("{}: {field}", ends.scene.name),
-                errors: ends.ends.iter().map(|end| end.map(|end| error(&end.error))).collect(),
+            [(0, "u"), (1, "φ")].map(|(field, name)| ErrorColumn {
+                name: format!("{}: {name}", ends.scene.name),
+                errors: ends.ends.iter().map(|end| end.map(|end| end.error[field])).collect(),
                 claim: Some(Claim::new(ORDER, self.tolerance)),
-                look,
-            };
-            [column(2 * k, "u", |fields| fields.u), column(2 * k + 1, "φ", |fields| fields.phi)]
+                look: 2 * k + field,
+            })
         });
         let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
         Levels {
@@ -237,74 +224,54 @@ impl EndStates {
             columns: columns.collect(),
         }
     }
-
-    fn table(&self, scenes: &[Ends<'_>]) -> Table {
-        let row = |ends: &Ends<'_>| {
-            let numbers = [
-                ends.number(|end| end.tip.u),
-                ends.extrapolated(|end| end.tip.u),
-                ends.number(|end| end.exact_tip.u),
-                ends.extrapolated(|end| end.tip.phi),
-                ends.number(|end| end.exact_tip.phi),
-            ];
-            let mut row =
-                vec![ends.scene.name.clone(), ends.finest().map_or("?", |end| name_of(end.contact)).to_owned()];
-            row.extend(numbers.map(|number| decimals(number, 10)));
-            row.push(format!("{:.0}", ends.number(|end| end.t)));
-            row
-        };
-        let head = ["scene", "at rest", "u(1)", "extrapolated", "exact", "φ(1) extrapolated", "exact", "at rest by t"];
-        let elements = self.elements.last().unwrap_or(&0);
-        let title = format!("Ends of long runs ({elements} elements, and extrapolated) and exact steady states");
-        Table::new(title, head, scenes.iter().map(row))
-    }
 }
 
 /// The ends of one scene, one for each mesh; `None` where the run failed.
 struct Ends<'a> {
     study: &'a EndStates,
     scene: &'a Scene,
-    ends: Vec<Option<&'a End>>,
-    any_order: Option<&'a End>,
+    ends: Vec<Option<&'a RestingEnd>>,
+    any_order: Option<&'a RestingEnd>,
 }
 
 impl<'a> Ends<'a> {
-    fn of(study: &'a EndStates, ran: &'a [Ran<OnMesh, End>], scene: usize) -> Self {
-        let end = |elements: Option<usize>| found(ran, &OnMesh { scene, elements });
+    fn of(study: &'a EndStates, ran: &'a [Ran<EndOn, RestingEnd>], scene: usize) -> Self {
+        let end = |elements: Option<usize>| found(ran, &EndOn { scene, elements });
         let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
         Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
     }
 
-    fn finest(&self) -> Option<&End> {
+    fn finest(&self) -> Option<&RestingEnd> {
         self.ends.last().copied().flatten()
     }
 
     /// A number of the finest end; NaN where that run failed.
-    fn number(&self, of: impl Fn(&End) -> f64) -> f64 {
+    fn number(&self, of: impl Fn(&RestingEnd) -> f64) -> f64 {
         self.finest().map_or(f64::NAN, of)
     }
 
     /// The larger error on the finest mesh.
     fn error(&self) -> f64 {
-        self.number(|end| max_or_nan(end.error.u, end.error.phi))
+        self.number(|end| max_or_nan(end.error[0], end.error[1]))
     }
 
     /// Whether the beam ends straight, where the mesh makes no error.
     fn is_straight(&self) -> bool {
-        self.finest().is_some_and(|end| end.exact_tip == Fields { u: 0.0, phi: 0.0 })
+        self.finest().is_some_and(|end| end.exact_tip == [0.0, 0.0])
     }
 
-    /// The value that the two finest meshes give for vanishing mesh width.
-    fn extrapolated(&self, of: impl Fn(&End) -> f64) -> f64 {
+    /// The tip that the two finest meshes give for vanishing mesh width.
+    fn extrapolated(&self, field: usize) -> f64 {
         let (&[.., coarse, fine], &[.., Some(before), Some(last)]) = (&self.study.elements[..], &self.ends[..]) else {
             return f64::NAN;
         };
-        of(last) + richardson::correction(of(before), of(last), fine as f64 / coarse as f64, ORDER)
+        let [before, last] = [before.tip[field], last.tip[field]];
+        last + richardson::correction(before, last, fine as f64 / coarse as f64, ORDER)
     }
 
     fn check(&self) -> Check {
         let allowed = self.study.error;
-        let (u, exact) = (self.extrapolated(|end| end.tip.u), self.number(|end| end.exact_tip.u));
+        let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip[0]));
         // The beam may buckle to either side, but the errors are comparable only where all meshes agree on one.
         let contact = self.finest().map(|end| end.contact);
         let same_side = self.ends.iter().all(|end| end.is_some() && end.map(|end| end.contact) == contact);
@@ -314,8 +281,8 @@ impl<'a> Ends<'a> {
             format!(
                 "largest error at {} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
                 self.study.elements.last().unwrap_or(&0),
-                self.number(|end| end.error.u),
-                self.number(|end| end.error.phi),
+                self.number(|end| end.error[0]),
+                self.number(|end| end.error[1]),
                 decimals(u, 10),
                 decimals(exact, 10)
             ),
@@ -325,7 +292,7 @@ impl<'a> Ends<'a> {
     /// The run of any order ends in the exact state, whichever stable one that is.
     fn check_any_order(&self) -> Option<Check> {
         let (how, _, allowed) = self.study.any_order.as_ref()?;
-        let Fields { u, phi } = self.any_order.map_or(Fields { u: f64::NAN, phi: f64::NAN }, |end| end.error);
+        let [u, phi] = self.any_order.map_or([f64::NAN; 2], |end| end.error);
         Some(Check::that(
             max_or_nan(u, phi) <= *allowed,
             format!("{} by {} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name, how.label()),
@@ -333,15 +300,23 @@ impl<'a> Ends<'a> {
         ))
     }
 
-    /// Tips on the finest mesh and of the exact state.
-    fn tips(&self) -> [Quantity; 4] {
+    /// Tips on the finest mesh, extrapolated, and of the exact state.
+    fn readings(&self) -> Vec<Reading> {
         let [discrete, exact] = TIP_TOLERANCES;
-        [
-            ("u_tip", discrete, self.number(|end| end.tip.u)),
-            ("phi_tip", discrete, self.number(|end| end.tip.phi)),
-            ("exact_u_tip", exact, self.number(|end| end.exact_tip.u)),
-            ("exact_phi_tip", exact, self.number(|end| end.exact_tip.phi)),
+        let shown = |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
+        let tip = |reading: Reading, name: &str, tolerance: f64| {
+            reading.guarded(format!("{}: {name}", self.scene.name), tolerance)
+        };
+        vec![
+            Reading::text("at rest", self.finest().map_or("?", |end| name_of(end.contact))),
+            tip(shown("u(1)", self.number(|end| end.tip[0])), "u_tip", discrete),
+            // The table shows the extrapolated one in its place.
+            tip(Reading::new("φ(1)", self.number(|end| end.tip[1])), "phi_tip", discrete),
+            shown("extrapolated", self.extrapolated(0)),
+            tip(shown("exact", self.number(|end| end.exact_tip[0])), "exact_u_tip", exact),
+            shown("φ(1) extrapolated", self.extrapolated(1)),
+            tip(shown("φ(1) exact", self.number(|end| end.exact_tip[1])), "exact_phi_tip", exact),
+            Reading::new("at rest by t", self.number(|end| end.t)).fixed(0),
         ]
-        .map(|(name, tolerance, value)| Quantity::new(format!("{}: {name}", self.scene.name), value, tolerance))
     }
 }

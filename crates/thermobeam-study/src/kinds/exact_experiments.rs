@@ -19,8 +19,6 @@
 //! growth = 1.5
 //! ```
 
-use std::ops::ControlFlow;
-
 use thermobeam::dg::ContactEvent;
 
 use super::prelude::*;
@@ -50,27 +48,18 @@ const CLOSED: f64 = 1e-12;
 /// Relative change of a published number that the baseline tolerates.
 const TOLERANCE: f64 = 1e-8;
 
-/// By what a scene is run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// By the discretisation of this number.
-    AnyOrder(usize),
-    /// By the scene's own scheme, mesh and steps.
-    Own,
-}
-
 /// One run of one scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Run {
+pub struct ExperimentRun {
     /// Number of the scene.
     pub scene: usize,
-    /// How it is run.
-    pub method: Method,
+    /// By the discretisation of this number; `None`: by the scene's own scheme, mesh and steps.
+    pub by: Option<usize>,
 }
 
 /// What a run shows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Shown {
+pub struct ShownStates {
     /// States at the times listed.
     pub states: Vec<Sample>,
     /// Contact events; none by the scene's own scheme, which does not locate them.
@@ -137,67 +126,68 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
 }
 
 impl Kind for ExactExperiments {
-    type Data = Run;
-    type Found = Shown;
+    type Data = ExperimentRun;
+    type Found = ShownStates;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<Run>> {
-        let mut cases = vec![];
-        for (scene, of) in self.scenes.iter().enumerate() {
-            for (k, how) in self.discretisations.iter().enumerate() {
-                let (label, cost) = (format!("{}, {}", of.name, how.label()), how.cost(of.t_end));
-                cases.push(Case { label, cost, data: Run { scene, method: Method::AnyOrder(k) } });
-            }
-            if self.compare {
-                let label = format!("{}, {}", of.name, of.method.name());
-                let cost = of.mesh.elements() as f64 * of.steps() as f64;
-                cases.push(Case { label, cost, data: Run { scene, method: Method::Own } });
-            }
-        }
-        cases
+    fn cases(&self) -> Vec<Case<ExperimentRun>> {
+        let case = |scene: usize, by: Option<usize>| {
+            let of = &self.scenes[scene];
+            let (how, cost) = match by.map(|k| &self.discretisations[k]) {
+                Some(how) => (how.label(), how.cost(of.t_end)),
+                None => (of.method.name().to_owned(), of.mesh.elements() as f64 * of.steps() as f64),
+            };
+            Case { label: format!("{}, {how}", of.name), cost, data: ExperimentRun { scene, by } }
+        };
+        let runs = [Some(0), Some(1), None].into_iter().filter(|by| self.compare || by.is_some());
+        (0..self.scenes.len()).flat_map(|scene| runs.clone().map(move |by| case(scene, by))).collect()
     }
 
-    fn run(&self, run: &Run) -> Result<Shown, CaseFailure> {
-        let scene = &self.scenes[run.scene];
+    fn run(&self, &ExperimentRun { scene, by }: &ExperimentRun) -> Result<ShownStates, CaseFailure> {
+        let scene = &self.scenes[scene];
         let t_end = self.times.last().copied().unwrap_or(scene.t_end);
-        match run.method {
-            Method::AnyOrder(k) => self.shown(&self.discretisations[k].of(scene, t_end)?),
-            Method::Own => self.shown(&Scene { t_end, ..scene.clone() }),
+        match by {
+            Some(k) => self.shown(&self.discretisations[k].of(scene, t_end)?),
+            None => self.shown(&Scene { t_end, ..scene.clone() }),
         }
     }
 
-    fn judge(&self, ran: &[Ran<Run, Shown>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<ExperimentRun, ShownStates>]) -> Outcome {
         let scenes: Vec<OfScene<'_>> = (0..self.scenes.len()).map(|scene| OfScene::of(self, ran, scene)).collect();
-        let mut checks = vec![completion(ran, |shown: &Shown| {
-            let named = shown.states.iter().flat_map(numbers);
+        let mut checks = vec![completion(ran, |shown: &ShownStates| {
             let tip = shown.tip.iter().map(|(_, u)| *u).reduce(|a, b| if a.is_finite() { b } else { a });
-            not_finite(&named.chain([("u(1, t)", tip.unwrap_or(f64::NAN))]).collect::<Vec<_>>())
+            let tip = Reading::new("u(1, t)", tip.unwrap_or(f64::NAN));
+            readings::not_finite(&shown.states.iter().flat_map(numbers).chain([tip]).collect::<Vec<_>>())
         })];
         checks.extend(scenes.iter().flat_map(|scene| scene.checks(self.agreement)));
         let worst = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
         let agreement = format!("two discretisations agree within {worst:.1e}");
         let own = scenes.iter().map(OfScene::own_error).fold(0.0, max_or_nan);
         let own = format!("; the scenes' own schemes at their resolution are off by up to {own:.1e} in u(1, t)");
-        let mut tables = vec![values(&scenes), events(&scenes)];
+        let values: Vec<_> = scenes.iter().flat_map(OfScene::values).collect();
+        let title = "The free end and the energy, to the digits on which two discretisations agree";
+        let mut tables = vec![readings::table(title, &["scene", "t"], &values), events(&scenes)];
         if self.compare {
-            tables.push(errors(&scenes));
+            let errors: Vec<_> = scenes.iter().flat_map(OfScene::errors).collect();
+            let title = "Errors of the scenes' own scheme at their own resolution";
+            tables.push(readings::table(title, &["scene", "t"], &errors));
         }
         tables.push(self.how(&scenes));
         Outcome {
             headline: format!("{agreement}{}", if self.compare { &own } else { "" }),
             tables,
             figures: self.figures(&scenes),
-            quantities: scenes.iter().flat_map(OfScene::quantities).collect(),
+            quantities: readings::guarded(values.iter().flat_map(|(_, readings)| readings)),
             ..Outcome::new(format!("{} experiments, {agreement}", scenes.len()), vec![], checks)
         }
     }
 }
 
 impl ExactExperiments {
-    fn shown(&self, scene: &Scene) -> Result<Shown, CaseFailure> {
+    fn shown(&self, scene: &Scene) -> Result<ShownStates, CaseFailure> {
         let mut states = vec![];
         let mut observe = |motion: &mut dyn Motion, _: &Report| {
             let t = motion.t();
@@ -210,7 +200,7 @@ impl ExactExperiments {
         let run = Simulator::new(scene)?.watched(Recording::Curve(TIP_TIMES), &self.times, &mut observe).finished()?;
         let balance = [run.energy.largest_balance_residual / run.energy.initial, run.energy.largest_increase];
         let (tip, steps) = (run.tip(), run.steps);
-        Ok(Shown { states, tip, steps, balance, events: run.contact.map_or(vec![], |contact| contact.events) })
+        Ok(ShownStates { states, tip, steps, balance, events: run.contact.map_or(vec![], |contact| contact.events) })
     }
 
     /// The two discretisations, and the steps that they have taken.
@@ -218,12 +208,11 @@ impl ExactExperiments {
         let row = |(k, how): (usize, &Discretisation)| {
             let steps =
                 |scene: &OfScene<'_>| scene.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string());
-            let mut row = [how.elements, how.degree, how.stepping.degree].map(|count| count.to_string()).to_vec();
-            row.extend(
-                [how.stepping.dt, how.stepping.restart_dt, how.stepping.growth].map(|number| format!("{number:?}")),
-            );
-            row.push(scenes.iter().map(steps).collect::<Vec<_>>().join(", "));
-            row
+            let stepping = how.stepping;
+            let counts = [how.elements, how.degree, stepping.degree].map(|count| count.to_string());
+            let numbers = [stepping.dt, stepping.restart_dt, stepping.growth].map(|number| format!("{number:?}"));
+            let steps = scenes.iter().map(steps).collect::<Vec<_>>().join(", ");
+            counts.into_iter().chain(numbers).chain([steps]).collect()
         };
         let head = ["elements", "degree p", "degree q", "largest step", "first step", "growth", "steps of each scene"];
         Table::new("The two discretisations", head, self.discretisations.iter().enumerate().map(row))
@@ -264,28 +253,34 @@ impl ExactExperiments {
 /// The runs of one scene.
 struct OfScene<'r> {
     name: &'r str,
-    any_order: [Option<&'r Shown>; 2],
-    own: Option<&'r Shown>,
+    any_order: [Option<&'r ShownStates>; 2],
+    own: Option<&'r ShownStates>,
 }
 
-const HEAD: [&str; 6] = ["u(1)", "φ(1)", "u_t(1)", "φ_t(1)", "θ(1/2)", "E"];
-
-fn numbers(state: &Sample) -> [(&'static str, f64); 6] {
-    [
-        ("u(1)", state.u_tip),
-        ("phi(1)", state.phi_tip),
-        ("u_t(1)", state.u_t_tip),
-        ("phi_t(1)", state.phi_t_tip),
-        ("theta(1/2)", state.theta_mid),
-        ("E", state.energy),
-    ]
+/// The numbers of a state.
+fn numbers(state: &Sample) -> [Reading; 6] {
+    let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, .. } = *state;
+    let values = [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy];
+    let names = ["u(1)", "φ(1)", "u_t(1)", "φ_t(1)", "θ(1/2)", "E"];
+    std::array::from_fn(|k| Reading::new(names[k], values[k]))
 }
+
+/// The differences of all numbers of two states.
+fn differences(one: &Sample, other: &Sample) -> [Reading; 6] {
+    let (ones, others) = (numbers(one), numbers(other));
+    std::array::from_fn(|k| {
+        let difference = ones[k].value.zip(others[k].value).map(|(one, other)| one - other);
+        Reading::new(ones[k].name.clone(), difference)
+    })
+}
+
+/// A row of a table: a scene, a time, and the numbers there.
+type AtTime = (Vec<String>, Vec<Reading>);
 
 impl<'r> OfScene<'r> {
-    fn of(study: &'r ExactExperiments, ran: &'r [Ran<Run, Shown>], scene: usize) -> Self {
-        let by = |method: Method| found(ran, &Run { scene, method });
-        let any_order = [by(Method::AnyOrder(0)), by(Method::AnyOrder(1))];
-        Self { name: &study.scenes[scene].name, any_order, own: by(Method::Own) }
+    fn of(study: &'r ExactExperiments, ran: &'r [Ran<ExperimentRun, ShownStates>], scene: usize) -> Self {
+        let by = |by: Option<usize>| found(ran, &ExperimentRun { scene, by });
+        Self { name: &study.scenes[scene].name, any_order: [by(Some(0)), by(Some(1))], own: by(None) }
     }
 
     /// The states of the first discretisation.
@@ -299,8 +294,8 @@ impl<'r> OfScene<'r> {
         if one.states.len() != other.states.len() || one.states.is_empty() {
             return f64::NAN;
         }
-        let pairs = one.states.iter().flat_map(numbers).zip(other.states.iter().flat_map(numbers));
-        pairs.map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, max_or_nan)
+        let differences = one.states.iter().zip(&other.states).flat_map(|(one, other)| differences(one, other));
+        differences.filter_map(|reading| reading.value).map(f64::abs).fold(0.0, max_or_nan)
     }
 
     fn checks(&self, agreement: f64) -> [Check; 3] {
@@ -337,11 +332,30 @@ impl<'r> OfScene<'r> {
         )
     }
 
-    fn quantities(&self) -> Vec<Quantity> {
-        let guard = |(state, (name, value)): (&Sample, (&str, f64))| {
-            Quantity::new(format!("{}: {name} at t = {}", self.name, state.t), value, TOLERANCE)
+    /// The numbers, to the digits that both discretisations agree on and one more.
+    fn values(&self) -> Vec<AtTime> {
+        let apart = self.difference();
+        let decimals = if apart > 0.0 { (-apart.log10()).floor().clamp(0.0, 14.0) as usize } else { 14 };
+        let row = |state: &Sample| {
+            let guard = |reading: Reading| {
+                let name = reading.name.replace('φ', "phi").replace('θ', "theta");
+                reading.fixed(decimals).guarded(format!("{}: {name} at t = {}", self.name, state.t), TOLERANCE)
+            };
+            let apart = Reading::text("largest difference", format!("{apart:.0e}"));
+            let numbers = numbers(state).map(guard).into_iter().chain([apart]).collect();
+            (vec![self.name.to_owned(), state.t.to_string()], numbers)
         };
-        self.states().iter().flat_map(|state| numbers(state).map(|number| guard((state, number)))).collect()
+        self.states().iter().map(row).collect()
+    }
+
+    /// Errors of the scene's own scheme.
+    fn errors(&self) -> Vec<AtTime> {
+        let row = |(own, exact): (&Sample, &Sample)| {
+            let largest = Reading::new("largest |error| of u(1, t)", self.own_error());
+            let errors = differences(own, exact).into_iter().chain([largest]).map(|error| error.scientific(2));
+            (vec![self.name.to_owned(), exact.t.to_string()], errors.collect())
+        };
+        self.own.iter().flat_map(|own| own.states.iter().zip(self.states())).map(row).collect()
     }
 
     /// `(t, error)` of u(1, t) by the scene's own scheme.
@@ -357,24 +371,6 @@ impl<'r> OfScene<'r> {
     }
 }
 
-/// The numbers, to the digits that both discretisations agree on and one more.
-fn values(scenes: &[OfScene<'_>]) -> Table {
-    let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
-        let (name, apart) = (scene.name.to_owned(), scene.difference());
-        let decimals = if apart > 0.0 { (-apart.log10()).floor().clamp(0.0, 14.0) as usize } else { 14 };
-        let row = |state: &Sample| {
-            let mut row = vec![name.clone(), state.t.to_string()];
-            row.extend(numbers(state).map(|(_, value)| format!("{value:.decimals$}")));
-            row.push(format!("{apart:.0e}"));
-            row
-        };
-        scene.states().iter().map(row).collect()
-    };
-    let head = ["scene", "t"].into_iter().chain(HEAD).chain(["largest difference"]);
-    let title = "The free end and the energy, to the digits on which two discretisations agree";
-    Table::new(title, head, scenes.iter().flat_map(of_scene))
-}
-
 fn events(scenes: &[OfScene<'_>]) -> Table {
     let row = |scene: &OfScene<'_>, event: &ContactEvent| {
         let [from, to] = [event.from, event.to].map(phase_name);
@@ -384,18 +380,4 @@ fn events(scenes: &[OfScene<'_>]) -> Table {
         scene.any_order[0].iter().flat_map(|shown| &shown.events).map(|event| row(scene, event)).collect()
     };
     Table::new("Contact events", ["scene", "t", "free end"], scenes.iter().flat_map(of_scene))
-}
-
-fn errors(scenes: &[OfScene<'_>]) -> Table {
-    let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
-        let row = |(a, b): (&Sample, &Sample)| {
-            let mut row = vec![scene.name.to_owned(), b.t.to_string()];
-            row.extend(numbers(a).iter().zip(numbers(b)).map(|(a, b)| format!("{:.2e}", a.1 - b.1)));
-            row.push(format!("{:.2e}", scene.own_error()));
-            row
-        };
-        scene.own.iter().flat_map(|own| own.states.iter().zip(scene.states())).map(row).collect()
-    };
-    let head = ["scene", "t"].into_iter().chain(HEAD).chain(["largest |error| of u(1, t)"]);
-    Table::new("Errors of the scenes' own scheme at their own resolution", head, scenes.iter().flat_map(of_scene))
 }

@@ -14,15 +14,11 @@
 //! ```
 
 use convergence_study::judge::verdict::RateVerdict;
-use convergence_study::run::time_limit::Patience;
 use thermobeam::dg::MAX_DEGREE;
-use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
 use super::tables::{mapped_mesh, mesh_map};
-use crate::expression::Expression;
-use crate::scene::tables;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

@@ -1,17 +1,36 @@
 //! What every kind of study is written with.
 
+pub(crate) use std::ops::ControlFlow;
 pub(crate) use std::path::Path;
 
 pub(crate) use convergence_study::input::{Field, InputError, Section};
+pub(crate) use convergence_study::judge::random::SplitMix;
+pub(crate) use convergence_study::judge::verdict::{Judge, Verdict};
 pub(crate) use convergence_study::plots;
-pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, completion};
+pub(crate) use convergence_study::run::time_limit::Patience;
+pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, completion, summary};
 pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Reading,
     Refinement, Table, reader, readings,
 };
-pub(crate) use convergence_study::text::number::max_or_nan;
+pub(crate) use convergence_study::text::number::{max_or_nan, plain_text};
+pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};
+pub(crate) use thermobeam::error::{StepError, StepFailure};
+pub(crate) use thermobeam::kirchhoff::BUCKLING;
+pub(crate) use thermobeam::mesh::{Mesh, MeshError};
+pub(crate) use thermobeam::parameters::{Beam, Obstacles};
+pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
+pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
+pub(crate) use thermobeam::solve::{Level, Settings, Solver};
 
-pub(crate) use crate::scene::{Scene, limits};
+pub(crate) use crate::exact::norm::{Norm, Norms};
+pub(crate) use crate::exact::solution::{Manufactured, Product};
+pub(crate) use crate::expression::Expression;
+pub(crate) use crate::run::driver::{Driver, Step};
+pub(crate) use crate::run::error::RunError;
+pub(crate) use crate::run::rerun::resampled;
+pub(crate) use crate::run::simulate;
+pub(crate) use crate::scene::{Method, Scene, limits, tables};
 
 /// Whether each value is larger than the one before.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
@@ -31,4 +50,10 @@ pub(crate) fn over_time(id: &str, what: &str, caption: impl Into<String>, histor
 /// Names of the numbers that are NaN or infinite, for [`completion`].
 pub(crate) fn not_finite(numbers: &[(&str, f64)]) -> Vec<String> {
     numbers.iter().filter(|(_, value)| !value.is_finite()).map(|(name, _)| (*name).to_owned()).collect()
+}
+
+/// Whether every number of a level is finite.
+pub(crate) fn is_finite(level: &Level) -> bool {
+    let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
+    level.contact_force.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
 }

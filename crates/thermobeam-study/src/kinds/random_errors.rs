@@ -11,18 +11,13 @@
 //! seed = 1
 //! ```
 
-use convergence_study::judge::random::SplitMix;
 use thermobeam::dg::Stepping;
-use thermobeam::mesh::Mesh;
-use thermobeam::scheme::MIDPOINT;
 use thermobeam::simulation::Stepping as OneStep;
-use thermobeam::solve::Settings;
 
 use super::prelude::*;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::{differences, estimate};
 use crate::predict::{MOST_WORK, Unreachable, Work};
-use crate::scene::Method;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -145,26 +140,13 @@ impl RandomErrors {
         Ok(errors)
     }
 
-    /// What a scene shows; `Err` with a search that was given up.
-    fn found(&self, number: usize, scene: &Scene, work: &mut Work<'_>) -> Result<Found, Stopped> {
-        let exact = Self::independent(scene)?;
-        let budget = estimate(scene, work)?;
-        let errors = differences(scene, &exact, work).map_err(failed)?;
-        let over = budget.quantities.iter().zip(errors).map(|(of, error)| error / of.total);
-        let mut found = Found { over_estimate: over.fold(0.0, max_or_nan), ..Found::default() };
-        for &target in &self.targets {
-            let chosen = choose(scene, choice::Quantity::Tip, target, work)?.scene;
-            let error = differences(&chosen, &exact, work).map_err(failed)?[TIP];
-            found.over_target = max_or_nan(found.over_target, error / target);
-        }
-        if number.is_multiple_of(self.refined) {
-            found.linear = Some(Self::linear(scene, &exact, work)?);
-        }
-        Ok(found)
+    /// The estimates of the scene's numbers, and the run chosen for each target.
+    fn searches(&self, scene: &Scene, work: &mut Work<'_>) -> Result<(Vec<f64>, Vec<Scene>), Unreachable> {
+        let totals = estimate(scene, work)?.quantities.iter().map(|of| of.total).collect();
+        let choose = |&target: &f64| Ok(choose(scene, choice::Quantity::Tip, target, work)?.scene);
+        Ok((totals, self.targets.iter().map(choose).collect::<Result<_, Unreachable>>()?))
     }
-}
 
-impl RandomErrors {
     fn figure(&self, found: &[(&Ran<usize, Found>, &Found)]) -> Figure {
         let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -178,24 +160,6 @@ impl RandomErrors {
         let caption =
             "Largest errors of the runs chosen for random scenes, in units of the errors asked for: all below 1.";
         Figure::new(&self.header.id, "errors", caption, svg)
-    }
-}
-
-/// Why a scene shows nothing.
-enum Stopped {
-    Refused(Unreachable),
-    Failed(CaseFailure),
-}
-
-impl From<Unreachable> for Stopped {
-    fn from(refused: Unreachable) -> Self {
-        Self::Refused(refused)
-    }
-}
-
-impl From<CaseFailure> for Stopped {
-    fn from(failure: CaseFailure) -> Self {
-        Self::Failed(failure)
     }
 }
 
@@ -218,13 +182,25 @@ impl Kind for RandomErrors {
 
     fn run(&self, &number: &usize) -> Result<Found, CaseFailure> {
         let scene = self.scene(number).map_err(failed)?;
+        let exact = Self::independent(&scene)?;
         let mut told = |_: f64| ();
-        let mut work = Work::new(MOST_WORK, &mut told);
-        let found = match self.found(number, &scene, &mut work) {
-            Ok(found) => found,
-            Err(Stopped::Refused(refused)) => Found { refused: Some(refused.to_string()), ..Found::default() },
-            Err(Stopped::Failed(failure)) => return Err(failure),
-        };
+        let work = &mut Work::new(MOST_WORK, &mut told);
+        let mut found = Found::default();
+        match self.searches(&scene, work) {
+            Err(refused) => found.refused = Some(refused.to_string()),
+            Ok((estimates, chosen)) => {
+                let errors = differences(&scene, &exact, work).map_err(failed)?;
+                let over = estimates.iter().zip(errors).map(|(estimate, error)| error / estimate);
+                found.over_estimate = over.fold(0.0, max_or_nan);
+                for (target, chosen) in self.targets.iter().zip(chosen) {
+                    let error = differences(&chosen, &exact, work).map_err(failed)?[TIP];
+                    found.over_target = max_or_nan(found.over_target, error / target);
+                }
+                if number.is_multiple_of(self.refined) {
+                    found.linear = Some(Self::linear(&scene, &exact, work)?);
+                }
+            }
+        }
         Ok(Found { work: work.spent().work, ..found })
     }
 

@@ -23,7 +23,6 @@
 //! ```
 
 use convergence_study::text::number::short_text;
-use thermobeam::equilibrium::Equilibrium;
 
 use super::energy::{End, named_cases};
 use super::prelude::*;
@@ -36,7 +35,7 @@ use crate::run::motion::Sample;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::tally::{EnergySummary, Extremes};
 use crate::run::together::run_together;
-use crate::scene::{self, Method};
+use crate::scene::{self};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -75,16 +74,16 @@ struct Whole {
     claim: String,
     scene: Scene,
     end: End,
-    answer: Answer,
+    answer: Expected,
     /// Bound on the distance to each number of the answer.
     within: f64,
 }
 
 /// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of [`PAIRS`].
-type Answer = Vec<(String, f64)>;
+type Expected = Vec<(String, f64)>;
 
 /// The numbers that a list of pairs stands for.
-type Listed = fn(&[[f64; 2]]) -> Answer;
+type Listed = fn(&[[f64; 2]]) -> Expected;
 
 /// Keys of an answer whose values are lists of pairs, and the numbers that each list stands for.
 const PAIRS: [(&str, Listed); 3] = [
@@ -94,7 +93,7 @@ const PAIRS: [(&str, Listed); 3] = [
 ];
 const STEADY: &str = "steady states";
 
-fn listed(what: &str, names: [&str; 2], pairs: &[[f64; 2]]) -> Answer {
+fn listed(what: &str, names: [&str; 2], pairs: &[[f64; 2]]) -> Expected {
     let named = |(k, pair): (usize, &[f64; 2])| [0, 1].map(|i| (format!("{} {}", names[i], k + 1), pair[i]));
     [(what.to_owned(), pairs.len() as f64)].into_iter().chain(pairs.iter().enumerate().flat_map(named)).collect()
 }
@@ -121,7 +120,7 @@ pub struct Shown {
     /// Beginning and end of each contact.
     pub contact: Vec<(f64, f64)>,
     /// Predictions and steady states, where the answer has them.
-    others: Answer,
+    others: Expected,
 }
 
 /// Names of numbers, as in the object of `run --format json`.
@@ -160,12 +159,12 @@ fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
 }
 
 /// The numbers of an answer, and the bound.
-fn numbers_of(section: &Section<'_>) -> Result<(Answer, f64), InputError> {
+fn numbers_of(section: &Section<'_>) -> Result<(Expected, f64), InputError> {
     section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS.map(|(key, _)| key)].concat())?;
     let within = section.positive("within")?;
     let number = |name: &str| section.get(name).map(|field| Ok((name.to_owned(), field.number()?)));
     let numbers = NUMBERS.into_iter().chain(PREDICTED).filter_map(number);
-    let mut answer = numbers.collect::<Result<Answer, InputError>>()?;
+    let mut answer = numbers.collect::<Result<Expected, InputError>>()?;
     for (key, named) in PAIRS {
         answer.extend(
             section.get(key).map(|field| pairs(&field)).transpose()?.map(|pairs| named(&pairs)).unwrap_or_default(),
@@ -252,7 +251,7 @@ impl Kind for Scenes {
 
 impl Whole {
     /// Predictions and steady states, where the answer has them.
-    fn others(&self) -> Result<Answer, CaseFailure> {
+    fn others(&self) -> Result<Expected, CaseFailure> {
         let (mut others, mut told, [error, chosen]) = (vec![], |_: f64| (), PREDICTED);
         let failed = |error: Unreachable| CaseFailure { reason: error.to_string() };
         let asked = |name: &str| self.answer.iter().any(|(of, _)| of == name);
@@ -331,7 +330,7 @@ fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
 
 impl Shown {
     /// All numbers by their names.
-    fn named(&self) -> Answer {
+    fn named(&self) -> Expected {
         let numbers = NUMBERS.into_iter().map(str::to_owned).zip(self.numbers);
         let lists = [&self.tip, &self.contact].map(|list| list.iter().map(|&(a, b)| [a, b]).collect::<Vec<_>>());
         let pairs = PAIRS.iter().zip(&lists).flat_map(|((_, named), list)| named(list));

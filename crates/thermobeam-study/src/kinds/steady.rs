@@ -1,14 +1,8 @@
 //! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
 
-use std::ops::ControlFlow;
-
-use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria};
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::solve::Level;
+use thermobeam::equilibrium::{EquilibriumError, equilibria};
 
 use super::prelude::*;
-use crate::run::simulate;
-use crate::scene::tables;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(super) fn listed_scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
@@ -57,18 +51,46 @@ impl ToRest {
     ///
     /// # Errors
     /// As [`settle`], and where the steady states cannot be told.
-    pub(super) fn run(
-        &self,
-        scene: &Scene,
-        beta: f64,
-    ) -> Result<(Rest, Vec<Equilibrium>, Option<Nearest>), CaseFailure> {
+    pub(super) fn run(&self, scene: &Scene, beta: f64) -> Result<AtRest, CaseFailure> {
         let mut scene = at_resolution(scene, self.elements, self.dt)?;
         scene.beam.beta = beta;
         scene.name = format!("beta = {beta}");
         let states = exact_states(&scene)?;
         let rest = settle(&scene, self.speed, self.t_max)?;
-        let nearest = Nearest::of(&scene.mesh, &rest.level, &states);
-        Ok((rest, states, nearest))
+        Ok(AtRest {
+            states: states.len(),
+            stable: states.iter().filter(|state| state.stable).count(),
+            u_tip: rest.level.u[self.elements],
+            t_rest: rest.t,
+            nearest: Nearest::of(&scene.mesh, &rest.level, &states),
+        })
+    }
+}
+
+/// Where a moving beam comes to rest, and the exact steady states.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtRest {
+    /// Number of exact steady states.
+    pub states: usize,
+    /// Number of those that are stable.
+    pub stable: usize,
+    /// u(1) at rest.
+    pub u_tip: f64,
+    /// When the beam has come to rest.
+    pub t_rest: f64,
+    /// The nearest exact steady state; `None` if there is none.
+    pub nearest: Option<Nearest>,
+}
+
+impl AtRest {
+    /// Distance to the nearest exact steady state; NaN where there is none.
+    pub(super) fn distance(&self) -> f64 {
+        self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
+    }
+
+    /// Whether the nearest state is stable.
+    pub(super) fn is_stable(&self) -> bool {
+        self.nearest.is_some_and(|nearest| nearest.state.stable)
     }
 }
 
@@ -79,13 +101,6 @@ pub(super) struct Rest {
     pub(super) level: Level,
     /// Its time.
     pub(super) t: f64,
-}
-
-impl Rest {
-    /// u(1).
-    pub(super) fn u_tip(&self) -> f64 {
-        self.level.u[self.level.u.len() - 1]
-    }
 }
 
 /// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,

@@ -4,6 +4,7 @@ use convergence_study::text::number::short_text;
 use thermobeam::energy::{Balance, Rounding};
 
 use super::prelude::*;
+use crate::run::ensemble::EnsembleDriver;
 
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
 pub(super) const SOLVED: f64 = 1e-14;
@@ -56,7 +57,7 @@ pub(super) fn of_allowed(share: f64) -> String {
 
 /// What a run has shown so far; NaN stays.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Watch {
+pub(super) struct EnergyWatch {
     /// The largest size of the energy.
     scale: f64,
     pub(super) worst: Worst,
@@ -64,7 +65,7 @@ pub(super) struct Watch {
     pub(super) drift: f64,
 }
 
-impl Watch {
+impl EnergyWatch {
     /// From a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
         Self { scale, worst: Worst::NONE, drift: 0.0 }
@@ -88,4 +89,48 @@ impl Watch {
         }
         self.worst = self.worst.max(step);
     }
+}
+
+/// A problem after it was run beside others.
+pub(super) struct Watched {
+    /// Rise of the energy and residual of its balance, over the steps that were done.
+    pub(super) worst: Worst,
+    /// Why it ended early, if it did.
+    pub(super) failure: Option<StepError>,
+}
+
+/// Runs problems with the same number of elements side by side by Newton's method, each to its last step or to the one that fails.
+///
+/// * `see`: is shown each step that was done: the problem's place in the list, the step's iterations, and the new level.
+pub(super) fn watched(
+    problems: Vec<Problem>,
+    dts: &[f64],
+    scheme: Scheme,
+    steps: usize,
+    mut see: impl FnMut(usize, usize, &Level),
+) -> Result<Vec<Watched>, CaseFailure> {
+    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let mut new = Level::new(problems.first().map_or(0, |problem| problem.mesh.nodes().len()));
+    let mut driver = EnsembleDriver::new(problems, dts, scheme, settings)?;
+    let start = |k: usize| {
+        let mut level = new.clone();
+        driver.ensemble().observe(k, &mut level);
+        (EnergyWatch::new(driver.ensemble().energy_scale(k, &level)), level)
+    };
+    let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
+    driver.run(steps, |ensemble, balances| {
+        for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
+            let Ok(report) = ensemble.report(k) else { continue };
+            ensemble.observe(k, &mut new);
+            see(k, report.iterations, &new);
+            watch.step(balance, ensemble.energy_scale(k, &new), || ensemble.rounding(k, old, &new));
+            std::mem::swap(old, &mut new);
+        }
+        ControlFlow::Continue(())
+    })?;
+    let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| {
+        let failure = driver.ensemble().report(k).err();
+        Watched { worst: watch.worst, failure }
+    };
+    Ok(runs.iter().enumerate().map(ended).collect())
 }

@@ -8,8 +8,8 @@
 use crate::error::design;
 use crate::exact::any_order::{self, ManufacturedLoad};
 use crate::exact::factors::Factors;
+use crate::exact::solution::Manufactured;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
-use crate::kinds::tables::Manufactured;
 use crate::run::driver::Driver;
 use crate::run::rerun::resampled;
 use crate::run::simulate;

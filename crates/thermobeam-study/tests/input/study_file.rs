@@ -2,8 +2,9 @@ use convergence_study::study::{Axis, FromFile as _, Header, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver};
+use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::tables::{Norm, Perturbation};
+use thermobeam_study::kinds::tables::Perturbation;
 
 use crate::says;
 

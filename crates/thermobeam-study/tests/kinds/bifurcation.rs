@@ -1,6 +1,6 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::bifurcation::{BifurcationStudy, Diagram, Found, ROW, Rest};
+use thermobeam_study::kinds::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
 
 use crate::file;
 use crate::refused::refusal;
@@ -17,7 +17,7 @@ fn force(value: f64) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| *found = Found::Force(value))
 }
 
-fn rest(change: fn(&mut Rest)) -> Box<dyn Fn(&mut Found)> {
+fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
         Found::Rest(rest) => change(rest),
         _ => panic!("no run to rest"),
@@ -28,7 +28,7 @@ fn rest(change: fn(&mut Rest)) -> Box<dyn Fn(&mut Found)> {
 fn each_claim_can_fail() {
     let study = BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
-    let unstable = |rest: &mut Rest| rest.state.as_mut().expect("a steady state").stable = false;
+    let unstable = |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
     for (number, (label, plant)) in [
         ("branches, θ_A = 0", diagram(|diagram| diagram.ambiguous = 1)),
         ("branches, θ_A = 0", diagram(|diagram| diagram.branches.clear())),
@@ -46,9 +46,9 @@ fn each_claim_can_fail() {
         ("to rest, θ_A = 0, β = -0.715", rest(|rest| rest.u_tip = 0.0)),
         ("to rest, θ_A = 20, β = 1", rest(|rest| rest.u_tip = f64::NAN)),
         ("to rest, θ_A = 20, β = 1", rest(unstable)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.state = None)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.distance = 0.01)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.distance = f64::NAN)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest = None)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = 0.01)),
+        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = f64::NAN)),
     ]
     .into_iter()
     .enumerate()

@@ -9,7 +9,7 @@ use thermobeam_study::kinds::controls::{Fault, ROW};
 use crate::refused::refusal;
 use crate::typed::{Runs, changed, report};
 use crate::{file, text};
-use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::exact::norm::Norm;
 
 fn controls() -> Controls {
     Controls::read(file("negative-controls.toml")).unwrap_or_else(|error| panic!("{error}"))

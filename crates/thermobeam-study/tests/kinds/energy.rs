@@ -1,15 +1,15 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind, Outcome, run_cases_here};
 use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
-use thermobeam_study::kinds::energy::runs::{Found, Runs};
+use thermobeam_study::kinds::energy::runs::{EnergyRuns, Found};
 use thermobeam_study::kinds::energy::{End, ROW};
 
 use crate::file;
 use crate::refused::refusal;
 use crate::typed::{changed, passes_but_not_without_each_case};
 
-fn runs(name: &str) -> Runs {
-    Runs::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
+fn runs(name: &str) -> EnergyRuns {
+    EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A change of what a case found, with its name.
@@ -32,7 +32,7 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     ];
     for case in 0..sound.len() {
         for (what, plant) in planted {
-            let runs = changed::<Runs>(&sound, |index, found| {
+            let runs = changed::<EnergyRuns>(&sound, |index, found| {
                 if index == case {
                     plant(found);
                 }
@@ -71,7 +71,7 @@ fn each_claim_of_a_case_can_fail() {
     ];
     for (label, (what, plant)) in planted {
         let case = sound.iter().position(|ran| ran.case.label == label).expect("a case");
-        let runs = changed::<Runs>(&sound, |index, found| {
+        let runs = changed::<EnergyRuns>(&sound, |index, found| {
             if index == case {
                 plant(found);
             }
@@ -88,14 +88,14 @@ fn each_claim_of_the_random_scenes_can_fail() {
         ("a definite operator refused", |batch| batch.refused = 1),
         ("a level that is not finite", |batch| batch.not_finite_levels = 1),
         ("an iteration limit", |batch| {
-            batch.ends.answers -= 1;
-            batch.ends.iteration_limit += 1;
+            batch.ends[End::Answer as usize] -= 1;
+            batch.ends[End::IterationLimit as usize] += 1;
         }),
         ("an end that is not finite", |batch| {
-            batch.ends.answers -= 1;
-            batch.ends.not_finite += 1;
+            batch.ends[End::Answer as usize] -= 1;
+            batch.ends[End::NotFinite as usize] += 1;
         }),
-        ("a scene without an end", |batch| batch.ends.answers -= 1),
+        ("a scene without an end", |batch| batch.ends[End::Answer as usize] -= 1),
         ("exceptions", |batch| batch.exceptions = 2),
         ("an open balance", |batch| batch.worst.open = 1.1),
         ("a rise", |batch| batch.worst.risen = 1.1),

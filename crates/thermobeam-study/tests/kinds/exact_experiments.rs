@@ -2,7 +2,7 @@
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
-use thermobeam_study::kinds::exact_experiments::{ExactExperiments, Method, ROW, Shown};
+use thermobeam_study::kinds::exact_experiments::{ExactExperiments, ROW, ShownStates};
 
 use crate::planted::verdict_with;
 use crate::refused::refusal;
@@ -24,7 +24,7 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
     let study = study(|text| text);
     let sound = passes_but_not_without_each_case(&study);
     assert_eq!(sound.len(), 2);
-    let fails = |what: &str, change: &dyn Fn(&mut Shown)| {
+    let fails = |what: &str, change: &dyn Fn(&mut ShownStates)| {
         for index in 0..sound.len() {
             assert_eq!(verdict_with(&study, &sound, index, change), Verdict::Fail, "{what} in run {index}");
         }
@@ -67,7 +67,7 @@ fn the_published_digits_are_those_of_the_prototype() {
 fn the_scenes_own_scheme_is_compared_where_asked_for() {
     let study = study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
     let cases = study.cases();
-    assert!(cases.len() == 3 && cases[2].data.method == Method::Own);
+    assert!(cases.len() == 3 && cases[2].data.by.is_none());
     let mut sound: Vec<_> = convergence_study::study::run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));

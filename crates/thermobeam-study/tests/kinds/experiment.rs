@@ -1,7 +1,7 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
 use thermobeam::equilibrium::{Contact, Equilibrium};
-use thermobeam_study::kinds::experiment::{Experiments, Found, Nearest, ROW, Rest, Run};
+use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
 
 use crate::file;
 use crate::refused::refusal;
@@ -11,14 +11,14 @@ fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn run(change: fn(&mut Run)) -> Box<dyn Fn(&mut Found)> {
+fn run(change: fn(&mut Measured)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
         Found::Run(run) => change(run),
         Found::Rest(_) => panic!("no experiment"),
     })
 }
 
-fn rest(change: fn(&mut Rest)) -> Box<dyn Fn(&mut Found)> {
+fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
         Found::Rest(rest) => change(rest),
         Found::Run(_) => panic!("no run to rest"),

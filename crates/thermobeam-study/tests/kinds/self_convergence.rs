@@ -4,7 +4,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind, run_cases_here};
 use thermobeam::solve::Level;
-use thermobeam_study::kinds::self_convergence::{Run, SelfConvergence, Traced};
+use thermobeam_study::kinds::self_convergence::{ComparedRun, SelfConvergence, Traced};
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 
@@ -25,7 +25,7 @@ fn quick_files_pass_but_not_without_each_case() {
         for case in 0..sound.len() {
             let short = changed::<SelfConvergence>(&sound, |index, found| {
                 if index == case {
-                    found.samples.pop();
+                    found.levels.pop();
                 }
             });
             assert_eq!(study.judge(&short).verdict, Verdict::Fail, "{name}: a sample of case {case} is missing");
@@ -56,9 +56,9 @@ fn each_quantity_can_fail() {
     let sound = run_cases_here(&study);
     let h = |case: usize| if case >= 5 { 0.0 } else { 0.1 * 0.5f64.powi(case as i32) };
     let numbers: [(&str, Number); 3] = [
-        ("tip", |found| found.samples[2].level.u.last_mut().expect("a node")),
-        ("rotation", |found| found.samples[9].level.phi.last_mut().expect("a node")),
-        ("energy", |found| &mut found.samples[0].energy),
+        ("tip", |found| found.levels[2].u.last_mut().expect("a node")),
+        ("rotation", |found| found.levels[9].phi.last_mut().expect("a node")),
+        ("energy", |found| &mut found.energies[0]),
     ];
     for (name, number) in numbers {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
@@ -90,7 +90,7 @@ fn the_functions_themselves_can_fail() {
         for defect in [f64::NAN, 0.5] {
             let mut planted = sound.clone();
             let found = planted[4].found.as_mut().expect("a result");
-            field(&mut found.samples[sample].level)[7] += defect;
+            field(&mut found.levels[sample])[7] += defect;
             assert_ne!(study.judge(&planted).verdict, Verdict::Pass, "{name} {defect}");
         }
     }
@@ -118,7 +118,7 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
         let study = parse(name, |text| text);
         let off = SelfConvergence::parse(&text(name), &folder.path().join(name)).expect("a study");
         let mut planted = run_cases_here(&study);
-        for ran in planted.iter_mut().filter(|ran| matches!(ran.case.data, Run::Level(_))) {
+        for ran in planted.iter_mut().filter(|ran| matches!(ran.case.data, ComparedRun::Level(..))) {
             ran.found = off.run(&ran.case.data);
         }
         let outcome = study.judge(&planted);

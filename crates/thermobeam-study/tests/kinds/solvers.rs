@@ -6,7 +6,7 @@ use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::solvers::{Agreement, Boundary, Contraction, Crossing, Found, Point, Row, Solvers};
+use thermobeam_study::kinds::solvers::{Agreement, Boundary, Crossing, Found, MeasuredFactor, Point, Solvers};
 
 fn map() -> Solvers {
     Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -16,7 +16,7 @@ fn fixed_point() -> Solvers {
     Solvers::read(file("fixed-point.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn row(found: &mut Found) -> &mut Row {
+fn row(found: &mut Found) -> &mut Vec<Point> {
     if let Found::Row(row) = found { row } else { panic!("no row: {found:?}") }
 }
 
@@ -24,7 +24,7 @@ fn boundary(found: &mut Found) -> &mut Boundary {
     if let Found::Boundary(line) = found { line } else { panic!("no boundary: {found:?}") }
 }
 
-fn contraction(found: &mut Found) -> &mut Contraction {
+fn contraction(found: &mut Found) -> &mut MeasuredFactor {
     if let Found::Contraction(contraction) = found { contraction } else { panic!("no contraction: {found:?}") }
 }
 
@@ -37,12 +37,10 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let study = map();
     let sound = passes_but_not_without_each_case(&study);
     // The first row is the stiffest; its shortest step converges, its longest does not.
-    let with_point = |at: usize, change: &dyn Fn(&mut Point)| {
-        verdict_with(&study, &sound, 0, |found| change(&mut row(found).points[at]))
-    };
-    let with_all = |change: &dyn Fn(&mut Point)| {
-        verdict_with(&study, &sound, 0, |found| row(found).points.iter_mut().for_each(change))
-    };
+    let with_point =
+        |at: usize, change: &dyn Fn(&mut Point)| verdict_with(&study, &sound, 0, |found| change(&mut row(found)[at]));
+    let with_all =
+        |change: &dyn Fn(&mut Point)| verdict_with(&study, &sound, 0, |found| row(found).iter_mut().for_each(change));
     let last_point = 11;
     assert_eq!(with_all(&|_| ()), Verdict::Pass);
     assert_eq!(with_point(0, &|point| point.fixed_point.converged = false), Verdict::Fail);
@@ -52,7 +50,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     assert_eq!(with_point(0, &|point| point.fixed_point.contraction = Some(f64::NAN)), Verdict::Fail);
     assert_eq!(with_point(0, &|point| point.newton_completes = false), Verdict::Fail);
     assert_eq!(with_all(&|point| point.newton = None), Verdict::Fail);
-    assert_eq!(verdict_with(&study, &sound, 0, |found| row(found).points.truncate(5)), Verdict::Fail);
+    assert_eq!(verdict_with(&study, &sound, 0, |found| row(found).truncate(5)), Verdict::Fail);
     for wrong in [31, usize::MAX] {
         assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").iterations = wrong), Verdict::Fail);
     }
@@ -99,9 +97,10 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             }
             continue;
         }
-        let Contraction { alpha, gamma, .. } = *contraction(found);
-        let with =
-            |change: &dyn Fn(&mut Contraction)| verdict_with(&study, &sound, index, |found| change(contraction(found)));
+        let MeasuredFactor { alpha, gamma, .. } = *contraction(found);
+        let with = |change: &dyn Fn(&mut MeasuredFactor)| {
+            verdict_with(&study, &sound, index, |found| change(contraction(found)))
+        };
         assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
         assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
         // A factor is judged only where contact dominates, and not where α is within 3 % of 1.

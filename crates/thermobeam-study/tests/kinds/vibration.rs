@@ -3,7 +3,7 @@ use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::tables::Norm;
+use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::vibration::Vibration;
 
 const FILES: [&str; 4] =

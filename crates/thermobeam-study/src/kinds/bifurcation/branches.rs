@@ -1,29 +1,23 @@
 //! Branches of exact steady states over β.
 
-use convergence_study::run::time_limit::Patience;
-use thermobeam::equilibrium::{Contact, Equilibrium};
-
 use crate::kinds::prelude::*;
 use crate::kinds::steady::exact_states;
 
 /// Steady states of one branch, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Branch {
-    /// State of contact of all of them.
-    pub contact: Contact,
-    /// Whether they are stable.
-    pub stable: bool,
+pub struct SteadyBranch {
+    /// What all of them have in common.
+    pub(super) key: BranchKey,
     /// `(β, u(1))`.
     pub points: Vec<(f64, f64)>,
-    key: Key,
 }
 
 /// What stays the same along a branch: contact, side and the number of unstable directions change only where branches meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Key {
-    contact: Contact,
+pub(super) struct BranchKey {
+    pub(super) contact: Contact,
     side: Side,
-    stable: bool,
+    pub(super) stable: bool,
     unstable_directions: Option<usize>,
 }
 
@@ -35,7 +29,7 @@ enum Side {
     Down,
 }
 
-impl Key {
+impl BranchKey {
     fn of(state: &Equilibrium) -> Self {
         let side = match state.u_tip {
             u if u > 0.0 => Side::Up,
@@ -48,12 +42,12 @@ impl Key {
 }
 
 /// The steady states at one β.
-pub(super) struct Sample {
+pub(super) struct StatesAt {
     beta: f64,
     states: Vec<Equilibrium>,
 }
 
-impl Sample {
+impl StatesAt {
     /// The steady states of the scene with another β.
     fn at(scene: &Scene, beta: f64) -> Result<Self, CaseFailure> {
         let mut scene = scene.clone();
@@ -61,8 +55,8 @@ impl Sample {
         Ok(Self { beta, states: exact_states(&scene)? })
     }
 
-    fn keys(&self) -> Vec<Key> {
-        self.states.iter().map(Key::of).collect()
+    fn keys(&self) -> Vec<BranchKey> {
+        self.states.iter().map(BranchKey::of).collect()
     }
 }
 
@@ -73,16 +67,16 @@ pub(super) const HALVINGS: usize = 10;
 ///
 /// # Errors
 /// β at which the steady states cannot be told.
-pub(super) fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<Sample>, CaseFailure> {
-    let mut samples: Vec<Sample> = Vec::new();
+pub(super) fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<StatesAt>, CaseFailure> {
+    let mut samples: Vec<StatesAt> = Vec::new();
     let mut patience = Patience::of_long_rounds();
     for (done, &beta) in betas.iter().enumerate() {
         patience.check(done, || beta)?;
-        let next = Sample::at(scene, beta)?;
+        let next = StatesAt::at(scene, beta)?;
         if let Some(last) = samples.last() {
             let mut between = Vec::new();
             refine(scene, last, &next, halvings, &mut between)?;
-            between.sort_by(|a: &Sample, b| a.beta.total_cmp(&b.beta));
+            between.sort_by(|a: &StatesAt, b| a.beta.total_cmp(&b.beta));
             samples.extend(between);
         }
         samples.push(next);
@@ -93,15 +87,15 @@ pub(super) fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Ve
 /// Adds the middle of an interval in which branches meet, and refines both halves.
 fn refine(
     scene: &Scene,
-    low: &Sample,
-    high: &Sample,
+    low: &StatesAt,
+    high: &StatesAt,
     depth: usize,
-    found: &mut Vec<Sample>,
+    found: &mut Vec<StatesAt>,
 ) -> Result<(), CaseFailure> {
     if depth == 0 || low.keys() == high.keys() {
         return Ok(());
     }
-    let middle = Sample::at(scene, 0.5 * (low.beta + high.beta))?;
+    let middle = StatesAt::at(scene, 0.5 * (low.beta + high.beta))?;
     refine(scene, low, &middle, depth - 1, found)?;
     refine(scene, &middle, high, depth - 1, found)?;
     found.push(middle);
@@ -112,7 +106,7 @@ fn refine(
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
     /// The branches.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<SteadyBranch>,
     /// β with the number of steady states.
     pub counts: Vec<(f64, usize)>,
     /// Steady states that could belong to either of two branches: none, or the diagram means nothing.
@@ -122,17 +116,17 @@ pub struct Diagram {
 }
 
 /// Traces all branches.
-pub(super) fn trace(samples: &[Sample], event: [f64; 2]) -> Diagram {
+pub(super) fn trace(samples: &[StatesAt], event: [f64; 2]) -> Diagram {
     let mut diagram = Diagram { branches: vec![], counts: vec![], ambiguous: 0, event };
-    let mut open: Vec<Branch> = Vec::new();
-    for Sample { beta, states } in samples {
+    let mut open: Vec<SteadyBranch> = Vec::new();
+    for StatesAt { beta, states } in samples {
         diagram.counts.push((*beta, states.len()));
-        let mut continued: Vec<Branch> = Vec::new();
+        let mut continued: Vec<SteadyBranch> = Vec::new();
         for state in states {
-            let key = Key::of(state);
+            let key = BranchKey::of(state);
             diagram.ambiguous += usize::from(continued.iter().any(|branch| branch.key == key));
             let before = open.iter().position(|branch| branch.key == key);
-            let mut branch = before.map_or_else(|| Branch::new(key), |k| open.swap_remove(k));
+            let mut branch = before.map_or_else(|| SteadyBranch { key, points: vec![] }, |k| open.swap_remove(k));
             branch.points.push((*beta, state.u_tip));
             continued.push(branch);
         }
@@ -143,22 +137,16 @@ pub(super) fn trace(samples: &[Sample], event: [f64; 2]) -> Diagram {
     diagram
 }
 
-impl Branch {
-    fn new(key: Key) -> Self {
-        Self { contact: key.contact, stable: key.stable, points: vec![], key }
-    }
-}
-
 /// What changes qualitatively somewhere between two β.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Event {
+pub(super) enum BranchEvent {
     /// Below there are several steady states, above one.
     Buckling,
     /// Below the beam presses against the upper obstacle, above it is free.
     LiftOff,
 }
 
-impl Event {
+impl BranchEvent {
     /// What happens to a straight beam is buckling, what happens to a heated one is lifting off.
     pub(super) fn of(scene: &Scene) -> Self {
         if scene.beam.theta_a == 0.0 { Self::Buckling } else { Self::LiftOff }
@@ -176,8 +164,8 @@ impl Event {
 ///
 /// # Errors
 /// β at which the steady states cannot be told.
-pub(super) fn bracket(scene: &Scene, samples: &[Sample], width: f64) -> Result<[f64; 2], CaseFailure> {
-    let event = Event::of(scene);
+pub(super) fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], CaseFailure> {
+    let event = BranchEvent::of(scene);
     let before: Vec<bool> = samples.iter().map(|sample| event.is_before(&sample.states)).collect();
     let changes: Vec<usize> = (1..before.len()).filter(|&k| before[k - 1] != before[k]).collect();
     let &[k] = changes.as_slice() else { return Ok([f64::NAN; 2]) };
@@ -186,7 +174,7 @@ pub(super) fn bracket(scene: &Scene, samples: &[Sample], width: f64) -> Result<[
     }
     let [mut low, mut high] = [samples[k - 1].beta, samples[k].beta];
     while high - low > width {
-        let middle = Sample::at(scene, 0.5 * (low + high))?;
+        let middle = StatesAt::at(scene, 0.5 * (low + high))?;
         if event.is_before(&middle.states) {
             low = middle.beta;
         } else {

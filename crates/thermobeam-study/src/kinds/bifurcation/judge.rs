@@ -2,11 +2,9 @@
 //! and guarded numbers.
 
 use convergence_study::text::number::decimals;
-use thermobeam::equilibrium::Contact;
-use thermobeam::kirchhoff::BUCKLING;
 
-use super::branches::Event;
-use super::{BRACKET, BifurcationStudy, CLOSE, Diagram, Found, Rest, Task};
+use super::branches::BranchEvent;
+use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
 use crate::figures;
 use crate::kinds::prelude::*;
 
@@ -17,20 +15,20 @@ const STRAIGHT: f64 = 1e-6;
 const LIMIT: f64 = 1e-8;
 
 /// The results of one scene; `None` where a case failed.
-struct OfScene<'r> {
+struct DiagramOf<'r> {
     scene: &'r Scene,
     diagram: Option<&'r Diagram>,
     /// Each β with the run to rest.
-    rests: Vec<(f64, Option<&'r Rest>)>,
+    rests: Vec<(f64, Option<&'r AtRest>)>,
 }
 
-impl<'r> OfScene<'r> {
-    fn of(study: &'r BifurcationStudy, ran: &'r [Ran<Task, Found>], k: usize) -> Self {
-        let diagram = match found(ran, &Task::Diagram(k)) {
+impl<'r> DiagramOf<'r> {
+    fn of(study: &'r BifurcationStudy, ran: &'r [Ran<DiagramTask, Found>], k: usize) -> Self {
+        let diagram = match found(ran, &DiagramTask::Diagram(k)) {
             Some(Found::Diagram(diagram)) => Some(diagram),
             _ => None,
         };
-        let rest = |(place, &beta): (usize, &f64)| match found(ran, &Task::Rest(k, place)) {
+        let rest = |(place, &beta): (usize, &f64)| match found(ran, &DiagramTask::Rest(k, place)) {
             Some(Found::Rest(rest)) => (beta, Some(rest)),
             _ => (beta, None),
         };
@@ -56,17 +54,17 @@ impl<'r> OfScene<'r> {
         // Completion has failed where there is no diagram.
         if let Some(diagram) = self.diagram {
             checks.push(self.unambiguous(diagram));
-            checks.extend(match Event::of(self.scene) {
-                Event::Buckling => [buckles(diagram), self.bent_below()],
-                Event::LiftOff => [lifts_off(diagram), self.one_state(diagram)],
+            checks.extend(match BranchEvent::of(self.scene) {
+                BranchEvent::Buckling => [buckles(diagram), self.bent_below()],
+                BranchEvent::LiftOff => [lifts_off(diagram), self.one_state(diagram)],
             });
         }
         checks
     }
 
     fn ends_are_stable(&self, allowed: f64) -> Check {
-        let is_stable = |rest: &Rest| rest.state.is_some_and(|state| state.stable) && rest.distance <= allowed;
-        let distances = self.rests.iter().map(|(_, rest)| rest.map_or(f64::NAN, |rest| rest.distance));
+        let is_stable = |rest: &AtRest| rest.is_stable() && rest.distance() <= allowed;
+        let distances = self.rests.iter().map(|(_, rest)| rest.map_or(f64::NAN, AtRest::distance));
         let farthest = distances.fold(0.0, max_or_nan);
         let off = list(self.rests.iter().filter(|(_, rest)| !rest.is_some_and(is_stable)).map(|(beta, _)| *beta));
         let count = self.rests.len();
@@ -118,7 +116,7 @@ impl<'r> OfScene<'r> {
         );
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
         let mut figures = vec![Figure::new(id, &format!("theta-a-{theta_a}"), caption, whole)];
-        if Event::of(self.scene) == Event::Buckling {
+        if BranchEvent::of(self.scene) == BranchEvent::Buckling {
             let fork = diagram.event[0];
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
             let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
@@ -131,17 +129,14 @@ impl<'r> OfScene<'r> {
         let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().copied().filter(|(beta, _)| (range[0]..=range[1]).contains(beta)).collect()
         };
+        let labels = [(Contact::Free, "free"), (Contact::Upper, "upper obstacle"), (Contact::Lower, "lower obstacle")];
         let mut branches = Vec::new();
-        for (contact, label) in
-            [(Contact::Free, "free"), (Contact::Upper, "upper obstacle"), (Contact::Lower, "lower obstacle")]
-        {
-            for stable in [true, false] {
-                let found =
-                    diagram.branches.iter().filter(|branch| branch.contact == contact && branch.stable == stable);
-                // A branch that is met at one β only is a corner of the diagram, not a line.
-                let curves = found.map(|branch| shown(&branch.points)).filter(|points| points.len() > 1);
-                branches.extend(curves.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
-            }
+        for ((contact, label), stable) in labels.into_iter().flat_map(|label| [(label, true), (label, false)]) {
+            let of = |branch: &&SteadyBranch| branch.key.contact == contact && branch.key.stable == stable;
+            // A branch that is met at one β only is a corner of the diagram, not a line.
+            let curves = diagram.branches.iter().filter(of).map(|branch| shown(&branch.points));
+            let lines = curves.filter(|points| points.len() > 1);
+            branches.extend(lines.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
         }
         let ends: Vec<(f64, f64)> = self.tips().collect();
         figures::bifurcation(&figures::Bifurcation {
@@ -155,29 +150,24 @@ impl<'r> OfScene<'r> {
     }
 }
 
-pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<Task, Found>]) -> Outcome {
-    let scenes: Vec<OfScene<'_>> = (0..study.scenes.len()).map(|k| OfScene::of(study, ran, k)).collect();
-    let force = |&n: &usize| match found(ran, &Task::Buckling(n)) {
+pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -> Outcome {
+    let scenes: Vec<DiagramOf<'_>> = (0..study.scenes.len()).map(|k| DiagramOf::of(study, ran, k)).collect();
+    let force = |&n: &usize| match found(ran, &DiagramTask::Buckling(n)) {
         Some(Found::Force(force)) => (n, *force),
         _ => (n, f64::NAN),
     };
     let forces: Vec<(usize, f64)> = study.meshes.iter().map(force).collect();
     let mut checks = vec![completion(ran, numbers_not_finite), discrete_limit(&forces)];
     checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
-    let levels = Levels {
-        axis: Axis::Space,
-        refinements: study
-            .meshes
-            .iter()
-            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64))
-            .collect(),
-        columns: vec![ErrorColumn {
-            name: "buckling force of P1 elements".to_owned(),
-            errors: forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect(),
-            claim: Some(Claim::new(2.0, study.tolerance)),
-            look: 0,
-        }],
+    let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
+    let column = ErrorColumn {
+        name: "buckling force of P1 elements".to_owned(),
+        errors: forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect(),
+        claim: Some(Claim::new(2.0, study.tolerance)),
+        look: 0,
     };
+    let refinements = study.meshes.iter().map(refinement).collect();
+    let levels = Levels { axis: Axis::Space, refinements, columns: vec![column] };
     let rates = levels.judge();
     let events = scenes.iter().map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
     let guarded = forces.iter().map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
@@ -198,7 +188,7 @@ fn numbers_not_finite(found: &Found) -> Vec<String> {
     not_finite(&match found {
         Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
         Found::Force(force) => vec![("force", *force)],
-        Found::Rest(Rest { u_tip, distance, .. }) => vec![("u(1)", *u_tip), ("distance", *distance)],
+        Found::Rest(rest) => vec![("u(1)", rest.u_tip), ("distance", rest.distance())],
     })
 }
 
@@ -248,16 +238,16 @@ fn force_table(forces: &[(usize, f64)]) -> Table {
     Table::new("Buckling point of P1 elements", head, rows.chain([last]))
 }
 
-fn rest_table(study: &BifurcationStudy, scenes: &[OfScene<'_>]) -> Table {
-    let readings = |k: usize, of: &OfScene<'_>| {
+fn rest_table(study: &BifurcationStudy, scenes: &[DiagramOf<'_>]) -> Table {
+    let readings = |k: usize, of: &DiagramOf<'_>| {
         let rest = of.rests[k].1;
-        let exact = rest.and_then(|rest| rest.state).map_or(f64::NAN, |state| state.u_tip);
+        let exact = rest.and_then(|rest| rest.nearest).map_or(f64::NAN, |nearest| nearest.state.u_tip);
         [decimals(rest.map_or(f64::NAN, |rest| rest.u_tip), 8), decimals(exact, 8)]
     };
     let row = |(k, beta): (usize, &f64)| {
         std::iter::once(beta.to_string()).chain(scenes.iter().flat_map(|of| readings(k, of))).collect()
     };
-    let of_scene = |of: &OfScene<'_>| [format!("u(1) at rest, θ_A = {}", of.theta_a()), "exact".to_owned()];
+    let of_scene = |of: &DiagramOf<'_>| [format!("u(1) at rest, θ_A = {}", of.theta_a()), "exact".to_owned()];
     let head = std::iter::once("β".to_owned()).chain(scenes.iter().flat_map(of_scene));
     Table::new("Where moving beams come to rest", head, study.betas.iter().enumerate().map(row))
 }

@@ -8,15 +8,11 @@ mod branches;
 mod buckling;
 mod judge;
 
-use convergence_study::judge::verdict::Judge;
-use thermobeam::equilibrium::Equilibrium;
-use thermobeam::mesh::Mesh;
-
 use super::prelude::*;
+pub use super::steady::AtRest;
 use super::steady::{ToRest, listed_scenes};
-use crate::scene::tables;
-use branches::Event;
-pub use branches::{Branch, Diagram};
+use branches::BranchEvent;
+pub use branches::{Diagram, SteadyBranch};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -58,7 +54,7 @@ pub struct BifurcationStudy {
 
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Task {
+pub enum DiagramTask {
     /// The branches of a scene, by its place in the list.
     Diagram(usize),
     /// The buckling force of so many elements.
@@ -75,18 +71,7 @@ pub enum Found {
     /// The buckling force of P1 elements, positive.
     Force(f64),
     /// Where a moving beam came to rest.
-    Rest(Rest),
-}
-
-/// A beam that came to rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rest {
-    /// u(1).
-    pub u_tip: f64,
-    /// The exact steady state nearest to it; `None` if there is none.
-    pub state: Option<Equilibrium>,
-    /// Largest difference to that state over all nodes, in u and φ; NaN without one.
-    pub distance: f64,
+    Rest(AtRest),
 }
 
 impl FromFile for BifurcationStudy {
@@ -118,7 +103,7 @@ impl FromFile for BifurcationStudy {
 }
 
 impl Kind for BifurcationStudy {
-    type Data = Task;
+    type Data = DiagramTask;
     type Found = Found;
 
     fn header(&self) -> &Header {
@@ -126,40 +111,36 @@ impl Kind for BifurcationStudy {
     }
 
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
-    fn cases(&self) -> Vec<Case<Task>> {
+    fn cases(&self) -> Vec<Case<DiagramTask>> {
         // Some 50 microseconds for each β: as long as 3000 elements of a step.
         let diagram = |(k, scene): (usize, &Scene)| Case {
             label: format!("branches, θ_A = {}", scene.beam.theta_a),
             cost: 3e3 * self.grid.len() as f64,
-            data: Task::Diagram(k),
+            data: DiagramTask::Diagram(k),
         };
-        let force =
-            |&n: &usize| Case { label: format!("buckling force, n = {n}"), cost: n as f64, data: Task::Buckling(n) };
+        let force = |&n: &usize| Case {
+            label: format!("buckling force, n = {n}"),
+            cost: n as f64,
+            data: DiagramTask::Buckling(n),
+        };
         let rest = |scene: usize, beta: usize| Case {
             label: format!("to rest, θ_A = {}, β = {}", self.scenes[scene].beam.theta_a, self.betas[beta]),
             cost: 200.0 / self.rest.dt * self.rest.elements as f64,
-            data: Task::Rest(scene, beta),
+            data: DiagramTask::Rest(scene, beta),
         };
         let rests = (0..self.scenes.len()).flat_map(|scene| (0..self.betas.len()).map(move |beta| rest(scene, beta)));
         self.scenes.iter().enumerate().map(diagram).chain(self.meshes.iter().map(force)).chain(rests).collect()
     }
 
-    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, task: &DiagramTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
-            Task::Diagram(scene) => Found::Diagram(self.diagram(&self.scenes[scene])?),
-            Task::Buckling(n) => Found::Force(buckling::discrete_buckling_force(&Mesh::uniform(n)?)?),
-            Task::Rest(scene, beta) => {
-                let (rest, _, nearest) = self.rest.run(&self.scenes[scene], self.betas[beta])?;
-                Found::Rest(Rest {
-                    u_tip: rest.u_tip(),
-                    state: nearest.map(|nearest| nearest.state),
-                    distance: nearest.map_or(f64::NAN, |nearest| nearest.distance),
-                })
-            }
+            DiagramTask::Diagram(scene) => Found::Diagram(self.diagram(&self.scenes[scene])?),
+            DiagramTask::Buckling(n) => Found::Force(buckling::discrete_buckling_force(&Mesh::uniform(n)?)?),
+            DiagramTask::Rest(scene, beta) => Found::Rest(self.rest.run(&self.scenes[scene], self.betas[beta])?),
         })
     }
 
-    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<DiagramTask, Found>]) -> Outcome {
         judge::judge(self, ran)
     }
 }
@@ -169,7 +150,7 @@ impl BifurcationStudy {
         let coarse = branches::sample(scene, &self.grid, 0)?;
         let event = branches::bracket(scene, &coarse, BRACKET)?;
         let mut grid = self.grid.clone();
-        if Event::of(scene) == Event::Buckling && !event[0].is_nan() {
+        if BranchEvent::of(scene) == BranchEvent::Buckling && !event[0].is_nan() {
             // More points around a fork for the picture of it.
             let close = |k: usize| event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0);
             grid.extend((0..=FORK_POINTS).map(close));

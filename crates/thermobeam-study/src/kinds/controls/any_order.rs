@@ -10,7 +10,6 @@
 //! coefficients = ["zeta", "a"]                 # names of [beam] and [obstacles]; none may be zero in a study
 //! ```
 
-use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::run_cases_here;
 
 use super::{Fault, Matrix, below_one, coefficients, perturbed};

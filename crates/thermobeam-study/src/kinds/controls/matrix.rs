@@ -11,11 +11,7 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
-use convergence_study::judge::verdict::Verdict;
-
 use super::{BROKEN, Fault, Matrix, below_one, named_studies, verdicts};
-use crate::error::design::Prepared;
-use crate::exact::norm::Norms;
 use crate::kinds::convergence::Convergence;
 use crate::kinds::prelude::*;
 
@@ -77,7 +73,7 @@ impl Kind for Controls {
 
     fn run(&self, level: &LevelOf) -> Result<Vec<Planted>, CaseFailure> {
         let spec = &self.studies[level.study];
-        let mut prepared = Prepared::new(spec, level.elements)?;
+        let mut prepared = spec.prepared(level.elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
             let Some(disagreement) = fault.plant(spec, self.relative) else { continue };

@@ -13,15 +13,12 @@ pub mod matrix;
 pub mod sensitivity;
 mod untested;
 
-use convergence_study::judge::verdict::{Level, Verdict, judge};
+use convergence_study::judge::verdict::{Level, judge};
 use convergence_study::study::Study;
-use thermobeam::parameters::{Beam, Obstacles};
 
 use super::convergence::Convergence;
 use super::prelude::*;
 use crate::error::design::{Defect, Disagreement};
-use crate::exact::norm::Norms;
-use crate::scene::tables;
 
 pub(in crate::kinds) use untested::untested;
 

@@ -8,11 +8,8 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use convergence_study::judge::verdict::Verdict;
-
 use super::{BROKEN, Fault, below_one, coefficients, named_studies, verdicts};
 use crate::error::design::Prepared;
-use crate::exact::norm::Norms;
 use crate::kinds::convergence::Convergence;
 use crate::kinds::prelude::*;
 
@@ -127,7 +124,7 @@ pub(super) struct Detector<'a> {
 
 impl<'a> Detector<'a> {
     pub(super) fn new(spec: &'a Convergence) -> Result<Self, CaseFailure> {
-        let prepare = |(n, steps)| Ok((Prepared::new(spec, n)?, n, steps));
+        let prepare = |(n, steps)| Ok((spec.prepared(n)?, n, steps));
         Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
     }
 

@@ -10,8 +10,7 @@ use thermobeam::parameters::Obstacles;
 use super::sensitivity::Detector;
 use super::{Fault, coefficients, verdicts};
 use crate::kinds::convergence::Convergence;
-use crate::kinds::tables::Norm;
-use crate::scene::tables;
+use crate::kinds::prelude::*;
 
 /// Relative error of a coefficient that a test of it has to see.
 const OFF: f64 = 1e-4;

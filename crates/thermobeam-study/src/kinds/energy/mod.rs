@@ -25,11 +25,9 @@ pub mod random;
 pub mod runs;
 
 use convergence_study::study::Study;
-use thermobeam::error::StepFailure;
 
 use super::prelude::*;
 pub use super::watch::Worst;
-use crate::run::error::RunError;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -54,7 +52,7 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
         (None, _) => Err(root.missing("energy", allowed)),
         (Some(_), Some(second)) => Err(root.refuse(second, "a second table of scenes", allowed)),
         (Some("random"), None) => reader::<random::RandomScenes>(header, root, folder),
-        (Some(_), None) => reader::<runs::Runs>(header, root, folder),
+        (Some(_), None) => reader::<runs::EnergyRuns>(header, root, folder),
     }
 }
 

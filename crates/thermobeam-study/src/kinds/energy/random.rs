@@ -13,18 +13,9 @@
 //! seed = 1
 //! ```
 
-use convergence_study::run::time_limit::Patience;
-use thermobeam::ensemble::Ensemble;
-use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::mesh::MeshError;
-use thermobeam::parameters::Beam;
-use thermobeam::scheme::{SCHEMES, Scheme};
-use thermobeam::simulation::Problem;
-use thermobeam::solve::{Level, Settings};
-
 use super::{End, Worst, beams};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::{CLOSED, SOLVED, Watch, of_allowed};
+use crate::kinds::watch::{CLOSED, Watched, of_allowed, watched};
 
 /// Scenes in the lanes of one solver, all with the same number of elements.
 const LANES: usize = 8;
@@ -58,8 +49,8 @@ pub struct RandomScenes {
 /// What a batch finds, or several together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batch {
-    /// How its scenes end.
-    pub ends: Ends,
+    /// Numbers of scenes by their ends, in the order of [`End::ALL`].
+    pub ends: [usize; End::ALL.len()],
     /// Scenes refused though their operators are definite.
     pub refused: usize,
     /// Steps of all scenes.
@@ -72,53 +63,9 @@ pub struct Batch {
     pub exceptions: usize,
     /// Those of them with the largest residuals: number of the scene in the study, and residual in units of the energy.
     pub largest: Vec<(usize, f64)>,
-    /// Each scene with its largest residual.
-    pub scenes: Vec<Scene>,
-}
-
-/// Numbers of scenes by their ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Ends {
-    /// With their answers.
-    pub answers: usize,
-    /// At an indefinite operator.
-    pub indefinite: usize,
-    /// At the limit of iterations.
-    pub iteration_limit: usize,
-    /// At a number that is not finite.
-    pub not_finite: usize,
-}
-
-/// What the rounding errors of a scene depend on most, and its largest residual.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scene {
-    /// Time step.
-    pub dt: f64,
-    /// Length of the shortest element.
-    pub shortest: f64,
-    /// Largest residual of a step, in units of the energy.
-    pub residual: f64,
-}
-
-impl Ends {
-    fn count(&mut self, end: End) {
-        *match end {
-            End::Answer => &mut self.answers,
-            End::Indefinite => &mut self.indefinite,
-            End::IterationLimit => &mut self.iteration_limit,
-            End::NotFinite => &mut self.not_finite,
-        } += 1;
-    }
-
-    fn all(&self) -> [(End, usize); 4] {
-        let Self { answers, indefinite, iteration_limit, not_finite } = *self;
-        [
-            (End::Answer, answers),
-            (End::Indefinite, indefinite),
-            (End::IterationLimit, iteration_limit),
-            (End::NotFinite, not_finite),
-        ]
-    }
+    /// Of each scene what its rounding errors depend on most, time step and shortest element, and its largest residual in
+    /// units of the energy.
+    pub scenes: Vec<[f64; 3]>,
 }
 
 impl FromFile for RandomScenes {
@@ -167,18 +114,18 @@ impl Kind for RandomScenes {
         let Batch { ends, steps, exceptions, worst, .. } = &total;
         let mut checks = vec![completion(ran, |batch| not_finite(&batch.worst.named()))];
         checks.extend(total.claims(scenes));
-        let others = ends.iteration_limit + ends.not_finite;
-        let solved = format!("{} solved, {} refused (operator not definite)", ends.answers, ends.indefinite);
+        let [answers, indefinite, others] = total.ended();
+        let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
         let largest = format!("{:.1e} of the energy", worst.residual);
         let summary = format!(
             "{scenes} scenes, {steps} steps: {solved}, {others} other failures; residual at most {largest}, {exceptions} \
              above {CLOSED:.0e}"
         );
         let others = if others > 0 { format!(", {others} other failures") } else { String::new() };
-        let count = |(end, count): (End, usize)| vec![end.name().to_owned(), count.to_string()];
-        let counts = Table::new("How the scenes ended", ["end", "scenes"], ends.all().map(count));
+        let counts = End::ALL.iter().zip(ends).map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
+        let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
         // A scene at the limit of definiteness may fall to either side on another machine.
-        let quantities = vec![Quantity::new("answers", ends.answers as f64, 1e-3)];
+        let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
         Outcome {
             headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
             tables: vec![counts, self.exceptions(&total)],
@@ -207,44 +154,20 @@ impl RandomScenes {
         let scenes: Vec<(Problem, f64)> =
             (first..first + LANES).map(|scene| self.problem(scene)).collect::<Result<_, _>>()?;
         let dt: [f64; LANES] = std::array::from_fn(|k| scenes[k].1);
-        let settings = Settings { tolerance: SOLVED, ..Settings::default() };
         let problems = scenes.iter().map(|(problem, _)| problem.clone()).collect();
-        let mut ensemble = Ensemble::new(problems, &dt, self.scheme(number), settings)?;
-        let mut old: Vec<Level> = vec![Level::new(group + 2); LANES];
-        (0..LANES).for_each(|k| ensemble.observe(k, &mut old[k]));
-        let mut watches: Vec<Watch> = (0..LANES).map(|k| Watch::new(ensemble.energy_scale(k, &old[k]))).collect();
-        let mut ends = [End::Answer; LANES];
-        let (mut new, mut balances) = (Level::new(group + 2), vec![]);
-        let mut patience = Patience::new(LANES * (group + 1));
-        for step in 0..self.steps {
-            patience.check(step, || step as f64 * dt[0])?;
-            ensemble.advance();
-            ensemble.balances(&mut balances);
-            for k in 0..LANES {
-                if ends[k] != End::Answer {
-                    continue;
-                }
-                if let Err(error) = ensemble.report(k) {
-                    ends[k] = End::of(&error.failure).ok_or(error)?;
-                    batch.refused += usize::from(is_definite(&scenes[k].0.beam, dt[k]));
-                    continue;
-                }
-                ensemble.observe(k, &mut new);
-                let scale = ensemble.energy_scale(k, &new);
-                watches[k].step(&balances[k], scale, || ensemble.rounding(k, &old[k], &new));
-                batch.steps += 1;
-                batch.not_finite_levels += usize::from(!is_finite(&new));
-                std::mem::swap(&mut old[k], &mut new);
-            }
-        }
-        for k in 0..LANES {
-            batch.ends.count(ends[k]);
-            let (worst, shortest) = (watches[k].worst, shortest(&scenes[k].0));
-            batch.worst = batch.worst.max(worst);
+        let runs = watched(problems, &dt, self.scheme(number), self.steps, |_, _, level| {
+            batch.steps += 1;
+            batch.not_finite_levels += usize::from(!is_finite(level));
+        })?;
+        for (k, (Watched { worst, failure }, (problem, dt))) in runs.iter().zip(&scenes).enumerate() {
+            let end = |error: &StepError| End::of(&error.failure).ok_or_else(|| error.clone());
+            batch.ends[failure.as_ref().map(end).transpose()?.unwrap_or(End::Answer) as usize] += 1;
+            batch.refused += usize::from(failure.is_some() && is_definite(&problem.beam, *dt));
+            batch.worst = batch.worst.max(*worst);
             if !(worst.residual <= CLOSED) {
                 batch.largest.push((first + k, worst.residual));
             }
-            batch.scenes.push(Scene { dt: dt[k], shortest, residual: worst.residual });
+            batch.scenes.push([*dt, shortest(problem), worst.residual]);
         }
         Ok(())
     }
@@ -282,15 +205,10 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
     beam.beta > -BUCKLING * (1.0 + 2.0 * beam.zeta / dt)
 }
 
-fn is_finite(level: &Level) -> bool {
-    let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
-    level.contact_force.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
-}
-
 impl Batch {
     /// Of no scene.
     const NONE: Self = Self {
-        ends: Ends { answers: 0, indefinite: 0, iteration_limit: 0, not_finite: 0 },
+        ends: [0; End::ALL.len()],
         refused: 0,
         steps: 0,
         not_finite_levels: 0,
@@ -302,10 +220,7 @@ impl Batch {
 
     /// Both together.
     fn with(mut self, other: &Self) -> Self {
-        self.ends.answers += other.ends.answers;
-        self.ends.indefinite += other.ends.indefinite;
-        self.ends.iteration_limit += other.ends.iteration_limit;
-        self.ends.not_finite += other.ends.not_finite;
+        self.ends.iter_mut().zip(other.ends).for_each(|(count, more)| *count += more);
         self.refused += other.refused;
         self.steps += other.steps;
         self.not_finite_levels += other.not_finite_levels;
@@ -316,11 +231,16 @@ impl Batch {
         self
     }
 
+    /// Scenes with an answer, with an indefinite operator, and with another failure.
+    fn ended(&self) -> [usize; 3] {
+        let count = |end: End| self.ends[end as usize];
+        [count(End::Answer), count(End::Indefinite), count(End::IterationLimit) + count(End::NotFinite)]
+    }
+
     /// What is claimed of all scenes together.
     fn claims(&self, scenes: usize) -> [Check; 5] {
         let Self { ends, refused, not_finite_levels, exceptions, worst, .. } = self;
-        let ended: usize = ends.all().iter().map(|(_, count)| count).sum();
-        let others = ends.iteration_limit + ends.not_finite;
+        let (ended, [_, _, others]) = (ends.iter().sum::<usize>(), self.ended());
         [
             Check::that(
                 ended == scenes && *not_finite_levels == 0,
@@ -352,13 +272,13 @@ impl Batch {
 }
 
 /// The largest residual in each cell of (dt, shortest element).
-fn residuals(id: &str, scenes: &[Scene]) -> Figure {
+fn residuals(id: &str, scenes: &[[f64; 3]]) -> Figure {
     // NaN where there is no scene.
     let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
-    for scene in scenes {
-        let (Some(column), Some(row)) = (index(DT, scene.dt), index(SHORTEST, scene.shortest)) else { continue };
+    for &[dt, shortest, residual] in scenes {
+        let (Some(column), Some(row)) = (index(DT, dt), index(SHORTEST, shortest)) else { continue };
         let cell = &mut values[row][column];
-        let residual = max_or_nan(scene.residual, ZERO);
+        let residual = max_or_nan(residual, ZERO);
         *cell = if cell.is_nan() { residual } else { max_or_nan(*cell, residual) };
     }
     let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();

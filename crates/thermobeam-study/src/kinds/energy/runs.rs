@@ -26,24 +26,16 @@
 //! t_end = 1000.0
 //! ```
 
-use std::ops::ControlFlow;
+use std::sync::Arc;
 
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::text::number::plain_text;
 use thermobeam::energy::Energy;
-use thermobeam::mesh::Mesh;
-use thermobeam::scheme::SCHEMES;
-use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Settings, Solver};
 
 use super::{End, Worst, beams, named_cases};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{mapped_mesh, mesh_map};
-use crate::kinds::watch::{SOLVED, Watch, of_allowed};
-use crate::run::driver::{Driver, Step};
-use crate::run::simulate;
-use crate::scene::{self, tables};
+use crate::kinds::watch::{EnergyWatch, SOLVED, of_allowed};
+use crate::scene::{self};
 
 /// Samples of a run, about.
 const SAMPLES: usize = 400;
@@ -52,19 +44,27 @@ const SAMPLES: usize = 400;
 const SCALED: usize = 8;
 
 /// A study of this kind.
-#[derive(Debug, Clone)]
-pub struct Runs {
+#[derive(Clone)]
+pub struct EnergyRuns {
     header: Header,
-    runs: Vec<Run>,
+    runs: Vec<EnergyRun>,
     /// Whether the figures show energy and residual over time; else they show the sum of the residuals over the steps.
     histories: bool,
 }
 
+/// Where the problem of a run comes from.
+type ProblemSource = Arc<dyn Fn() -> Problem + Send + Sync>;
+
+/// A problem with its name; whether it is that of a scene.
+type Named = (String, bool, ProblemSource);
+
 /// A run, and what is claimed of it.
-#[derive(Debug, Clone)]
-struct Run {
+#[derive(Clone)]
+struct EnergyRun {
     name: String,
-    origin: Origin,
+    elements: usize,
+    /// The scene's, or a beam with random coefficients and smooth random data.
+    problem: ProblemSource,
     stepping: Stepping,
     steps: usize,
     /// In words.
@@ -76,17 +76,6 @@ struct Run {
     /// Bound of the sum of all residuals, in units of the energy.
     drift: Option<f64>,
     is_drawn: bool,
-}
-
-/// Where the problem of a run comes from.
-#[derive(Debug, Clone)]
-enum Origin {
-    Scene(Box<Scene>),
-    /// A beam with random coefficients and smooth random data.
-    Smooth {
-        mesh: Mesh,
-        seed: u64,
-    },
 }
 
 /// What a run finds.
@@ -107,12 +96,12 @@ pub struct Found {
     /// Sum of all residuals with their signs, in units of the energy.
     pub drift: f64,
     /// Samples for the figures.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<EnergyAt>,
 }
 
 /// A run after so many steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct EnergyAt {
     /// Number of the step.
     pub step: usize,
     /// Its time.
@@ -125,7 +114,7 @@ pub struct Sample {
     pub drift: f64,
 }
 
-impl FromFile for Runs {
+impl FromFile for EnergyRuns {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let energy = root.section("energy")?;
         let runs = energy.as_ref().map_or_else(|| cases(root), |section| listed(section, folder))?;
@@ -134,7 +123,7 @@ impl FromFile for Runs {
 }
 
 /// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
-fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<Run>, InputError> {
+fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputError> {
     section.allow(&["scenes", "schemes", "elements", "map", "dt", "steps", "random", "seed", "tolerance"])?;
     let names = SCHEMES.map(|scheme| (scheme.name, scheme));
     let scheme = |item: &Field<'_>| item.choice(&names);
@@ -153,16 +142,22 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<Run>, InputError> 
     let steps = section.count("steps", 1..=limits::STEPS)?;
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
     let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
-    let scenes = scenes.into_iter().map(|scene| (scene.name.clone(), Origin::Scene(Box::new(scene))));
-    let smooth = |k: u64| Origin::Smooth { mesh: mesh.clone(), seed: seed.wrapping_add(k) };
-    let origins = scenes.chain((0..random as u64).map(|k| (format!("random-{k}"), smooth(k))));
+    // Random beams and further schemes would crowd the figures.
+    let scenes = scenes
+        .into_iter()
+        .map(|scene| -> Named { (scene.name.clone(), true, Arc::new(move || simulate::problem(&scene))) });
+    let smooth = |k: u64| -> Named {
+        let (mesh, seed) = (mesh.clone(), seed.wrapping_add(k));
+        (format!("random-{k}"), false, Arc::new(move || beams::smooth(&mesh, seed)))
+    };
+    let origins = scenes.chain((0..random as u64).map(smooth));
     let settings = Settings { tolerance: SOLVED, ..Settings::default() };
-    let by_scheme = |(name, origin): (String, Origin)| {
-        schemes.iter().enumerate().map(move |(k, &scheme)| Run {
+    let by_scheme = |(name, is_scene, problem): Named| {
+        schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
             name: format!("{name}, {}", scheme.name),
-            // Random beams and further schemes would crowd the figures.
-            is_drawn: k == 0 && matches!(origin, Origin::Scene(_)),
-            origin: origin.clone(),
+            is_drawn: k == 0 && is_scene,
+            elements,
+            problem: problem.clone(),
             stepping: Stepping { scheme, settings, dt, loaded: false },
             steps,
             claim: "the energy falls and its balance closes".to_owned(),
@@ -175,7 +170,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<Run>, InputError> 
 }
 
 /// The runs of `[[case]]`.
-fn cases(root: &Section<'_>) -> Result<Vec<Run>, InputError> {
+fn cases(root: &Section<'_>) -> Result<Vec<EnergyRun>, InputError> {
     let mut runs = named_cases(root, case)?;
     let bounded = runs.iter().any(|run| run.drift.is_some());
     // The drift of cases that claim a bound; of all where none does.
@@ -183,14 +178,14 @@ fn cases(root: &Section<'_>) -> Result<Vec<Run>, InputError> {
     Ok(runs)
 }
 
-fn case(section: &Section<'_>, name: String) -> Result<Run, InputError> {
+fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
     section.allow(&[&["name", "claim", "ends", "drift"], &scene::TABLES[..]].concat())?;
     let scene = Scene::from_tables(section, name.clone())?;
     let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
     let newton = stepping.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
     let settings = if newton { Settings { tolerance: SOLVED, ..stepping.settings } } else { stepping.settings };
-    Ok(Run {
+    Ok(EnergyRun {
         name,
         claim: section.require("claim", "a text")?.text()?.to_owned(),
         end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
@@ -199,11 +194,12 @@ fn case(section: &Section<'_>, name: String) -> Result<Run, InputError> {
         stepping: Stepping { settings, ..stepping },
         steps: scene.steps(),
         is_drawn: false,
-        origin: Origin::Scene(Box::new(scene)),
+        elements: scene.mesh.elements(),
+        problem: Arc::new(move || simulate::problem(&scene)),
     })
 }
 
-impl Kind for Runs {
+impl Kind for EnergyRuns {
     /// Number of the run.
     type Data = usize;
     type Found = Found;
@@ -214,8 +210,8 @@ impl Kind for Runs {
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Observing a step costs three times its solution, and a step some 100 ns beside its elements.
-        let cost = |run: &Run| run.steps as f64 * (4.0 * run.elements() as f64 + 4.0);
-        let case = |(data, run): (usize, &Run)| Case { label: run.name.clone(), cost: cost(run), data };
+        let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.elements as f64 + 4.0);
+        let case = |(data, run): (usize, &EnergyRun)| Case { label: run.name.clone(), cost: cost(run), data };
         self.runs.iter().enumerate().map(case).collect()
     }
 
@@ -224,7 +220,7 @@ impl Kind for Runs {
     }
 
     fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
-        let found: Vec<(&Run, &Found)> =
+        let found: Vec<(&EnergyRun, &Found)> =
             ran.iter().filter_map(|ran| Some((&self.runs[ran.case.data], ran.ok()?))).collect();
         let mut checks = vec![completion(ran, Found::not_finite)];
         checks.extend(found.iter().map(|(run, found)| run.check(found)));
@@ -246,25 +242,11 @@ impl Kind for Runs {
     }
 }
 
-impl Run {
-    fn elements(&self) -> usize {
-        match &self.origin {
-            Origin::Scene(scene) => scene.mesh.elements(),
-            Origin::Smooth { mesh, .. } => mesh.elements(),
-        }
-    }
-
-    fn problem(&self) -> Problem {
-        match &self.origin {
-            Origin::Scene(scene) => simulate::problem(scene),
-            Origin::Smooth { mesh, seed } => beams::smooth(mesh, *seed),
-        }
-    }
-
+impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
-        let mut driver = Driver::new(self.problem(), self.stepping)?;
-        let mut log = Log::new(&mut driver, self.steps);
+        let mut driver = Driver::new((self.problem)(), self.stepping)?;
+        let mut log = EnergyLog::new(&mut driver, self.steps);
         let ended = driver.run(self.steps, |step| {
             log.add(&step);
             ControlFlow::<()>::Continue(())
@@ -303,7 +285,7 @@ impl Run {
     fn readings(&self, found: &Found) -> Vec<Reading> {
         let of_steps = |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value)).scientific(1);
         vec![
-            Reading::text("elements", self.elements().to_string()),
+            Reading::text("elements", self.elements.to_string()),
             Reading::text("dt", plain_text(self.stepping.dt)),
             Reading::text("steps", found.steps.to_string()),
             Reading::text("in contact", found.contact_steps.to_string()),
@@ -332,8 +314,8 @@ impl Found {
 }
 
 /// What a run has shown so far.
-struct Log {
-    watch: Watch,
+struct EnergyLog {
+    watch: EnergyWatch,
     /// Steps of the whole run.
     last: usize,
     /// Steps from one sample to the next; the last step is one in any case.
@@ -343,12 +325,12 @@ struct Log {
     found: Found,
 }
 
-impl Log {
+impl EnergyLog {
     fn new(driver: &mut Driver, last: usize) -> Self {
         let (simulation, level) = driver.present();
-        let watch = Watch::new(simulation.energy_scale(level));
+        let watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
-        let start = Sample { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
+        let start = EnergyAt { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
         let found = Found {
             end: End::Answer,
             steps: 0,
@@ -376,7 +358,7 @@ impl Log {
         if *steps % self.every == 0 || *steps == self.last {
             let energy = simulation.energy(new).total();
             let (t, residual, drift) = (simulation.t(), self.peak, self.watch.drift);
-            samples.push(Sample { step: *steps, t, energy, residual, drift });
+            samples.push(EnergyAt { step: *steps, t, energy, residual, drift });
             self.peak = 0.0;
         }
     }
@@ -388,18 +370,18 @@ fn size(energy: &Energy) -> f64 {
     kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs()
 }
 
-impl Runs {
-    fn figures(&self, found: &[(&Run, &Found)]) -> Vec<Figure> {
-        let drawn: Vec<&(&Run, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
-        let series = |point: &dyn Fn(&Found, &Sample) -> (f64, f64)| -> Vec<plots::Series> {
-            let curve = |(run, found): &&(&Run, &Found)| plots::Series {
+impl EnergyRuns {
+    fn figures(&self, found: &[(&EnergyRun, &Found)]) -> Vec<Figure> {
+        let drawn: Vec<&(&EnergyRun, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
+        let series = |point: &dyn Fn(&Found, &EnergyAt) -> (f64, f64)| -> Vec<plots::Series> {
+            let curve = |(run, found): &&(&EnergyRun, &Found)| plots::Series {
                 label: run.scene().to_owned(),
                 points: found.samples.iter().map(|sample| point(found, sample)).collect(),
             };
             drawn.iter().map(curve).collect()
         };
         // A line for each bound that the runs drawn must keep.
-        let allowed = |bound: fn(&Run) -> Option<f64>| -> Vec<plots::Guide> {
+        let allowed = |bound: fn(&EnergyRun) -> Option<f64>| -> Vec<plots::Guide> {
             let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| bound(run)).collect();
             bounds.sort_by(f64::total_cmp);
             bounds.dedup();

@@ -1,11 +1,7 @@
 //! The sentences of Section 5, each a check with its numbers.
 
-use convergence_study::judge::verdict::Verdict;
-use thermobeam::equilibrium::Contact;
-use thermobeam::kirchhoff::BUCKLING;
-
 use super::run::straight_energy;
-use super::{Experiment, Experiments, Found, Group, Nearest, Rest, Run, Task, Until, report};
+use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, Nearest, SectionGroup};
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
 
@@ -36,30 +32,35 @@ const SMOOTH: f64 = 1e-6;
 const AFTER_BOUNCES: f64 = 1e-4;
 
 /// The experiments of a group that completed.
-pub(super) struct Runs<'r> {
-    pub(super) runs: Vec<(&'r Experiment, &'r Run)>,
+pub(super) struct OfGroup<'r> {
+    pub(super) runs: Vec<(&'r Experiment, &'r Measured)>,
     /// Whether all of them did: no claim holds without.
     complete: bool,
 }
 
-impl<'r> Runs<'r> {
+impl<'r> OfGroup<'r> {
     /// The experiments that belong to the group.
-    pub(super) fn of(study: &'r Experiments, ran: &'r [Ran<Task, Found>], belongs: impl Fn(Group) -> bool) -> Self {
-        let run = |task: Task| match found(ran, &task) {
+    pub(super) fn of(
+        study: &'r Experiments,
+        ran: &'r [Ran<ExperimentTask, Found>],
+        belongs: impl Fn(SectionGroup) -> bool,
+    ) -> Self {
+        let run = |task: ExperimentTask| match found(ran, &task) {
             Some(Found::Run(run)) => Some(&**run),
             _ => None,
         };
         let group = || study.experiments.iter().enumerate().filter(|(_, experiment)| belongs(experiment.group));
-        let runs: Vec<_> = group().filter_map(|(k, experiment)| Some((experiment, run(Task::Run(k))?))).collect();
+        let runs: Vec<_> =
+            group().filter_map(|(k, experiment)| Some((experiment, run(ExperimentTask::Run(k))?))).collect();
         Self { complete: runs.len() == group().count() && !runs.is_empty(), runs }
     }
 
-    fn all(&self, holds: impl Fn(&Scene, &Run) -> bool) -> bool {
+    fn all(&self, holds: impl Fn(&Scene, &Measured) -> bool) -> bool {
         self.complete && self.runs.iter().all(|(experiment, run)| holds(&experiment.scene, run))
     }
 
-    fn list(&self, text: impl Fn(&Scene, &Run) -> String) -> String {
-        let one = |(Experiment { scene, .. }, run): &(&Experiment, &Run)| {
+    fn list(&self, text: impl Fn(&Scene, &Measured) -> String) -> String {
+        let one = |(Experiment { scene, .. }, run): &(&Experiment, &Measured)| {
             format!("β = {}: {}", scene.beam.beta, text(scene, run))
         };
         self.runs.iter().map(one).collect::<Vec<_>>().join("; ")
@@ -67,9 +68,9 @@ impl<'r> Runs<'r> {
 }
 
 /// Results with their β, in ascending order of it.
-pub(super) type Rests<'r> = [(f64, &'r Rest)];
+pub(super) type Rests<'r> = [(f64, &'r AtRest)];
 
-impl Run {
+impl Measured {
     /// * `name`: the experiment's; `bent`: whether the end is not zero, whose digits would be those of the last of the motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let of = |reading: Reading, guard: &str, tolerance: f64| reading.guarded(format!("{name}: {guard}"), tolerance);
@@ -97,9 +98,9 @@ fn distance(nearest: Option<Nearest>) -> f64 {
     nearest.map_or(f64::NAN, |nearest| nearest.distance)
 }
 
-impl Rest {
+impl AtRest {
     pub(super) fn readings(&self) -> Vec<Reading> {
-        let distance = Reading::new("distance to the nearest", distance(self.nearest));
+        let distance = Reading::new("distance to the nearest", self.distance());
         vec![
             Reading::text("steady states", self.states.to_string()),
             Reading::text("stable", self.stable.to_string()),
@@ -110,13 +111,16 @@ impl Rest {
     }
 }
 
-pub(super) fn judge(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
-    // The runs to rest that completed, each with its β.
-    let rest = |(k, &beta): (usize, &f64)| match found(ran, &Task::Rest(k)) {
+/// The runs to rest that completed, each with its β.
+pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<ExperimentTask, Found>]) -> Vec<(f64, &'r AtRest)> {
+    let rest = |(k, &beta): (usize, &f64)| match found(ran, &ExperimentTask::Rest(k)) {
         Some(Found::Rest(rest)) => Some((beta, rest)),
         _ => None,
     };
-    let rests: Vec<(f64, &Rest)> = study.betas.iter().enumerate().filter_map(rest).collect();
+    study.betas.iter().enumerate().filter_map(rest).collect()
+}
+
+pub(super) fn checks(study: &Experiments, ran: &[Ran<ExperimentTask, Found>], rests: &Rests<'_>) -> Vec<Check> {
     let mut checks = vec![completion(ran, |found| {
         readings::not_finite(&match found {
             Found::Run(run) => run.readings("", true),
@@ -124,97 +128,86 @@ pub(super) fn judge(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
         })
     })];
     checks.extend(claims(study, ran));
-    checks.extend(counts(&rests, rests.len() == study.betas.len()));
-    let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
-    let headline = format!("{passed} of {} statements about the experiments hold", checks.len());
-    report::outcome(study, ran, &rests, headline, checks)
+    checks.extend(counts(rests, rests.len() == study.betas.len()));
+    checks
+}
+
+/// A time that need not be.
+fn time(t: Option<f64>) -> String {
+    t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
 }
 
 /// All checks of the text, but for the number of steady states.
-fn claims(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Check> {
-    let first = Runs::of(study, ran, |group| group == Group::First);
-    let mut checks = vec![
-        energy_never_rises(&Runs::of(study, ran, |_| true)),
-        energy_limit(&study.until, &first),
-        becomes_straight(&first),
-        both_obstacles(&first),
-        frequency_grows(&first),
-        amplitude_is_largest(&first),
-    ];
+fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check> {
+    let all = OfGroup::of(study, ran, |_| true);
+    let first = OfGroup::of(study, ran, |group| group == SectionGroup::First);
+    let increases = all.runs.iter().map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
+    let mut checks = vec![Check::that(
+        all.all(|_, run| run.largest_increase <= ROUND_OFF),
+        "the energy rises in none of the experiments",
+        format!("largest change in a step: {}", increases.collect::<Vec<_>>().join(", ")),
+    )];
+    checks.extend(ends_straight(&first, REMAINS * study.until.rate));
+    checks.extend(moves(&first));
     // Completion has failed where a run is missing.
-    checks.extend(Runs::of(study, ran, |group| group != Group::First).runs.iter().map(|(experiment, run)| {
-        match experiment.group {
-            Group::Second(contact) => comes_to_rest(&experiment.scene, contact, run),
-            Group::First | Group::Third => ends_bent(&experiment.scene, run),
-        }
+    checks.extend(all.runs.iter().filter_map(|(Experiment { group, scene }, run)| match *group {
+        SectionGroup::First => None,
+        SectionGroup::Second(contact) => Some(comes_to_rest(scene, contact, run)),
+        SectionGroup::Third => Some(ends_bent(scene, run)),
     }));
     checks
 }
 
-fn energy_never_rises(runs: &Runs<'_>) -> Check {
-    let each = runs.runs.iter().map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
-    Check::that(
-        runs.all(|_, run| run.largest_increase <= ROUND_OFF),
-        "the energy rises in none of the experiments",
-        format!("largest change in a step: {}", each.collect::<Vec<_>>().join(", ")),
-    )
-}
-
-fn energy_limit(until: &Until, first: &Runs<'_>) -> Check {
-    let allowed = REMAINS * until.rate;
-    let list = first
+/// * `allowed`: what may remain of the energy.
+fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
+    let energies = first
         .list(|scene, run| format!("{:.9} for {:.9} at t = {:.0}", run.energy, straight_energy(scene), run.t_steady));
-    let holds = first.all(|scene, run| (run.energy - straight_energy(scene)).abs() <= allowed);
-    Check::that(holds, format!("θ_A = 0: the energy falls to β²/(4ρ), to {allowed:.1e}"), list)
+    [
+        Check::that(
+            first.all(|scene, run| (run.energy - straight_energy(scene)).abs() <= allowed),
+            format!("θ_A = 0: the energy falls to β²/(4ρ), to {allowed:.1e}"),
+            energies,
+        ),
+        Check::that(
+            first.all(|_, run| run.largest_field <= ARRIVED),
+            "θ_A = 0: the evolution is towards u = φ = θ = 0",
+            format!("largest of the three fields: {}", first.list(|_, run| format!("{:.1e}", run.largest_field))),
+        ),
+    ]
 }
 
-fn becomes_straight(first: &Runs<'_>) -> Check {
-    Check::that(
-        first.all(|_, run| run.largest_field <= ARRIVED),
-        "θ_A = 0: the evolution is towards u = φ = θ = 0",
-        format!("largest of the three fields: {}", first.list(|_, run| format!("{:.1e}", run.largest_field))),
-    )
-}
-
-fn both_obstacles(first: &Runs<'_>) -> Check {
+/// First contacts, frequency and amplitude, the experiments being in ascending order of β.
+fn moves(first: &OfGroup<'_>) -> [Check; 3] {
     let early = |scene: &Scene, t: Option<f64>| t.is_some_and(|t| t > 0.0 && t <= BEGINNING * scene.t_end);
-    let list = first
-        .list(|_, run| format!("upper {}, lower {}", report::time(run.first_upper), report::time(run.first_lower)));
-    Check::that(
-        first.all(|scene, run| early(scene, run.first_upper) && early(scene, run.first_lower)),
-        "at the beginning the beam touches both obstacles",
-        format!("first contacts: {list}"),
-    )
-}
-
-fn frequency_grows(first: &Runs<'_>) -> Check {
-    let frequency = |run: &Run| run.frequency.unwrap_or(f64::NAN);
+    let contacts = first.list(|_, run| format!("upper {}, lower {}", time(run.first_upper), time(run.first_lower)));
+    let frequency = |run: &Measured| run.frequency.unwrap_or(f64::NAN);
+    let several = first.complete && first.runs.len() >= 2;
     let grows = first.runs.windows(2).all(|pair| frequency(pair[0].1) < frequency(pair[1].1));
-    let list = first.list(|_, run| format!("{:.4} from {} upward crossings", frequency(run), run.crossings));
-    Check::that(
-        first.complete && first.runs.len() >= 2 && grows,
-        "the frequency of oscillation grows with β (with β itself, not with its size |β|)",
-        format!("frequency of u(1): {list}"),
-    )
-}
-
-fn amplitude_is_largest(first: &Runs<'_>) -> Check {
-    let holds = match first.runs.as_slice() {
-        [(_, first), others @ ..] if !others.is_empty() => {
-            others.iter().all(|(_, run)| first.phi_amplitude > run.phi_amplitude)
-        }
-        _ => false,
-    };
-    let list = first.list(|_, run| format!("{:.4}", run.phi_amplitude));
+    let frequencies = first.list(|_, run| format!("{:.4} from {} upward crossings", frequency(run), run.crossings));
+    let amplitude = first.runs.first().map_or(f64::NAN, |(_, run)| run.phi_amplitude);
+    let is_largest = first.runs.iter().skip(1).all(|(_, run)| amplitude > run.phi_amplitude);
     let beta = first.runs.first().map_or(f64::NAN, |(experiment, _)| experiment.scene.beam.beta);
-    Check::that(
-        first.complete && holds,
-        format!("the oscillations of φ(1) are largest for β = {beta}"),
-        format!("largest minus smallest φ(1): {list}"),
-    )
+    let amplitudes = first.list(|_, run| format!("{:.4}", run.phi_amplitude));
+    [
+        Check::that(
+            first.all(|scene, run| early(scene, run.first_upper) && early(scene, run.first_lower)),
+            "at the beginning the beam touches both obstacles",
+            format!("first contacts: {contacts}"),
+        ),
+        Check::that(
+            several && grows,
+            "the frequency of oscillation grows with β (with β itself, not with its size |β|)",
+            format!("frequency of u(1): {frequencies}"),
+        ),
+        Check::that(
+            several && is_largest,
+            format!("the oscillations of φ(1) are largest for β = {beta}"),
+            format!("largest minus smallest φ(1): {amplitudes}"),
+        ),
+    ]
 }
 
-fn comes_to_rest(scene: &Scene, contact: Contact, run: &Run) -> Check {
+fn comes_to_rest(scene: &Scene, contact: Contact, run: &Measured) -> Check {
     let presses = match contact {
         Contact::Upper => run.contact_force > 0.0,
         Contact::Lower => run.contact_force < 0.0,
@@ -230,7 +223,7 @@ fn comes_to_rest(scene: &Scene, contact: Contact, run: &Run) -> Check {
     )
 }
 
-fn ends_bent(scene: &Scene, run: &Run) -> Check {
+fn ends_bent(scene: &Scene, run: &Measured) -> Check {
     Check::that(
         run.u_tip.abs() > ARRIVED && has_arrived(run),
         format!("β = {}: the stationary solution is not zero", scene.beam.beta),
@@ -239,11 +232,11 @@ fn ends_bent(scene: &Scene, run: &Run) -> Check {
 }
 
 /// Whether the end is an exact, stable steady state.
-fn has_arrived(run: &Run) -> bool {
+fn has_arrived(run: &Measured) -> bool {
     run.nearest.is_some_and(|nearest| nearest.state.stable && nearest.distance <= ARRIVED)
 }
 
-fn at_rest(run: &Run) -> String {
+fn at_rest(run: &Measured) -> String {
     format!(
         "u(1) = {:.9}, contact force {:.6}, at t = {:.0}; the exact state has u(1) = {:.9}",
         run.u_tip,
@@ -257,10 +250,10 @@ fn at_rest(run: &Run) -> String {
 ///
 /// * `complete`: whether there is a result for every β; no claim holds without.
 fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
-    let claim = |range: [f64; 2], holds: fn(&Rest) -> bool, text: &str, more: &str| {
+    let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
         let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
-        let evidence = |(beta, rest): &&(f64, &Rest)| {
+        let evidence = |(beta, rest): &&(f64, &AtRest)| {
             format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.states, rest.u_tip)
         };
         let each: Vec<String> = within.iter().map(evidence).collect();
@@ -290,11 +283,11 @@ fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
     ]
 }
 
-fn is_alone_and_straight(rest: &Rest) -> bool {
+fn is_alone_and_straight(rest: &AtRest) -> bool {
     rest.states == 1 && rest.u_tip.abs() <= STRAIGHT
 }
 
-fn is_one_of_several_and_bent(rest: &Rest) -> bool {
+fn is_one_of_several_and_bent(rest: &AtRest) -> bool {
     let several = rest.states >= 3 && rest.stable >= 2;
-    several && rest.u_tip.abs() > STRAIGHT && rest.nearest.is_some_and(|nearest| nearest.state.stable)
+    several && rest.u_tip.abs() > STRAIGHT && rest.is_stable()
 }

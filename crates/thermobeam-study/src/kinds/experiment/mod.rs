@@ -29,15 +29,12 @@ mod judge;
 mod report;
 mod run;
 
-use thermobeam::equilibrium::Contact;
-
 use super::prelude::*;
 use super::steady::{ToRest, at_resolution, listed_scene};
-use crate::scene::tables;
 use convergence_study::input::POSITIVE;
 
-pub use super::steady::Nearest;
-pub use run::{Frame, Point, Run};
+pub use super::steady::{AtRest, Nearest};
+pub use run::{CurvePoint, Frame, Measured};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -50,7 +47,7 @@ pub const ROW: KindRow = KindRow {
 
 /// Which of the section's experiments, and so what is claimed of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Group {
+enum SectionGroup {
     /// θ_A = 0, (5.4): the beam becomes straight.
     First,
     /// θ_A = 20, (5.5): the beam comes to rest in this state of contact.
@@ -62,7 +59,7 @@ enum Group {
 /// One of the experiments.
 #[derive(Debug, Clone, PartialEq)]
 struct Experiment {
-    group: Group,
+    group: SectionGroup,
     /// The scene, at the study's resolution.
     scene: Scene,
 }
@@ -91,7 +88,7 @@ pub struct Experiments {
 
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Task {
+pub enum ExperimentTask {
     /// An experiment, by its place in the list.
     Run(usize),
     /// A moving beam until it rests, at the β of this place in the list.
@@ -102,24 +99,9 @@ pub enum Task {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// Of an experiment.
-    Run(Box<Run>),
+    Run(Box<Measured>),
     /// Of a run to rest.
-    Rest(Rest),
-}
-
-/// The exact steady states at one β, and where a moving beam comes to rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rest {
-    /// Number of exact steady states.
-    pub states: usize,
-    /// Number of those that are stable.
-    pub stable: usize,
-    /// u(1) at rest.
-    pub u_tip: f64,
-    /// When the beam has come to rest.
-    pub t_rest: f64,
-    /// The nearest exact steady state; `None` if there is none.
-    pub nearest: Option<Nearest>,
+    Rest(AtRest),
 }
 
 impl FromFile for Experiments {
@@ -157,10 +139,10 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
     let allowed = "a list of \"upper\", \"lower\" or \"free\", one for each scene of second";
     let rests = section.list("rests", allowed, |item| item.choice(&choices), |list| list.len() == second.len())?;
     let third = listed_scene(&section.require("third", "a scene file")?, folder)?;
-    let one = |(group, scene): (Group, Scene)| Experiment { group, scene };
-    let first = first.into_iter().map(|scene| (Group::First, scene));
-    let second = rests.into_iter().map(Group::Second).zip(second);
-    Ok(first.chain(second).chain([(Group::Third, third)]).map(one).collect())
+    let one = |(group, scene): (SectionGroup, Scene)| Experiment { group, scene };
+    let first = first.into_iter().map(|scene| (SectionGroup::First, scene));
+    let second = rests.into_iter().map(SectionGroup::Second).zip(second);
+    Ok(first.chain(second).chain([(SectionGroup::Third, third)]).map(one).collect())
 }
 
 /// Another mesh and time step, where `[run]` has them.
@@ -176,7 +158,7 @@ fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
 }
 
 impl Kind for Experiments {
-    type Data = Task;
+    type Data = ExperimentTask;
     type Found = Found;
 
     fn header(&self) -> &Header {
@@ -184,37 +166,34 @@ impl Kind for Experiments {
     }
 
     /// The seven experiments, then a moving beam until it rests for each β.
-    fn cases(&self) -> Vec<Case<Task>> {
+    fn cases(&self) -> Vec<Case<ExperimentTask>> {
         let run = |(k, Experiment { scene, .. }): (usize, &Experiment)| Case {
             label: scene.name.clone(),
             // Steady states come at t = 50 to 100.
             cost: 80.0 / scene.dt() * scene.mesh.elements() as f64,
-            data: Task::Run(k),
+            data: ExperimentTask::Run(k),
         };
         let rest = |(k, beta): (usize, &f64)| Case {
             label: format!("to rest, beta = {beta}"),
             cost: 200.0 / self.rest.dt * self.rest.elements as f64,
-            data: Task::Rest(k),
+            data: ExperimentTask::Rest(k),
         };
         let runs = self.experiments.iter().enumerate().map(run);
         runs.chain(self.betas.iter().enumerate().map(rest)).collect()
     }
 
-    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, task: &ExperimentTask) -> Result<Found, CaseFailure> {
         match *task {
-            Task::Run(k) => Ok(Found::Run(Box::new(run::run(&self.experiments[k].scene, &self.until)?))),
-            Task::Rest(k) => {
+            ExperimentTask::Run(k) => Ok(Found::Run(Box::new(run::run(&self.experiments[k].scene, &self.until)?))),
+            ExperimentTask::Rest(k) => {
                 // The third experiment is the last.
-                let third =
-                    self.experiments.last().ok_or_else(|| CaseFailure { reason: "no experiment".to_owned() })?;
-                let (rest, states, nearest) = self.rest.run(&third.scene, self.betas[k])?;
-                let stable = states.iter().filter(|state| state.stable).count();
-                Ok(Found::Rest(Rest { states: states.len(), stable, u_tip: rest.u_tip(), t_rest: rest.t, nearest }))
+                let third = self.experiments.last().ok_or(CaseFailure { reason: "no experiment".to_owned() })?;
+                Ok(Found::Rest(self.rest.run(&third.scene, self.betas[k])?))
             }
         }
     }
 
-    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
-        judge::judge(self, ran)
+    fn judge(&self, ran: &[Ran<ExperimentTask, Found>]) -> Outcome {
+        report::outcome(self, ran)
     }
 }

@@ -1,27 +1,25 @@
 //! Tables, figures and guarded numbers.
 
-use super::judge::{Rests, Runs};
+use super::judge::{self, OfGroup};
 use super::run::{SPAN, straight_energy};
-use super::{Experiment, Experiments, Found, Frame, Group, Point, Run, Task};
+use super::{CurvePoint, Experiment, ExperimentTask, Experiments, Found, Frame, Measured, SectionGroup};
 use crate::figures;
 use crate::kinds::prelude::*;
 
 /// Seconds that one run of the animation takes: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
 
-pub(super) fn outcome(
-    study: &Experiments,
-    ran: &[Ran<Task, Found>],
-    rests: &Rests<'_>,
-    headline: String,
-    checks: Vec<Check>,
-) -> Outcome {
-    let row = |(experiment, run): &(&Experiment, &Run)| {
+pub(super) fn outcome(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Outcome {
+    let rests = judge::rests(study, ran);
+    let checks = judge::checks(study, ran, &rests);
+    let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
+    let headline = format!("{passed} of {} statements about the experiments hold", checks.len());
+    let row = |(experiment, run): &(&Experiment, &Measured)| {
         let Scene { name, beam, .. } = &experiment.scene;
-        let bent = experiment.group != Group::First;
+        let bent = experiment.group != SectionGroup::First;
         (vec![beam.theta_a.to_string(), beam.beta.to_string()], run.readings(name, bent))
     };
-    let runs: Vec<_> = Runs::of(study, ran, |_| true).runs.iter().map(row).collect();
+    let runs: Vec<_> = OfGroup::of(study, ran, |_| true).runs.iter().map(row).collect();
     let rests: Vec<_> = rests.iter().map(|(beta, rest)| (vec![beta.to_string()], rest.readings())).collect();
     let title = "Steady states without heating, and where the moving beam comes to rest";
     Outcome {
@@ -36,47 +34,46 @@ pub(super) fn outcome(
     }
 }
 
-type Each<'r> = [(&'r Experiment, &'r Run)];
+type Each<'r> = [(&'r Experiment, &'r Measured)];
 
-/// A time that need not be.
-pub(super) fn time(t: Option<f64>) -> String {
-    t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
-}
-
-fn figures(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Figure> {
-    let first = Runs::of(study, ran, |group| group == Group::First).runs;
-    let second = Runs::of(study, ran, |group| matches!(group, Group::Second(_))).runs;
-    let third = Runs::of(study, ran, |group| group == Group::Third).runs;
+fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figure> {
+    let first = OfGroup::of(study, ran, |group| group == SectionGroup::First).runs;
+    let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
+    let third = OfGroup::of(study, ran, |group| group == SectionGroup::Third).runs;
     let id = &study.header.id;
-    let figure = |what: &str, caption: &str, history: plots::History| over_time(id, what, caption, &history);
     // The middle one moves without axial force at rest.
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
         let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
         Figure::new(id, "beam", caption, animated(&experiment.scene, &run.frames))
     });
-    let drawn = vec![
-        figure(
+    let above = |experiment: &Experiment, point: &CurvePoint| point.energy - straight_energy(&experiment.scene);
+    let decay = plots::History {
+        y: plots::Axis::log("E − β²/(4ρ) (dimensionless)"),
+        ..curves(&first, "", Span::UntilSteady, above)
+    };
+    let drawn = [
+        (
             "figure-2",
             "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.",
             energy(&first, Span::Figure),
         ),
-        figure("figure-3", "Figure 3: displacement of the free end, θ_A = 0.", displacement(&first)),
-        figure("figure-4", "Figure 4: rotation of the free end, θ_A = 0.", rotation(&first)),
-        figure("figure-5", "Figure 5: displacement of the free end, θ_A = 20.", displacement(&second)),
-        figure("figure-6", "Figure 6: rotation of the free end, θ_A = 20.", rotation(&second)),
-        figure(
+        ("figure-3", "Figure 3: displacement of the free end, θ_A = 0.", displacement(&first)),
+        ("figure-4", "Figure 4: rotation of the free end, θ_A = 0.", rotation(&first)),
+        ("figure-5", "Figure 5: displacement of the free end, θ_A = 20.", displacement(&second)),
+        ("figure-6", "Figure 6: rotation of the free end, θ_A = 20.", rotation(&second)),
+        (
             "figure-7-energy",
             "Figure 7, left: the energy beyond buckling, until steady; the line is β²/(4ρ), which the bent beam falls below.",
             energy(&third, Span::UntilSteady),
         ),
-        figure(
+        (
             "figure-7-tip",
             "Figure 7, right: displacement and rotation of the free end beyond buckling, until steady: the beam comes to rest bent.",
             tip(&third),
         ),
-        figure("decay", "Energy above that of the straight beam until each run is steady, θ_A = 0.", decay(&first)),
+        ("decay", "Energy above that of the straight beam until each run is steady, θ_A = 0.", decay),
     ];
-    beam.into_iter().chain(drawn).collect()
+    beam.into_iter().chain(drawn.map(|(what, caption, history)| over_time(id, what, caption, &history))).collect()
 }
 
 /// How much of the runs a figure shows.
@@ -94,8 +91,8 @@ fn beta_label(experiment: &Experiment) -> String {
 }
 
 /// One curve for each run, over the figures' span or until the runs are steady.
-fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> Vec<plots::Series> {
-    let curve = |(experiment, run): &(&Experiment, &Run)| {
+fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &CurvePoint) -> f64) -> Vec<plots::Series> {
+    let curve = |(experiment, run): &(&Experiment, &Measured)| {
         let scene = &experiment.scene;
         let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt() } else { f64::INFINITY };
         let shown = run.points.iter().filter(|point| point.t <= end);
@@ -112,7 +109,7 @@ fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
 }
 
 /// Curves over the figures' span or until the runs are steady, each with the look of its scene.
-fn curves(runs: &Each<'_>, label: &str, span: Span, value: impl Fn(&Experiment, &Point) -> f64) -> plots::History {
+fn curves(runs: &Each<'_>, label: &str, span: Span, value: impl Fn(&Experiment, &CurvePoint) -> f64) -> plots::History {
     plots::History {
         y: plots::Axis::linear(label),
         series: series(runs, span, value),
@@ -122,19 +119,13 @@ fn curves(runs: &Each<'_>, label: &str, span: Span, value: impl Fn(&Experiment, 
 }
 
 fn energy(runs: &Each<'_>, span: Span) -> plots::History {
-    let limit = |(e, _): &(&Experiment, &Run)| {
+    let limit = |(e, _): &(&Experiment, &Measured)| {
         let value = straight_energy(&e.scene);
         let label = format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
         plots::Guide { label, value }
     };
     let guides = runs.iter().map(limit).collect();
     plots::History { guides, ..curves(runs, "energy E (dimensionless)", span, |_, point| point.energy) }
-}
-
-fn decay(runs: &Each<'_>) -> plots::History {
-    let above = |experiment: &Experiment, point: &Point| point.energy - straight_energy(&experiment.scene);
-    let y = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
-    plots::History { y, ..curves(runs, "", Span::UntilSteady, above) }
 }
 
 fn displacement(runs: &Each<'_>) -> plots::History {
@@ -147,7 +138,7 @@ fn rotation(runs: &Each<'_>) -> plots::History {
 }
 
 fn tip(runs: &Each<'_>) -> plots::History {
-    let curve = |label: &str, value: fn(&Point) -> f64| {
+    let curve = |label: &str, value: fn(&CurvePoint) -> f64| {
         let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
         plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
     };

@@ -1,14 +1,10 @@
 //! One experiment, run until it is steady, and what is measured on the way.
 
-use std::ops::ControlFlow;
-
 use thermobeam::simulation::Simulation;
-use thermobeam::solve::Level;
 
 use super::{Nearest, Until};
 use crate::kinds::prelude::*;
 use crate::kinds::steady::exact_states;
-use crate::run::driver::{Driver, Step};
 use crate::run::simulate::driver;
 
 /// Points of a curve in a figure, about: more than a figure has columns.
@@ -22,7 +18,7 @@ const PARTS: usize = 100;
 
 /// What an experiment shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Run {
+pub struct Measured {
     /// Time from which the beam is steady.
     pub t_steady: f64,
     /// The energy then.
@@ -52,14 +48,14 @@ pub struct Run {
     /// Largest change of the energy in a step: negative where it falls in every step.
     pub largest_increase: f64,
     /// Free end and energy over time.
-    pub points: Vec<Point>,
+    pub points: Vec<CurvePoint>,
     /// Shapes of the beam over the first seconds.
     pub frames: Vec<Frame>,
 }
 
 /// A point of the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub struct CurvePoint {
     /// Time.
     pub t: f64,
     /// u(1).
@@ -83,9 +79,9 @@ pub struct Frame {
 ///
 /// # Errors
 /// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
-pub(super) fn run(scene: &Scene, until: &Until) -> Result<Run, CaseFailure> {
+pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure> {
     let mut driver = driver(scene)?;
-    let mut log = Log::new(scene, &mut driver);
+    let mut log = MotionLog::new(scene, &mut driver);
     let window = (until.window / scene.dt()).round().max(1.0) as usize;
     let mut fall = 0.0;
     let end = driver.run(usize::MAX, |step| {
@@ -106,97 +102,66 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Run, CaseFailure> {
 }
 
 /// What a run has shown so far.
-struct Log<'a> {
+struct MotionLog<'a> {
     scene: &'a Scene,
-    /// Range of φ(1) in the figures' span.
-    phi: [f64; 2],
-    first_upper: Option<f64>,
-    first_lower: Option<f64>,
-    /// First and last upward crossing of zero by u(1), and their number.
-    crossings: ([f64; 2], usize),
+    /// (t, u(1), φ(1)) at the start and after each step in the figures' span.
+    motion: Vec<[f64; 3]>,
     largest_increase: f64,
-    /// Steps between two points of a curve.
-    stride: usize,
-    points: Vec<Point>,
+    points: Vec<CurvePoint>,
     frames: Vec<Frame>,
 }
 
-impl<'a> Log<'a> {
+impl<'a> MotionLog<'a> {
     fn new(scene: &'a Scene, driver: &mut Driver) -> Self {
-        let mut log = Self {
-            scene,
-            phi: [f64::INFINITY, f64::NEG_INFINITY],
-            first_upper: None,
-            first_lower: None,
-            crossings: ([f64::NAN; 2], 0),
-            largest_increase: f64::NEG_INFINITY,
-            stride: ((scene.t_end / scene.dt()).round() as usize / POINTS).max(1),
-            points: vec![],
-            frames: vec![],
-        };
+        let mut log =
+            Self { scene, motion: vec![], largest_increase: f64::NEG_INFINITY, points: vec![], frames: vec![] };
         let (simulation, level) = driver.present();
-        log.add_point(simulation, level);
-        log.add_frame(0, 0.0, level);
+        log.add_level(simulation, level);
         log
     }
 
     fn add(&mut self, step: &Step<'_>, change: f64) {
-        let Step { old, new, simulation, .. } = *step;
         self.largest_increase = max_or_nan(self.largest_increase, change);
-        let (t, step) = (simulation.t(), simulation.step());
+        self.add_level(step.simulation, step.new);
+    }
+
+    fn add_level(&mut self, simulation: &Simulation, level: &Level) {
+        let (t, step, tip) = (simulation.t(), simulation.step(), level.u.len() - 1);
+        let (t_end, dt) = (self.scene.t_end, self.scene.dt());
         // Half a step of slack: n dt is not t_end to the last bit.
-        if t <= self.scene.t_end + 0.5 * self.scene.dt() {
-            self.add_motion(t, [old, new]);
+        if t <= t_end + 0.5 * dt {
+            self.motion.push([t, level.u[tip], level.phi[tip]]);
         }
-        self.add_frame(step, t, new);
-        // Beyond the figures' span only slow, smooth motion is left.
-        let thinning = if t <= self.scene.t_end { 1 } else { 10 };
-        if step.is_multiple_of(thinning * self.stride) {
-            self.add_point(simulation, new);
-        }
-    }
-
-    /// Contacts, crossings and extremes of the free end.
-    fn add_motion(&mut self, t: f64, [old, new]: [&Level; 2]) {
-        let tip = new.u.len() - 1;
-        let [before, now] = [old.u[tip], new.u[tip]];
-        let passes = |at: f64| t - self.scene.dt() * (now - at) / (now - before);
-        if let Some(obstacles) = self.scene.obstacles {
-            if self.first_upper.is_none() && before <= obstacles.g2 && now > obstacles.g2 {
-                self.first_upper = Some(passes(obstacles.g2));
-            }
-            if self.first_lower.is_none() && before >= obstacles.g1 && now < obstacles.g1 {
-                self.first_lower = Some(passes(obstacles.g1));
-            }
-        }
-        if before < 0.0 && now >= 0.0 {
-            let (([first, _], count), t) = (self.crossings, passes(0.0));
-            self.crossings = ([if count == 0 { t } else { first }, t], count + 1);
-        }
-        let phi = new.phi[tip];
-        self.phi = [-max_or_nan(-self.phi[0], -phi), max_or_nan(self.phi[1], phi)];
-    }
-
-    fn add_point(&mut self, simulation: &Simulation, level: &Level) {
-        let tip = level.u.len() - 1;
-        let energy = simulation.energy(level).total();
-        self.points.push(Point { t: simulation.t(), u_tip: level.u[tip], phi_tip: level.phi[tip], energy });
-    }
-
-    /// Keeps the level after so many steps, if it is one of the frames.
-    fn add_frame(&mut self, step: usize, t: f64, level: &Level) {
-        let steps = (SPAN / self.scene.dt()).round() as usize;
-        if step <= steps && step.is_multiple_of((steps / PARTS).max(1)) {
+        let of_frames = (SPAN / dt).round() as usize;
+        if step <= of_frames && step.is_multiple_of((of_frames / PARTS).max(1)) {
             self.frames.push(Frame { t, u: level.u.clone() });
         }
+        // Beyond the figures' span only slow, smooth motion is left.
+        let stride = ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };
+        if step.is_multiple_of(stride) {
+            let energy = simulation.energy(level).total();
+            self.points.push(CurvePoint { t, u_tip: level.u[tip], phi_tip: level.phi[tip], energy });
+        }
     }
 
-    fn finish(self, simulation: &Simulation, end: &Level) -> Result<Run, CaseFailure> {
+    /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
+    fn passings(&self, at: f64, passes: impl Fn(f64, f64) -> bool) -> impl Iterator<Item = f64> {
+        let pairs = self.motion.windows(2).map(|pair| [pair[0][1], pair[1][1], pair[1][0]]);
+        let passing = pairs.filter(move |[before, now, _]| passes(*before, *now));
+        passing.map(move |[before, now, t]| t - self.scene.dt() * (now - at) / (now - before))
+    }
+
+    fn finish(self, simulation: &Simulation, end: &Level) -> Result<Measured, CaseFailure> {
         let states = exact_states(self.scene)?;
         let tip = end.u.len() - 1;
-        let ([first, last], crossings) = self.crossings;
         let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
-        Ok(Run {
+        let obstacles = self.scene.obstacles.as_ref();
+        let crossings: Vec<f64> = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0).collect();
+        let count = crossings.len();
+        // The start is no step.
+        let largest =
+            |sign: f64| self.motion.iter().skip(1).map(|[_, _, phi]| sign * phi).fold(f64::NEG_INFINITY, max_or_nan);
+        Ok(Measured {
             t_steady: simulation.t(),
             energy: simulation.energy(end).total(),
             u_tip: end.u[tip],
@@ -205,11 +170,13 @@ impl<'a> Log<'a> {
             largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
             states: states.len(),
             nearest: Nearest::of(&self.scene.mesh, end, &states),
-            first_upper: self.first_upper,
-            first_lower: self.first_lower,
-            crossings,
-            frequency: (crossings >= 2).then(|| (crossings as f64 - 1.0) / (last - first)),
-            phi_amplitude: self.phi[1] - self.phi[0],
+            first_upper: obstacles
+                .and_then(|of| self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2).next()),
+            first_lower: obstacles
+                .and_then(|of| self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1).next()),
+            crossings: count,
+            frequency: (count >= 2).then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0])),
+            phi_amplitude: largest(1.0) + largest(-1.0),
             largest_increase: self.largest_increase,
             points: self.points,
             frames: self.frames,

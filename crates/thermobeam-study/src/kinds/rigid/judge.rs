@@ -3,10 +3,9 @@
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::text::number::rate_text;
-use thermobeam::parameters::Obstacles;
 
 use super::theory::peak_penetration;
-use super::{Bouncing, FixedPointRun, Found, Impact, Rest, RigidStudy, RunOf, Task};
+use super::{RigidStudy, RigidTask, RunOf, ShownImpact};
 use crate::figures::{Contraction, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
@@ -22,124 +21,99 @@ const SLOW: f64 = 0.8;
 /// A rate, and the name of its curve.
 const LARGEST: &str = "largest penetration, fixed h and dt";
 
-/// The results of one compliance; `None` where the case failed.
+/// The runs with one compliance; `None` where the case failed.
 struct Compliance<'r> {
     epsilon: f64,
-    bouncing: Option<&'r Bouncing>,
-    fixed_point: Option<&'r FixedPointRun>,
-    rest: Option<&'r Rest>,
-    impact: Option<&'r Impact>,
+    bouncing: Option<&'r ShownImpact>,
+    fixed_point: Option<&'r ShownImpact>,
+    rest: Option<&'r ShownImpact>,
+    impact: Option<&'r ShownImpact>,
     /// Largest distance over time between the free end of the bouncing beam and that with rigid obstacles.
     distance: f64,
 }
 
+/// A number of a run; NaN where there is none.
+fn number(run: Option<&ShownImpact>, of: fn(&ShownImpact) -> Option<f64>) -> f64 {
+    run.and_then(of).unwrap_or(f64::NAN)
+}
+
+fn penetration(run: Option<&ShownImpact>) -> f64 {
+    number(run, |run| run.penetration)
+}
+
 impl<'r> Compliance<'r> {
-    fn new(epsilon: f64, ran: &'r [Ran<Task, Found>], limit: Option<&Bouncing>) -> Self {
-        let of = |run: RunOf| found(ran, &Task { epsilon, run });
-        let bouncing = of(RunOf::Bouncing).and_then(Found::bouncing);
+    fn new(epsilon: f64, ran: &'r [Ran<RigidTask, ShownImpact>], limit: Option<&ShownImpact>) -> Self {
+        let of = |run: RunOf| found(ran, &RigidTask { epsilon, run });
+        let bouncing = of(RunOf::Bouncing);
         let distance = match (bouncing, limit) {
-            (Some(Bouncing { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => {
+            (Some(ShownImpact { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => {
                 tip.iter().zip(&limit.tip).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, max_or_nan)
             }
             _ => f64::NAN,
         };
-        let (mut fixed_point, mut rest, mut impact) = (None, None, None);
-        for run in [RunOf::FixedPoint, RunOf::Rest, RunOf::Impact] {
-            match of(run) {
-                Some(Found::FixedPoint(found)) => fixed_point = Some(found),
-                Some(Found::Rest(found)) => rest = Some(found),
-                Some(Found::Impact(found)) => impact = Some(found),
-                _ => {}
-            }
-        }
+        let [fixed_point, rest, impact] = [RunOf::FixedPoint, RunOf::Rest, RunOf::Impact].map(of);
         Self { epsilon, bouncing, fixed_point, rest, impact, distance }
     }
 
-    fn largest_penetration(&self) -> f64 {
-        self.bouncing.map_or(f64::NAN, |found| found.penetration)
-    }
-
-    fn resting_penetration(&self) -> f64 {
-        self.rest.map_or(f64::NAN, |found| found.penetration)
-    }
-
-    fn peak_penetration(&self) -> f64 {
-        self.impact.map_or(f64::NAN, |found| found.penetration)
-    }
-
     fn alpha(&self) -> f64 {
-        self.fixed_point.map_or(f64::NAN, |found| found.alpha)
+        number(self.fixed_point, |found| found.alpha)
     }
 
     /// Penetrations and forces.
     fn forces(&self) -> Vec<Reading> {
-        let guarded = |head: &str, value: f64, name: &str| {
-            Reading::new(head, value).scientific(4).guarded(format!("{name}, ε = {:.1e}", self.epsilon), 1e-6)
+        let guarded = |head: &str, run: Option<&ShownImpact>, name: &str| {
+            let name = format!("{name}, ε = {:.1e}", self.epsilon);
+            Reading::new(head, penetration(run)).scientific(4).guarded(name, 1e-6)
         };
-        let force = |head: &str, value: Option<f64>| Reading::new(head, value.unwrap_or(f64::NAN)).scientific(4);
+        let shown = |head: &str, value: f64| Reading::new(head, value).scientific(4);
+        let force = |head: &str, run: Option<&ShownImpact>| shown(head, number(run, |run| run.force));
         vec![
-            guarded("bouncing: largest penetration", self.largest_penetration(), "largest penetration"),
-            force("largest force", self.bouncing.map(|found| found.force)),
-            force("distance to the rigid limit", Some(self.distance)),
-            guarded("at rest: penetration", self.resting_penetration(), "penetration at rest"),
-            force("force", self.rest.map(|found| found.force)),
-            guarded("impact, resolved: peak penetration", self.peak_penetration(), "peak penetration"),
-            force("peak force", self.impact.map(|found| found.force)),
+            guarded("bouncing: largest penetration", self.bouncing, "largest penetration"),
+            force("largest force", self.bouncing),
+            shown("distance to the rigid limit", self.distance),
+            guarded("at rest: penetration", self.rest, "penetration at rest"),
+            force("force", self.rest),
+            guarded("impact, resolved: peak penetration", self.impact, "peak penetration"),
+            force("peak force", self.impact),
         ]
     }
 
     fn solvers(&self) -> Vec<Reading> {
         let (newton, fixed_point) = (self.bouncing, self.fixed_point);
-        let ended = |run: &FixedPointRun| run.failed_at.map_or("converges".into(), |t| format!("fails at t = {t:.3}"));
+        let ended = |run: &ShownImpact| run.failed_at.map_or("converges".into(), |t| format!("fails at t = {t:.3}"));
         vec![
-            Reading::new("Newton's iterations", newton.map(|found| found.mean_iterations)).fixed(3),
+            Reading::new("Newton's iterations", newton.and_then(|found| found.mean_iterations)).fixed(3),
             Reading::new("most in a step", newton.map(|found| found.most_iterations as f64)).fixed(0),
-            Reading::new("fixed point's iterations", fixed_point.map(|found| found.mean_iterations)).fixed(2),
-            Reading::new("α", fixed_point.map(|found| found.alpha)).fixed(4),
+            Reading::new("fixed point's iterations", fixed_point.and_then(|found| found.mean_iterations)).fixed(2),
+            Reading::new("α", fixed_point.and_then(|found| found.alpha)).fixed(4),
             Reading::new("contraction", fixed_point.and_then(|found| found.contraction)).fixed(4),
             Reading::text("fixed point", fixed_point.map_or("-".to_owned(), ended)),
         ]
     }
 }
 
-impl Found {
-    fn bouncing(&self) -> Option<&Bouncing> {
-        if let Found::Bouncing(found) = self { Some(found) } else { None }
-    }
-
-    fn not_finite(&self) -> Vec<String> {
-        let numbers = match self {
-            Found::Bouncing(Bouncing { force, penetration, mean_iterations, tip, .. }) => {
-                let largest = tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
-                vec![
-                    ("force", *force),
-                    ("penetration", *penetration),
-                    ("iterations", *mean_iterations),
-                    ("tip", largest),
-                ]
-            }
-            Found::FixedPoint(FixedPointRun { alpha, contraction, mean_iterations, failed_at }) => vec![
-                ("alpha", *alpha),
-                ("contraction", contraction.unwrap_or(0.0)),
-                ("iterations", *mean_iterations),
-                ("time of failure", failed_at.unwrap_or(0.0)),
-            ],
-            Found::Rest(Rest { force, penetration }) => vec![("force", *force), ("penetration", *penetration)],
-            Found::Impact(Impact { velocity, force, penetration }) => {
-                vec![("velocity", *velocity), ("force", *force), ("penetration", *penetration)]
-            }
-        };
-        not_finite(&numbers)
-    }
+fn not_finite(found: &ShownImpact) -> Vec<String> {
+    let tip = found.tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
+    let numbers = [
+        ("velocity", found.velocity),
+        ("force", found.force),
+        ("penetration", found.penetration),
+        ("alpha", found.alpha),
+        ("contraction", found.contraction),
+        ("iterations", found.mean_iterations),
+        ("tip", Some(tip)),
+        ("time of failure", found.failed_at),
+    ];
+    readings::not_finite(&numbers.map(|(name, value)| Reading::new(name, value)))
 }
 
-pub(super) fn judge(study: &RigidStudy, ran: &[Ran<Task, Found>]) -> Outcome {
-    let limit = found(ran, &Task { epsilon: study.limit, run: RunOf::RigidLimit }).and_then(Found::bouncing);
+pub(super) fn judge(study: &RigidStudy, ran: &[Ran<RigidTask, ShownImpact>]) -> Outcome {
+    let limit = found(ran, &RigidTask { epsilon: study.limit, run: RunOf::RigidLimit });
     let all: Vec<Compliance<'_>> = study.epsilons.iter().map(|&epsilon| Compliance::new(epsilon, ran, limit)).collect();
     let rates = rates(study, &all);
     let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();
     let checks = vec![
-        completion(ran, Found::not_finite),
+        completion(ran, not_finite),
         peak_as_predicted(study, all.last()),
         newton_does_not_depend_on_epsilon(study, &all, limit),
         fixed_point_fails_at_one(&all),
@@ -174,10 +148,10 @@ fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict
         (name.to_owned(), judge.judge(&levels, order))
     };
     vec![
-        rate(LARGEST, 1.0, &averaged, |of| of.largest_penetration()),
+        rate(LARGEST, 1.0, &averaged, |of| penetration(of.bouncing)),
         rate("distance to the rigid limit, fixed h and dt", 1.0, &averaged, |of| of.distance),
-        rate("penetration at rest", 1.0, &stiff, |of| of.resting_penetration()),
-        rate("peak penetration of an impact, resolved", 2.0 / 3.0, &stiff, |of| of.peak_penetration()),
+        rate("penetration at rest", 1.0, &stiff, |of| penetration(of.rest)),
+        rate("peak penetration of an impact, resolved", 2.0 / 3.0, &stiff, |of| penetration(of.impact)),
     ]
 }
 
@@ -185,7 +159,7 @@ fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check
     let exact = peak_penetration();
     let (epsilon, impact) = last.map_or((f64::NAN, None), |of| (of.epsilon, of.impact));
     let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(study.impact.beam.zeta);
-    let measured = impact.map_or(f64::NAN, |found| found.penetration / (found.velocity * time));
+    let measured = penetration(impact) / (number(impact, |found| found.velocity) * time);
     Check::that(
         (measured / exact - 1.0).abs() <= 5e-3,
         "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
@@ -193,38 +167,38 @@ fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check
     )
 }
 
-fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> Check {
+fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Check {
     let claim = "Newton's iterations do not grow as the obstacles become rigid";
-    let bouncing: Vec<&Bouncing> = all.iter().filter_map(|of| of.bouncing).chain(limit).collect();
+    let bouncing: Vec<&ShownImpact> = all.iter().filter_map(|of| of.bouncing).chain(limit).collect();
     let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
         return Check::that(false, claim, "no bouncing beam was run to its end");
     };
-    let holds = |found: &&Bouncing| {
-        found.mean_iterations <= 1.1 * softest.mean_iterations && found.most_iterations <= softest.most_iterations + 2
+    let mean = |found: &ShownImpact| number(Some(found), |found| found.mean_iterations);
+    let holds = |found: &&ShownImpact| {
+        mean(found) <= 1.1 * mean(softest) && found.most_iterations <= softest.most_iterations + 2
     };
-    let most = bouncing.iter().map(|found| found.most_iterations).max();
     let evidence = format!(
         "mean from {:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}; most in a step: {}",
-        softest.mean_iterations,
-        limit.mean_iterations,
+        mean(softest),
+        mean(limit),
         study.limit,
-        most.unwrap_or(0)
+        bouncing.iter().map(|found| found.most_iterations).max().unwrap_or(0)
     );
     Check::that(bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds), claim, evidence)
 }
 
 fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
-    let runs = || all.iter().filter_map(|of| Some((of.epsilon, of.fixed_point?)));
-    let as_predicted = |(_, run): (f64, &FixedPointRun)| match run.alpha {
-        alpha if alpha < SLOW => run.failed_at.is_none(),
-        alpha if alpha > 1.0 => run.failed_at.is_some(),
+    let runs = || all.iter().filter_map(|of| Some((of, of.fixed_point?.failed_at)));
+    let as_predicted = |(of, failed_at): (&Compliance<'_>, Option<f64>)| match of.alpha() {
+        alpha if alpha < SLOW => failed_at.is_none(),
+        alpha if alpha > 1.0 => failed_at.is_some(),
         // Between the two it may do either; NaN is neither.
         alpha => alpha.is_finite(),
     };
-    let last = runs().rfind(|(_, run)| run.failed_at.is_none());
-    let first = runs().find(|(_, run)| run.failed_at.is_some());
-    let name = |run: Option<(f64, &FixedPointRun)>| {
-        run.map_or("none".to_owned(), |(epsilon, run)| format!("ε = {epsilon:.1e} (α = {:.3})", run.alpha))
+    let last = runs().rfind(|(_, failed_at)| failed_at.is_none());
+    let first = runs().find(|(_, failed_at)| failed_at.is_some());
+    let name = |run: Option<(&Compliance<'_>, _)>| {
+        run.map_or("none".to_owned(), |(of, _)| format!("ε = {:.1e} (α = {:.3})", of.epsilon, of.alpha()))
     };
     Check::that(
         runs().all(as_predicted) && last.is_some() && first.is_some(),
@@ -234,8 +208,8 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
 }
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
-    let runs = all.iter().filter_map(|of| of.fixed_point).filter(|run| (0.01..SLOW).contains(&run.alpha));
-    let ratios: Vec<f64> = runs.map(|run| run.contraction.unwrap_or(f64::NAN) / run.alpha).collect();
+    let judged = all.iter().filter(|of| (0.01..SLOW).contains(&of.alpha()));
+    let ratios: Vec<f64> = judged.map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha()).collect();
     let worst = ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, max_or_nan);
     Check::that(
         !ratios.is_empty() && worst <= 0.1,
@@ -244,8 +218,15 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
     )
 }
 
-fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> Vec<Figure> {
+/// The distance to the rigid limit is left out of the first: on its scale it coincides with the largest penetration.
+fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let id = &study.header.id;
+    let of_fixed_point = |label: &str, converges: bool| {
+        let runs = all.iter().filter(|of| of.fixed_point.is_some_and(|run| run.failed_at.is_none() == converges));
+        let points = runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))).collect();
+        plots::Series { label: label.into(), points }
+    };
+    let series = vec![of_fixed_point("converges", true), of_fixed_point("fails", false)];
     vec![
         Figure::new(
             id,
@@ -259,12 +240,11 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>)
             id,
             "contraction",
             "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
-            contractions(all),
+            contraction(&Contraction { title: None, series }),
         ),
     ]
 }
 
-/// The distance to the rigid limit is left out: on this scale it coincides with the largest penetration.
 fn penetrations(all: &[Compliance<'_>]) -> String {
     let over_epsilon = |label: &str, number: fn(&Compliance<'_>) -> f64| plots::ErrorSeries {
         label: label.into(),
@@ -276,9 +256,9 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
         x_label: "compliance of the obstacles ε".into(),
         y_label: "penetration (dimensionless)".into(),
         series: vec![
-            over_epsilon(LARGEST, |of| of.largest_penetration()),
-            over_epsilon("peak of a resolved impact", |of| of.peak_penetration()),
-            over_epsilon("at rest", |of| of.resting_penetration()),
+            over_epsilon(LARGEST, |of| penetration(of.bouncing)),
+            over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
+            over_epsilon("at rest", |of| penetration(of.rest)),
         ],
         beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
         slopes: vec![1.0, 2.0 / 3.0],
@@ -287,10 +267,10 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
 }
 
 /// The first decades, so that the curves stay distinct.
-fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> plots::History {
+fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> plots::History {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
     let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);
-    let series = |label: &str, of: &Bouncing| plots::Series { label: label.to_owned(), points: of.tip.clone() };
+    let series = |label: &str, of: &ShownImpact| plots::Series { label: label.to_owned(), points: of.tip.clone() };
     let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
     plots::History {
         y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
@@ -298,13 +278,4 @@ fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&Bouncing>) -> 
         guides: obstacle_lines(study.moving.obstacles),
         ..plots::History::default()
     }
-}
-
-fn contractions(all: &[Compliance<'_>]) -> String {
-    let series = |label: &str, converges: bool| {
-        let runs = all.iter().filter_map(|of| of.fixed_point).filter(|run| run.failed_at.is_none() == converges);
-        let points = runs.map(|run| (run.alpha, run.contraction.unwrap_or(f64::NAN))).collect();
-        plots::Series { label: label.into(), points }
-    };
-    contraction(&Contraction { title: None, series: vec![series("converges", true), series("fails", false)] })
 }

@@ -24,21 +24,12 @@
 mod judge;
 mod theory;
 
-use std::ops::ControlFlow;
-
-use convergence_study::judge::verdict::Judge;
 use thermobeam::contraction::contact_contraction;
-use thermobeam::error::{StepError, StepFailure};
-use thermobeam::parameters::Obstacles;
-use thermobeam::simulation::Stepping;
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::error::StepError;
 
 use super::prelude::*;
 use super::steady::{at_resolution, listed_scene, settle};
-use crate::run::driver::Step;
-use crate::run::error::RunError;
 use crate::run::simulate::driver;
-use crate::scene::{Method, tables};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -75,7 +66,7 @@ pub struct RigidStudy {
 
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Task {
+pub struct RigidTask {
     /// Compliance of the obstacles.
     pub epsilon: f64,
     /// The computation.
@@ -97,67 +88,35 @@ pub enum RunOf {
     Impact,
 }
 
-/// What a case found.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Found {
-    /// Of [`RunOf::RigidLimit`] and [`RunOf::Bouncing`].
-    Bouncing(Bouncing),
-    /// Of [`RunOf::FixedPoint`].
-    FixedPoint(FixedPointRun),
-    /// Of [`RunOf::Rest`].
-    Rest(Rest),
-    /// Of [`RunOf::Impact`].
-    Impact(Impact),
-}
-
-/// A bouncing beam by Newton's method. A penetration is ε times the contact force, which keeps the digits that the
-/// difference u(1) - g loses.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bouncing {
-    /// Largest contact force, in absolute value.
-    pub force: f64,
-    /// Largest penetration.
-    pub penetration: f64,
-    /// Iterations per step.
-    pub mean_iterations: f64,
-    /// Iterations of the step that took most.
+/// What a run shows; a number that its computation does not have is `None`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ShownImpact {
+    /// Contact force, without its sign: the largest, that at rest, or the peak of the impact.
+    pub force: Option<f64>,
+    /// ε times the force, which keeps the digits that the difference u(1) - g loses.
+    pub penetration: Option<f64>,
+    /// Velocity of the free end at t = 0, before an impact.
+    pub velocity: Option<f64>,
+    /// Iterations per step done.
+    pub mean_iterations: Option<f64>,
+    /// Iterations of the step that took most, by Newton's method.
     pub most_iterations: usize,
-    /// (t, u(1, t)) of every level.
+    /// (t, u(1, t)) of every level, by Newton's method.
     pub tip: Vec<(f64, f64)>,
-}
-
-/// The bouncing beam by the fixed point, up to the step that fails.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FixedPointRun {
-    /// Predicted contraction factor in contact.
-    pub alpha: f64,
+    /// Predicted contraction factor of the fixed point in contact.
+    pub alpha: Option<f64>,
     /// Largest factor measured in contact, or that of the last increments of the step that fails; `None` where no step was
     /// in contact, and where the iterates overflowed.
     pub contraction: Option<f64>,
-    /// Iterations per step done.
-    pub mean_iterations: f64,
-    /// Time of the step that fails, if one does.
+    /// Time of the step at which the fixed point fails, if it does.
     pub failed_at: Option<f64>,
 }
 
-/// A beam at rest on an obstacle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rest {
-    /// Contact force, in absolute value.
-    pub force: f64,
-    /// Penetration, ε times the force.
-    pub penetration: f64,
-}
-
-/// The first impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact {
-    /// Velocity of the free end at t = 0.
-    pub velocity: f64,
-    /// Peak of the contact force.
-    pub force: f64,
-    /// Peak of the penetration, ε times the force.
-    pub penetration: f64,
+impl ShownImpact {
+    /// A contact force, and what else is known of the run.
+    fn of_force(force: f64, epsilon: f64, others: Self) -> Self {
+        Self { force: Some(force), penetration: Some(epsilon * force), ..others }
+    }
 }
 
 impl FromFile for RigidStudy {
@@ -221,15 +180,15 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
 }
 
 impl Kind for RigidStudy {
-    type Data = Task;
-    type Found = Found;
+    type Data = RigidTask;
+    type Found = ShownImpact;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
     /// The rigid limit, then each compliance in four scenes.
-    fn cases(&self) -> Vec<Case<Task>> {
+    fn cases(&self) -> Vec<Case<RigidTask>> {
         let case = |run: RunOf, epsilon: f64| {
             let (name, scene, steps) = match run {
                 RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", &self.moving, self.moving.steps() as f64),
@@ -238,42 +197,41 @@ impl Kind for RigidStudy {
                 RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
             };
             let cost = steps * scene.mesh.elements() as f64;
-            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: Task { epsilon, run } }
+            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: RigidTask { epsilon, run } }
         };
         let runs = [RunOf::Bouncing, RunOf::FixedPoint, RunOf::Rest, RunOf::Impact];
         let all = runs.iter().flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
         std::iter::once(case(RunOf::RigidLimit, self.limit)).chain(all).collect()
     }
 
-    fn run(&self, &Task { epsilon, run }: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, &RigidTask { epsilon, run }: &RigidTask) -> Result<ShownImpact, CaseFailure> {
         let with_compliance = |scene: &Scene| {
             let obstacles = scene.obstacles.map(|obstacles| Obstacles { epsilon, ..obstacles });
             Scene { obstacles, ..scene.clone() }
         };
-        Ok(match run {
-            RunOf::RigidLimit | RunOf::Bouncing => Found::Bouncing(bouncing(&with_compliance(&self.moving), epsilon)?),
-            RunOf::FixedPoint => Found::FixedPoint(fixed_point(&with_compliance(&self.moving), self.max_iterations)?),
+        match run {
+            RunOf::RigidLimit | RunOf::Bouncing => bouncing(&with_compliance(&self.moving), epsilon),
+            RunOf::FixedPoint => fixed_point(&with_compliance(&self.moving), self.max_iterations),
             RunOf::Rest => {
                 let rest = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
-                let force = rest.level.contact_force.abs();
-                Found::Rest(Rest { force, penetration: epsilon * force })
+                Ok(ShownImpact::of_force(rest.level.contact_force.abs(), epsilon, ShownImpact::default()))
             }
             RunOf::Impact => {
                 let scene = with_compliance(&self.impact);
                 let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(scene.beam.zeta);
                 // The peak is at 1.65 t*.
                 let method = scene.method.with_dt(time / self.steps as f64);
-                Found::Impact(impact(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)?)
+                impact(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)
             }
-        })
+        }
     }
 
-    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<RigidTask, ShownImpact>]) -> Outcome {
         judge::judge(self, ran)
     }
 }
 
-fn bouncing(scene: &Scene, epsilon: f64) -> Result<Bouncing, CaseFailure> {
+fn bouncing(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
     let mut driver = driver(scene)?;
     let end = scene.mesh.elements();
     let mut tip = vec![(0.0, driver.level().u[end])];
@@ -285,11 +243,16 @@ fn bouncing(scene: &Scene, epsilon: f64) -> Result<Bouncing, CaseFailure> {
         tip.push((simulation.t(), new.u[end]));
         ControlFlow::Continue(())
     })?;
-    let mean_iterations = iterations as f64 / scene.steps() as f64;
-    Ok(Bouncing { force, penetration: epsilon * force, mean_iterations, most_iterations, tip })
+    let mean_iterations = Some(iterations as f64 / scene.steps() as f64);
+    Ok(ShownImpact::of_force(
+        force,
+        epsilon,
+        ShownImpact { mean_iterations, most_iterations, tip, ..ShownImpact::default() },
+    ))
 }
 
-fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<FixedPointRun, CaseFailure> {
+/// The fixed point up to its last step or the one that fails.
+fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, CaseFailure> {
     let stepping = scene.one_step()?;
     let settings = Settings { solver: Solver::FixedPoint, max_iterations, ..stepping.settings };
     let method = Method::OneStep(Stepping { settings, ..stepping });
@@ -312,8 +275,14 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<FixedPointRun, Ca
         }
         Err(other) => return Err(other.into()),
     };
-    let mean_iterations = iterations as f64 / driver.simulation().step().max(1) as f64;
-    Ok(FixedPointRun { alpha: alpha(scene, &stepping), contraction, mean_iterations, failed_at })
+    let mean_iterations = Some(iterations as f64 / driver.simulation().step().max(1) as f64);
+    Ok(ShownImpact {
+        alpha: Some(alpha(scene, &stepping)),
+        contraction,
+        mean_iterations,
+        failed_at,
+        ..ShownImpact::default()
+    })
 }
 
 /// The factor for the mean axial force β of a beam that is hardly bent; infinite where the operator is not definite.
@@ -334,13 +303,13 @@ fn contraction_of(error: &StepError) -> Option<f64> {
     }
 }
 
-fn impact(scene: &Scene, epsilon: f64) -> Result<Impact, CaseFailure> {
+fn impact(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
     let mut driver = driver(scene)?;
-    let velocity = driver.level().v[scene.mesh.elements()];
+    let velocity = Some(driver.level().v[scene.mesh.elements()]);
     let mut force = 0.0;
     driver.run::<()>(scene.steps(), |Step { new, .. }| {
         force = max_or_nan(force, new.contact_force);
         ControlFlow::Continue(())
     })?;
-    Ok(Impact { velocity, force, penetration: epsilon * force })
+    Ok(ShownImpact::of_force(force, epsilon, ShownImpact { velocity, ..ShownImpact::default() }))
 }

@@ -2,13 +2,13 @@
 
 use convergence_study::judge::richardson;
 use convergence_study::study::LevelErrors;
-use convergence_study::study::levels::{Rates, rate_table, summary};
+use convergence_study::study::levels::{Rates, rate_table};
 
-use super::{Observable, Run, Sample, SelfConvergence, Traced};
+use super::observable::last;
+use super::{ComparedRun, Observable, SelfConvergence, Traced};
 use crate::figures::obstacle_lines;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
-use crate::run::rerun::resampled;
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;
@@ -19,7 +19,7 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-type Found = Ran<Run, Traced>;
+type Results = [Ran<ComparedRun, Traced>];
 
 /// Which run a level is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ enum Against {
     Reference,
 }
 
-pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
+pub(super) fn judge(study: &SelfConvergence, ran: &Results) -> Outcome {
     let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
     for against in [Against::Successive, Against::Reference] {
         let claimed = differences(study, ran, against, |claim| claim.is_some());
@@ -59,7 +59,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Found]) -> Outcome {
 }
 
 /// All differences to the reference; of those of which nothing is claimed, the legend says so.
-fn to_reference(study: &SelfConvergence, ran: &[Found], claimed: &Rates, shown: &Rates) -> Figure {
+fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: &Rates) -> Figure {
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();
     rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
@@ -76,11 +76,11 @@ fn to_reference(study: &SelfConvergence, ran: &[Found], claimed: &Rates, shown: 
 }
 
 /// The tip's displacement over time, with the obstacles.
-fn tip(study: &SelfConvergence, ran: &[Found]) -> Figure {
+fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
     let (reference, finest) = (study.levels.len(), study.levels.len() - 1);
     let name = |k: usize| match study.axis {
-        Axis::Time => format!("{} steps", study.levels[k].steps),
-        Axis::Space | Axis::Both => format!("n = {}", study.levels[k].elements),
+        Axis::Time => format!("{} steps", study.levels[k].1),
+        Axis::Space | Axis::Both => format!("n = {}", study.levels[k].0),
     };
     let curve = |(k, label): (usize, String)| plots::Series {
         label,
@@ -115,7 +115,7 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
 /// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.
 fn differences(
     study: &SelfConvergence,
-    ran: &[Found],
+    ran: &Results,
     against: Against,
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
@@ -136,7 +136,7 @@ fn differences(
             look: observable.look(),
         })
     };
-    let refinement = |k: usize| Refine::level(study.levels[k].elements, study.levels[k].steps, study.step(k));
+    let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
     Levels {
         axis: study.axis,
         refinements: (0..count).map(refinement).collect(),
@@ -145,34 +145,30 @@ fn differences(
 }
 
 /// The result of a run: the levels, then the references.
-fn found(ran: &[Found], run: usize) -> Option<&Traced> {
+fn found(ran: &Results, run: usize) -> Option<&Traced> {
     ran.get(run)?.ok()
 }
 
 fn not_finite(found: &Traced) -> Vec<String> {
-    let finite = |sample: &Sample| {
-        let level = &sample.level;
-        let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
-        sample.energy.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
-    };
     let range = found.tip_range.iter().any(|tip| !tip.is_finite()).then(|| "the range of u(1)".to_owned());
-    let broken = found.samples.iter().position(|sample| !finite(sample));
+    let mut samples = found.levels.iter().zip(&found.energies);
+    let broken = samples.position(|(level, energy)| !(energy.is_finite() && is_finite(level)));
     range.into_iter().chain(broken.map(|k| format!("sample {}", k + 1))).collect()
 }
 
-/// A number of a run at sample `k` from 1; NaN where there is none.
-fn at_sample(ran: &[Found], run: usize, k: usize, number: impl Fn(&Sample) -> f64) -> f64 {
-    found(ran, run).and_then(|found| found.samples.get(k - 1)).map_or(f64::NAN, number)
+/// u(1) of a run at sample `k` from 1; NaN where there is none.
+fn tip_at(ran: &Results, run: usize, k: usize) -> f64 {
+    found(ran, run).and_then(|found| found.levels.get(k - 1)).map_or(f64::NAN, |level| last(&level.u))
 }
 
 /// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
-fn values(study: &SelfConvergence, ran: &[Found]) -> Table {
+fn values(study: &SelfConvergence, ran: &Results) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
     let ratio = study.step(before) / study.step(finest);
     let order = Observable::Tip.order(study.axis, study.order_in_time());
     let row = |k: usize| {
-        let value = |run: usize| at_sample(ran, run, k, Sample::tip);
+        let value = |run: usize| tip_at(ran, run, k);
         let correction = richardson::correction(value(before), value(finest), ratio, order);
         vec![
             format!("{:.4}", study.t_end * k as f64 / study.samples as f64),
@@ -187,7 +183,7 @@ fn values(study: &SelfConvergence, ran: &[Found]) -> Table {
     Table::new("Tip displacement: finest level, extrapolated, reference", head, (1..=study.samples).map(row))
 }
 
-fn contact(study: &SelfConvergence, ran: &[Found]) -> Option<Check> {
+fn contact(study: &SelfConvergence, ran: &Results) -> Option<Check> {
     let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
     let [low, high] = found(ran, study.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
     let evidence =
@@ -196,7 +192,7 @@ fn contact(study: &SelfConvergence, ran: &[Found]) -> Option<Check> {
 }
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
-fn reference_known(study: &SelfConvergence, ran: &[Found]) -> Check {
+fn reference_known(study: &SelfConvergence, ran: &Results) -> Check {
     let reference = study.levels.len();
     let part = |observable: Observable| {
         let (finest, one, other) = (found(ran, reference - 1)?, found(ran, reference)?, found(ran, reference + 1)?);
@@ -213,12 +209,13 @@ fn reference_known(study: &SelfConvergence, ran: &[Found]) -> Check {
 }
 
 /// Values of the finest level.
-fn values_guarded(study: &SelfConvergence, ran: &[Found]) -> [Quantity; 3] {
-    let (finest, last) = (study.levels.len() - 1, study.samples);
+fn values_guarded(study: &SelfConvergence, ran: &Results) -> [Quantity; 3] {
+    let (finest, samples) = (study.levels.len() - 1, study.samples);
+    let energy = found(ran, finest).and_then(|found| found.energies.get(samples - 1).copied());
     let tip_max = found(ran, finest).map_or(f64::NAN, |found| found.tip_range[1]);
     [
-        (format!("tip {last}"), at_sample(ran, finest, last, Sample::tip)),
-        (format!("energy {last}"), at_sample(ran, finest, last, |sample| sample.energy)),
+        (format!("tip {samples}"), tip_at(ran, finest, samples)),
+        (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
         ("tip max".to_owned(), tip_max),
     ]
     .map(|(name, value)| Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE))
@@ -229,9 +226,9 @@ impl SelfConvergence {
     fn step(&self, level: usize) -> f64 {
         match self.axis {
             Axis::Space | Axis::Both => {
-                resampled(&self.scene.mesh, self.levels[level].elements).map_or(f64::NAN, |mesh| mesh.size())
+                resampled(&self.scene.mesh, self.levels[level].0).map_or(f64::NAN, |mesh| mesh.size())
             }
-            Axis::Time => self.t_end / self.levels[level].steps as f64,
+            Axis::Time => self.t_end / self.levels[level].1 as f64,
         }
     }
 

@@ -44,16 +44,11 @@
 mod judge;
 mod observable;
 
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::scheme::{SCHEMES, Scheme};
-use thermobeam::simulation::Stepping;
-use thermobeam::solve::Level;
-
 use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
-use crate::error::reference::{Reference, fine_mesh};
-use crate::run::rerun::{at, resampled, traced};
-use crate::scene::{Method, tables};
+pub use crate::error::reference::Traced;
+use crate::error::reference::fine_mesh;
+use crate::run::rerun::{at, traced};
 pub use observable::Observable;
 
 /// The row of the table of kinds.
@@ -77,8 +72,8 @@ pub struct SelfConvergence {
     scene: Scene,
     axis: Axis,
     scheme: Scheme,
-    /// Coarse to fine; at least two.
-    levels: Vec<Resolution>,
+    /// Elements and steps, coarse to fine; at least two.
+    levels: Vec<(usize, usize)>,
     /// dt = c h^power; 1 where time alone is refined.
     power: f64,
     /// The first is what levels are compared with.
@@ -92,44 +87,13 @@ pub struct SelfConvergence {
     claims: Vec<(Observable, Claim)>,
 }
 
-/// A level of refinement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Resolution {
-    /// Elements.
-    pub elements: usize,
-    /// Time steps.
-    pub steps: usize,
-}
-
 /// A run of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Run {
-    /// By the scheme of the study.
-    Level(Resolution),
+pub enum ComparedRun {
+    /// By the scheme of the study, with so many elements and steps.
+    Level(usize, usize),
     /// The reference of this number.
     Reference(usize),
-}
-
-/// A run at a time of comparison.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
-    /// The solution.
-    pub level: Level,
-    /// Its energy (3.9).
-    pub energy: f64,
-}
-
-/// What is kept of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Traced {
-    /// Its mesh, or the one that a reference is kept on.
-    pub mesh: Mesh,
-    /// Smallest and largest u(1) over all time levels.
-    pub tip_range: [f64; 2],
-    /// (t, u(1, t)), thinned to what a figure shows.
-    pub tip: Vec<(f64, f64)>,
-    /// At equidistant times, t = 0 left out.
-    pub samples: Vec<Sample>,
 }
 
 impl FromFile for SelfConvergence {
@@ -148,7 +112,7 @@ impl FromFile for SelfConvergence {
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
         let schemes = SCHEMES.map(|scheme| (scheme.name, scheme));
         let observables: Vec<_> = Observable::of(axis).map(|observable| (observable.name(), observable)).collect();
-        let of_mesh = (axis == Axis::Time).then_some(levels[0].elements);
+        let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
             header,
             axis,
@@ -175,7 +139,7 @@ fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
 }
 
 /// The levels, coarse to fine, and the power of h that dt is proportional to where both are refined.
-fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<Resolution>, f64), InputError> {
+fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usize, usize)>, f64), InputError> {
     let steps = nested_list(section, "steps")?;
     let (elements, power) = if axis == Axis::Time {
         let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
@@ -188,8 +152,7 @@ fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<Reso
         let found = format!("{} steps", steps[0]);
         return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
     }
-    let level = |(elements, steps)| Resolution { elements, steps };
-    Ok((elements.into_iter().zip(steps).map(level).collect(), power))
+    Ok((elements.into_iter().zip(steps).collect(), power))
 }
 
 /// A list of levels, each of which the one before divides.
@@ -220,7 +183,7 @@ fn power(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<f
 }
 
 impl Kind for SelfConvergence {
-    type Data = Run;
+    type Data = ComparedRun;
     type Found = Traced;
 
     fn header(&self) -> &Header {
@@ -228,47 +191,43 @@ impl Kind for SelfConvergence {
     }
 
     /// Every level, then the two references.
-    fn cases(&self) -> Vec<Case<Run>> {
-        let level = |&level: &Resolution| Case {
-            label: Refine::label(level.elements, level.steps),
-            cost: level.elements as f64 * level.steps as f64,
-            data: Run::Level(level),
+    fn cases(&self) -> Vec<Case<ComparedRun>> {
+        let level = |&(elements, steps): &(usize, usize)| Case {
+            label: Refine::label(elements, steps),
+            cost: elements as f64 * steps as f64,
+            data: ComparedRun::Level(elements, steps),
         };
         let reference = |(k, how): (usize, &Discretisation)| Case {
             label: format!("reference, {}", how.label()),
             cost: how.cost(self.t_end),
-            data: Run::Reference(k),
+            data: ComparedRun::Reference(k),
         };
         self.levels.iter().map(level).chain(self.references.iter().enumerate().map(reference)).collect()
     }
 
-    fn run(&self, run: &Run) -> Result<Traced, CaseFailure> {
+    fn run(&self, run: &ComparedRun) -> Result<Traced, CaseFailure> {
         match *run {
-            Run::Level(level) => self.by_the_scheme(level),
-            Run::Reference(k) => self.reference(&self.references[k]),
+            ComparedRun::Level(elements, steps) => self.by_the_scheme(elements, steps),
+            ComparedRun::Reference(k) => {
+                let scene = self.references[k].of(&self.scene, self.t_end)?;
+                Traced::compute(&scene, self.common_mesh()?, self.samples, CURVE_POINTS)
+            }
         }
     }
 
-    fn judge(&self, ran: &[Ran<Run, Traced>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<ComparedRun, Traced>]) -> Outcome {
         judge::judge(self, ran)
     }
 }
 
 impl SelfConvergence {
-    fn reference(&self, how: &Discretisation) -> Result<Traced, CaseFailure> {
-        let found = Reference::compute(&self.scene, how, self.common_mesh()?, self.t_end, self.samples, CURVE_POINTS)?;
-        let sample = |(level, energy)| Sample { level, energy };
-        let samples = found.levels.into_iter().zip(found.energies).map(sample).collect();
-        Ok(Traced { mesh: found.mesh, tip_range: found.tip_range, tip: found.tip, samples })
-    }
-
     /// The mesh on which levels are compared with a reference.
     fn common_mesh(&self) -> Result<Mesh, MeshError> {
-        let finest = self.levels.last().map_or(0, |level| level.elements);
+        let finest = self.levels.last().map_or(0, |(elements, _)| *elements);
         if self.axis == Axis::Time { resampled(&self.scene.mesh, finest) } else { fine_mesh(&self.scene, finest) }
     }
 
-    fn by_the_scheme(&self, Resolution { elements, steps }: Resolution) -> Result<Traced, CaseFailure> {
+    fn by_the_scheme(&self, elements: usize, steps: usize) -> Result<Traced, CaseFailure> {
         let mesh = resampled(&self.scene.mesh, elements)?;
         let scene = at(&self.scene, mesh.clone(), steps, self.t_end);
         let method = Method::OneStep(Stepping { scheme: self.scheme, ..scene.one_step()? });
@@ -276,13 +235,14 @@ impl SelfConvergence {
         // As many points as fit a figure, and all the times that are compared.
         let (per_sample, most) = (steps / self.samples, (CURVE_POINTS / self.samples).max(1));
         let stride = (1..=most.min(per_sample)).rev().find(|&divisor| per_sample.is_multiple_of(divisor)).unwrap_or(1);
-        let (mut tip, mut samples) = (vec![], vec![]);
+        let (mut tip, mut levels, mut energies) = (vec![], vec![], vec![]);
         let trace = traced(&scene, self.samples * stride, |simulation, level| {
             tip.push((simulation.t(), level.u[elements]));
             if tip.len() % stride == 0 {
-                samples.push(Sample { level: level.clone(), energy: simulation.energy(level).total() });
+                levels.push(level.clone());
+                energies.push(simulation.energy(level).total());
             }
         })?;
-        Ok(Traced { mesh, tip_range: trace.tip, tip, samples })
+        Ok(Traced { mesh, levels, energies, tip, tip_range: trace.tip })
     }
 }

@@ -1,11 +1,9 @@
 //! What is compared between two runs of different resolution.
 
-use thermobeam::solve::Level;
-
-use super::{Sample, Traced};
-use crate::error::evaluator::{distance, prolong, restrict};
+use super::Traced;
+use crate::error::curve;
+use crate::error::levels::{distance, prolong, restrict};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Norm;
 
 /// A difference of two runs; each the maximum over the times compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,32 +72,25 @@ impl Observable {
     /// compared.
     pub(super) fn difference(self, coarse: &Traced, fine: &Traced) -> f64 {
         let stride = fine.mesh.elements() / coarse.mesh.elements();
-        if coarse.samples.len() != fine.samples.len() || stride * coarse.mesh.elements() != fine.mesh.elements() {
+        if coarse.levels.len() != fine.levels.len() || stride * coarse.mesh.elements() != fine.mesh.elements() {
             return f64::NAN;
         }
-        let largest = |of: &dyn Fn(&Sample, &Sample) -> f64| {
-            coarse.samples.iter().zip(&fine.samples).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
+        let largest = |of: &dyn Fn(&Level, &Level) -> f64| {
+            coarse.levels.iter().zip(&fine.levels).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
         };
         let [few, many] = [coarse, fine].map(|run| run.mesh.lengths().collect::<Vec<f64>>());
         let extended = |level: &Level| prolong(level, coarse.mesh.nodes(), fine.mesh.nodes());
         match self {
             Observable::TipMax => (coarse.tip_range[1] - fine.tip_range[1]).abs(),
-            Observable::Tip => largest(&|a, b| (a.tip() - b.tip()).abs()),
-            Observable::Rotation => largest(&|a, b| (last(&a.level.phi) - last(&b.level.phi)).abs()),
-            Observable::Energy => largest(&|a, b| (a.energy - b.energy).abs()),
-            Observable::Theorem34 => largest(&|a, b| distance(&many, &extended(&a.level), &b.level)),
-            Observable::Superclose => largest(&|a, b| distance(&few, &a.level, &restrict(&b.level, stride))),
+            Observable::Tip => largest(&|a, b| (last(&a.u) - last(&b.u)).abs()),
+            Observable::Rotation => largest(&|a, b| (last(&a.phi) - last(&b.phi)).abs()),
+            Observable::Energy => curve::distance(&coarse.energies, &fine.energies),
+            Observable::Theorem34 => largest(&|a, b| distance(&many, &extended(a), b)),
+            Observable::Superclose => largest(&|a, b| distance(&few, a, &restrict(b, stride))),
         }
     }
 }
 
-impl Sample {
-    /// u(1).
-    pub(super) fn tip(&self) -> f64 {
-        last(&self.level.u)
-    }
-}
-
-fn last(values: &[f64]) -> f64 {
+pub(super) fn last(values: &[f64]) -> f64 {
     values.last().copied().unwrap_or(f64::NAN)
 }

@@ -33,17 +33,11 @@ mod map;
 mod parts;
 
 use thermobeam::contraction::{contact_contraction, coupling_contraction};
-use thermobeam::error::StepFailure;
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Settings, Solver};
 
 use super::prelude::*;
-use crate::run::driver::Driver;
-use crate::run::error::RunError;
 
-pub use map::{Boundary, Crossing, NewtonSteps, Point, Row};
-pub use parts::{Agreement, Contraction};
+pub use map::{Boundary, Crossing, NewtonSteps, Point};
+pub use parts::{Agreement, MeasuredFactor};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -70,16 +64,9 @@ pub struct Solvers {
 
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Task {
-    /// One step by the fixed point in contact.
-    Contraction {
-        /// Time step.
-        dt: f64,
-        /// Compliance of the obstacles.
-        epsilon: f64,
-        /// Viscosity.
-        zeta: f64,
-    },
+pub enum SolverTask {
+    /// One step by the fixed point in contact, with this time step, compliance of the obstacles and viscosity.
+    Contraction([f64; 3]),
     /// The scene by both solvers, the fixed point to this tolerance η*.
     Comparison(f64),
     /// A row of the map: all time steps at this value of the second parameter.
@@ -88,15 +75,15 @@ pub enum Task {
     Boundary(f64),
 }
 
-/// What a case found, variant by variant as in [`Task`].
+/// What a case found, variant by variant as in [`SolverTask`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// Predicted and measured factor.
-    Contraction(Contraction),
+    Contraction(MeasuredFactor),
     /// Difference between the two solvers.
     Comparison(Agreement),
-    /// A row of the map.
-    Row(Row),
+    /// A row of the map, one point for each time step, ascending.
+    Row(Vec<Point>),
     /// The boundary on a line.
     Boundary(Boundary),
 }
@@ -110,7 +97,7 @@ impl Found {
                 ("the distance", found.distance),
                 ("the mean number of iterations", found.mean_iterations),
             ]),
-            Found::Row(row) => row.points.iter().flat_map(Point::not_finite).collect(),
+            Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),
         }
     }
@@ -144,41 +131,37 @@ fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
 }
 
 impl Kind for Solvers {
-    type Data = Task;
+    type Data = SolverTask;
     type Found = Found;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<Task>> {
+    fn cases(&self) -> Vec<Case<SolverTask>> {
         let contraction = self.contraction.iter().flat_map(parts::Grid::cases);
         let comparison = self.comparison.iter().flat_map(parts::Comparison::cases);
         contraction.chain(comparison).chain(self.map.iter().flat_map(map::Map::cases)).collect()
     }
 
-    fn run(&self, task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, task: &SolverTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
-            Task::Contraction { dt, epsilon, zeta } => {
-                Found::Contraction(part(&self.contraction)?.measure([dt, epsilon, zeta])?)
-            }
-            Task::Comparison(tolerance) => Found::Comparison(part(&self.comparison)?.run(tolerance)?),
-            Task::Row(value) => Found::Row(part(&self.map)?.row(value)?),
-            Task::Boundary(value) => Found::Boundary(part(&self.map)?.boundary(value)?),
+            SolverTask::Contraction(at) => Found::Contraction(part(&self.contraction)?.measure(at)?),
+            SolverTask::Comparison(tolerance) => Found::Comparison(part(&self.comparison)?.run(tolerance)?),
+            SolverTask::Row(value) => Found::Row(part(&self.map)?.row(value)?),
+            SolverTask::Boundary(value) => Found::Boundary(part(&self.map)?.boundary(value)?),
         })
     }
 
-    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
         // A failed case is left out, and fails the check of completion.
         let (mut factors, mut agreements, mut rows, mut lines) = (vec![], vec![], vec![], vec![]);
         for (task, found) in ran.iter().filter_map(|ran| Some((ran.case.data, ran.ok()?))) {
             match (task, found) {
-                (Task::Contraction { dt, epsilon, zeta }, Found::Contraction(of)) => {
-                    factors.push(([dt, epsilon, zeta], of));
-                }
-                (Task::Comparison(tolerance), Found::Comparison(of)) => agreements.push((tolerance, of)),
-                (Task::Row(value), Found::Row(row)) => rows.push((value, row)),
-                (Task::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
+                (SolverTask::Contraction(at), Found::Contraction(of)) => factors.push((at, of)),
+                (SolverTask::Comparison(tolerance), Found::Comparison(of)) => agreements.push((tolerance, of)),
+                (SolverTask::Row(value), Found::Row(row)) => rows.push((value, &row[..])),
+                (SolverTask::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
                 _ => {}
             }
         }

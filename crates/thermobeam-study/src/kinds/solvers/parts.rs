@@ -1,18 +1,10 @@
 //! Two parts of a study: the contraction factor in contact, measured against α; a scene by the fixed point and by Newton's
 //! method, their difference against the fixed point's tolerance.
 
-use thermobeam::mesh::Mesh;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::simulation::{Initial, Problem, Stepping};
-use thermobeam::solve::{Settings, Solver};
-
-use super::{FixedPointStep, Task, factors, positive_numbers};
-use crate::error::evaluator;
+use super::{FixedPointStep, SolverTask, factors, positive_numbers};
+use crate::error::levels;
 use crate::figures;
 use crate::kinds::prelude::*;
-use crate::run::driver::Driver;
-use crate::run::simulate;
-use crate::scene::tables;
 
 /// Iterations after which an iteration with a factor near 1 is given up.
 const ITERATIONS: usize = 1000;
@@ -36,7 +28,7 @@ pub(super) struct Grid {
 
 /// Predicted and measured factor of one step in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contraction {
+pub struct MeasuredFactor {
     /// The factor α of the contact.
     pub alpha: f64,
     /// The factor γ of the coupling between rotation and displacement.
@@ -59,22 +51,16 @@ impl Grid {
         })
     }
 
-    pub(super) fn cases(&self) -> Vec<Case<Task>> {
+    pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let cost = self.elements as f64 * ITERATIONS as f64;
-        let mut cases = vec![];
-        for &zeta in &self.zeta {
-            for &epsilon in &self.epsilon {
-                for &dt in &self.dt {
-                    let data = Task::Contraction { dt, epsilon, zeta };
-                    cases.push(Case { label: name([dt, epsilon, zeta]), cost, data });
-                }
-            }
-        }
-        cases
+        let case = |at: [f64; 3]| Case { label: name(at), cost, data: SolverTask::Contraction(at) };
+        let of = |zeta: f64, epsilon: f64| self.dt.iter().map(move |&dt| case([dt, epsilon, zeta]));
+        let of_zeta = |&zeta: &f64| self.epsilon.iter().flat_map(move |&epsilon| of(zeta, epsilon));
+        self.zeta.iter().flat_map(of_zeta).collect()
     }
 
     /// One step of a beam at rest, pressed into the upper obstacle.
-    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<Contraction, CaseFailure> {
+    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<MeasuredFactor, CaseFailure> {
         let mesh = Mesh::uniform(self.elements)?;
         let mut initial = Initial::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
@@ -82,7 +68,7 @@ impl Grid {
         let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
         let problem = Problem { beam, obstacles, mesh, initial };
         let [alpha, gamma] = factors(&problem, dt, beam.axial_force(PRESSED * PRESSED));
-        Ok(Contraction { alpha, gamma, step: FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)? })
+        Ok(MeasuredFactor { alpha, gamma, step: FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)? })
     }
 }
 
@@ -91,10 +77,10 @@ fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
 }
 
 /// * `found`: the results, each with its (dt, ε, ζ).
-pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &Contraction)]) -> Outcome {
+pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &MeasuredFactor)]) -> Outcome {
     let (mut checks, mut rows, mut quantities) = (vec![], vec![], vec![]);
     let mut worst = 0.0;
-    for &(at, &Contraction { alpha, gamma, step }) in found {
+    for &(at, &MeasuredFactor { alpha, gamma, step }) in found {
         let name = name(at);
         let factor = step.contraction.unwrap_or(f64::NAN);
         let deviation = (factor / alpha - 1.0).abs();
@@ -128,7 +114,7 @@ pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &Contraction)]) ->
     }
 }
 
-fn contraction_figure(id: &str, found: &[([f64; 3], &Contraction)]) -> Figure {
+fn contraction_figure(id: &str, found: &[([f64; 3], &MeasuredFactor)]) -> Figure {
     let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
     zetas.dedup();
     let series = zetas.iter().map(|zeta| {
@@ -183,10 +169,10 @@ impl Comparison {
         })
     }
 
-    pub(super) fn cases(&self) -> Vec<Case<Task>> {
+    pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         // Some four iterations of 60 ns a step and element, against 25 ns for the runner's unit.
         let cost = (self.elements * self.steps) as f64 * 10.0;
-        let case = |&eta: &f64| Case { label: format!("tolerance {eta:e}"), cost, data: Task::Comparison(eta) };
+        let case = |&eta: &f64| Case { label: format!("tolerance {eta:e}"), cost, data: SolverTask::Comparison(eta) };
         self.tolerances.iter().map(case).collect()
     }
 
@@ -207,7 +193,7 @@ impl Comparison {
             let report = fixed.advance(|_, _| ())?;
             let t = fixed.simulation().t();
             let level = fixed.level();
-            distance = max_or_nan(distance, evaluator::distance(&lengths, level, newton.level()));
+            distance = max_or_nan(distance, levels::distance(&lengths, level, newton.level()));
             total += report.iterations;
             most_iterations = most_iterations.max(report.iterations);
             iterations.push((t, report.iterations as f64));

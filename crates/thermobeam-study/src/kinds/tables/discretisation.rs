@@ -4,8 +4,6 @@ use convergence_study::input::POSITIVE;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
 use crate::kinds::prelude::*;
-use crate::run::rerun::resampled;
-use crate::scene::{Method, tables};
 
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];

@@ -1,8 +1,5 @@
 //! The table `[exact]`: sums of products of a function of x and a function of t.
 
-use thermobeam::parameters::Beam;
-
-use crate::exact::solution::{Manufactured, Product};
 use crate::expression::Variable;
 use crate::kinds::prelude::*;
 use crate::scene::functions::FunctionField;

@@ -5,13 +5,8 @@ mod discretisation;
 mod manufactured;
 mod refine;
 
-use thermobeam::parameters::{Beam, Obstacles};
-
 use super::prelude::*;
-use crate::scene::tables;
 
-pub use crate::exact::norm::{Norm, Norms};
-pub use crate::exact::solution::{Manufactured, Product};
 pub use discretisation::Discretisation;
 pub(crate) use discretisation::{DISCRETISATION_KEYS, discretisations};
 pub(crate) use manufactured::manufactured;

@@ -1,15 +1,10 @@
 //! The table `[refine]`: which meshes and time steps a study runs through.
 
-use convergence_study::judge::random::SplitMix;
 use convergence_study::study::until_decided;
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::scheme::Scheme;
-use thermobeam::solve::Settings;
 
-use crate::expression::{Expression, Variable};
+use crate::expression::Variable;
 use crate::kinds::prelude::*;
 use crate::scene::functions::FunctionField;
-use crate::scene::tables;
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]

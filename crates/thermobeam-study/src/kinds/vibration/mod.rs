@@ -8,24 +8,15 @@
 mod mesh_modes;
 mod motion;
 
-use std::ops::ControlFlow;
-
-use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Beam;
-use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::Level;
 use thermobeam::vibration::Mode;
 
 use super::prelude::*;
-use super::tables::{Norm, Norms, Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
+use super::tables::{Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
 use crate::error::design;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::Nodal;
-use crate::run::driver::Driver;
-use crate::run::error::RunError;
-use crate::scene::tables;
-use motion::{Modes, Motion};
+use motion::Modes;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -51,28 +42,12 @@ pub struct Vibration {
     beam: Beam,
     /// The beam that the solver is given: another one in a negative control.
     solver: Beam,
-    modes: Vec<Vibrating>,
-    heat: Vec<Cooling>,
+    /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the mode at t = 0.
+    modes: Vec<(usize, [f64; 2])>,
+    /// k of each temperature sin kπx, and its amplitude at t = 0.
+    heat: Vec<(usize, f64)>,
     refine: Refine,
     expect: Vec<(Norm, Claim)>,
-}
-
-/// A vibration.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Vibrating {
-    /// From 0, the lowest frequency.
-    index: usize,
-    /// The mode's tip displacement and velocity at t = 0.
-    start: [f64; 2],
-}
-
-/// A temperature that decays.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Cooling {
-    /// k of sin kπx.
-    k: usize,
-    /// Its amplitude at t = 0.
-    amplitude: f64,
 }
 
 /// What a run has measured.
@@ -137,24 +112,24 @@ fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
     1..=if isolates(refine, Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
 }
 
-fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<Vibrating>, InputError> {
+fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["index", "amplitude", "velocity"])?;
         let index = section.count("index", indices(refine, 2 * refine.elements[0]))? - 1;
-        let amplitude = section.get("amplitude").map_or(Ok(0.0), |field| field.number())?;
-        let velocity = section.get("velocity").map_or(Ok(0.0), |field| field.number())?;
-        if amplitude == 0.0 && velocity == 0.0 {
+        let number = |key: &str| section.get(key).map_or(Ok(0.0), |field| field.number());
+        let start = [number("amplitude")?, number("velocity")?];
+        if start == [0.0, 0.0] {
             let allowed = "an amplitude or a velocity other than 0";
             return Err(section.refuse("amplitude", "a mode that does not move", allowed));
         }
-        Ok(Vibrating { index, start: [amplitude, velocity] })
+        Ok((index, start))
     };
     let allowed = "at least one table [[mode]] with index and amplitude or velocity";
     root.list("mode", allowed, read, |modes| !modes.is_empty())
 }
 
-fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<Cooling>, InputError> {
+fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputError> {
     if root.get("heat").is_none() {
         return Ok(vec![]);
     }
@@ -162,10 +137,8 @@ fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<Cooling>, InputError>
         let section = item.section()?;
         section.allow(&["index", "amplitude"])?;
         let allowed = "a finite number other than 0";
-        Ok(Cooling {
-            k: section.count("index", indices(refine, refine.elements[0].saturating_sub(1).max(1)))?,
-            amplitude: section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?,
-        })
+        let k = section.count("index", indices(refine, refine.elements[0].saturating_sub(1).max(1)))?;
+        Ok((k, section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?))
     };
     root.list("heat", "tables [[heat]] with index and amplitude", read, |_| true)
 }
@@ -201,10 +174,30 @@ impl Kind for Vibration {
         let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.solver.theta_a);
         let mut meter = ErrorMeter::new(&modes.exact, &mesh, of_mesh);
         meter.lift(&mesh, self.solver.theta_a);
-        let tips = nodal.u.iter().map(|values| values[elements]).collect();
+        let tip_of = |factors: &Factors| -> f64 {
+            nodal.u.iter().zip(&factors.u.value).map(|(values, factor)| values[elements] * factor).sum()
+        };
         let problem = Problem { beam: self.solver, obstacles: None, mesh: Mesh::clone(&mesh), initial };
-        let driver = Driver::new(problem, Stepping { scheme, settings, dt, loaded: false })?;
-        Ok(Comparison { meter, tips, factors, reference, closed }.follow(driver, steps)?)
+        let mut driver = Driver::new(problem, Stepping { scheme, settings, dt, loaded: false })?;
+        let zero = Level::new(elements + 1);
+        let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
+        let (mut exact_tip, mut tip) = (vec![(0.0, tip_of(&factors))], vec![(0.0, driver.level().u[elements])]);
+        driver.run(steps, |step| {
+            let n = step.simulation.step();
+            if let Some(closed) = &closed {
+                closed.at(n, &mut factors);
+                let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
+                deviation = max_or_nan(deviation, distance(step.new));
+                size = max_or_nan(size, distance(&zero));
+            }
+            reference.at(n, &mut factors);
+            errors = errors.max(&meter.measure(step.new, &factors));
+            let t = n as f64 * dt;
+            exact_tip.push((t, tip_of(&factors)));
+            tip.push((t, step.new.u[elements]));
+            ControlFlow::<()>::Continue(())
+        })?;
+        Ok(Vibrated { errors, closed_form: closed.map(|_| deviation / size), exact_tip, tip })
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
@@ -233,49 +226,6 @@ impl Kind for Vibration {
     }
 }
 
-/// The motion that the solver is held against.
-struct Comparison {
-    meter: ErrorMeter,
-    /// U(1) of each mode.
-    tips: Vec<f64>,
-    factors: Factors,
-    reference: Motion,
-    closed: Option<Motion>,
-}
-
-impl Comparison {
-    /// Runs the solver and keeps the largest error in each norm.
-    fn follow(mut self, mut driver: Driver, steps: usize) -> Result<Vibrated, RunError> {
-        let dt = driver.simulation().dt();
-        let start = driver.level();
-        let tip = start.u.len() - 1;
-        let zero = Level::new(start.u.len());
-        let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
-        let (mut exact_tip, mut tips) = (vec![(0.0, self.exact_tip())], vec![(0.0, start.u[tip])]);
-        driver.run(steps, |step| {
-            let n = step.simulation.step();
-            if let Some(closed) = &self.closed {
-                closed.at(n, &mut self.factors);
-                let mut distance = |level: &Level| self.meter.measure(level, &self.factors)[Norm::Theorem34];
-                deviation = max_or_nan(deviation, distance(step.new));
-                size = max_or_nan(size, distance(&zero));
-            }
-            self.reference.at(n, &mut self.factors);
-            errors = errors.max(&self.meter.measure(step.new, &self.factors));
-            let t = n as f64 * dt;
-            exact_tip.push((t, self.exact_tip()));
-            tips.push((t, step.new.u[tip]));
-            ControlFlow::<()>::Continue(())
-        })?;
-        Ok(Vibrated { errors, closed_form: self.closed.map(|_| deviation / size), exact_tip, tip: tips })
-    }
-
-    /// u(1) of the motion with the present factors.
-    fn exact_tip(&self) -> f64 {
-        self.tips.iter().zip(&self.factors.u.value).map(|(tip, factor)| tip * factor).sum()
-    }
-}
-
 /// In the design that isolates time the solver's result is known to the last digit.
 fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
     let deviation = |ran: &Ran<_, Vibrated>| ran.ok().and_then(|found| found.closed_form).unwrap_or(f64::NAN);
@@ -289,7 +239,7 @@ fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
 
 impl Vibration {
     fn modes_table(&self) -> Table {
-        let row = |&Vibrating { index, start }: &Vibrating| {
+        let row = |&(index, start): &(usize, [f64; 2])| {
             let omega = Mode::new(index).omega();
             let damping = 0.5 * self.beam.zeta * omega;
             vec![

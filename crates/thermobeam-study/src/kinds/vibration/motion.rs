@@ -22,15 +22,12 @@
 
 use std::f64::consts::PI;
 
-use thermobeam::mesh::Mesh;
-use thermobeam::scheme::Scheme;
 use thermobeam::vibration::Mode;
 
-use super::{Cooling, Vibrating, Vibration, mesh_modes};
+use super::{Vibration, mesh_modes};
 use crate::error::free_vibration::{self, PiecewiseLinear};
 use crate::exact::factors::Factors;
 use crate::exact::function::Factor;
-use crate::exact::solution::{Manufactured, Product};
 use crate::kinds::prelude::*;
 
 /// Position and velocity of a mode at each time level n = 0..N.
@@ -56,11 +53,11 @@ impl Modes {
     /// The exact modes.
     pub(super) fn of_beam(study: &Vibration) -> Result<Self, CaseFailure> {
         let mut modes = Self::none(study.beam.zeta);
-        for &Vibrating { index, start } in &study.modes {
+        for &(index, start) in &study.modes {
             free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
             modes.vibrations.push((Mode::new(index).omega().powi(2), start));
         }
-        for &Cooling { k, amplitude } in &study.heat {
+        for &(k, amplitude) in &study.heat {
             free_vibration::add_temperature(&mut modes.exact, k, amplitude);
             modes.temperatures.push(((k as f64 * PI).powi(2), amplitude));
         }
@@ -73,7 +70,7 @@ impl Modes {
         let mut modes = Self::none(study.beam.zeta);
         let shape = |values: &[f64]| Factor::new(PiecewiseLinear::new(mesh, values.to_vec()));
         let vibrations = mesh_modes::vibrations(mesh).ok_or_else(none)?;
-        for &Vibrating { index, start } in &study.modes {
+        for &(index, start) in &study.modes {
             let mode = vibrations.get(index).ok_or_else(none)?;
             let t = free_vibration::damped(mode.eigenvalue.sqrt(), modes.zeta, start)?;
             modes.exact.u.push(Product { x: shape(&mode.first), t: t.clone() });
@@ -82,7 +79,7 @@ impl Modes {
         }
         let temperatures = if study.heat.is_empty() { Some(vec![]) } else { mesh_modes::temperatures(mesh) };
         let temperatures = temperatures.ok_or_else(none)?;
-        for &Cooling { k, amplitude } in &study.heat {
+        for &(k, amplitude) in &study.heat {
             let mode = temperatures.get(k - 1).ok_or_else(none)?;
             let t = free_vibration::decay(mode.eigenvalue, amplitude);
             modes.exact.theta.push(Product { x: shape(&mode.first), t });
@@ -92,16 +89,16 @@ impl Modes {
     }
 
     /// The motion of each mode by its equation in time.
-    pub(super) fn exactly(&self, dt: f64, steps: usize) -> Motion {
+    pub(super) fn exactly(&self, dt: f64, steps: usize) -> ModalPaths {
         let path = |product: &Product| exact_path(&product.t, dt, steps);
-        Motion {
+        ModalPaths {
             vibrations: self.exact.u.iter().map(path).collect(),
             temperatures: self.exact.theta.iter().map(path).collect(),
         }
     }
 
     /// The motion of each mode by the time scheme; all schemes take the temperature by Crank-Nicolson.
-    pub(super) fn by(&self, scheme: Scheme, dt: f64, steps: usize) -> Motion {
+    pub(super) fn by(&self, scheme: Scheme, dt: f64, steps: usize) -> ModalPaths {
         let temperature = |&(kappa_squared, start): &(f64, f64)| {
             let half = 0.5 * dt * kappa_squared;
             let ratio = (1.0 - half) / (1.0 + half);
@@ -109,7 +106,7 @@ impl Modes {
             (0..=steps).map(|n| [start * ratio.powi(n as i32), 0.0]).collect()
         };
         let vibration = |&(square, start): &(f64, [f64; 2])| scheme_path(scheme, square, self.zeta, start, dt, steps);
-        Motion {
+        ModalPaths {
             vibrations: self.vibrations.iter().map(vibration).collect(),
             temperatures: self.temperatures.iter().map(temperature).collect(),
         }
@@ -136,12 +133,12 @@ fn scheme_path(scheme: Scheme, omega_squared: f64, zeta: f64, start: [f64; 2], d
 }
 
 /// The path of each mode.
-pub(super) struct Motion {
+pub(super) struct ModalPaths {
     vibrations: Vec<Path>,
     temperatures: Vec<Path>,
 }
 
-impl Motion {
+impl ModalPaths {
     /// Sets the time factors of the modes to those at time level n.
     pub(super) fn at(&self, n: usize, factors: &mut Factors) {
         let set = |values: &mut Vec<f64>, paths: &[Path], which: usize| {

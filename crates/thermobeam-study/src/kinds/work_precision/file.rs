@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
-use super::method::{Degrees, METHODS, Method};
-use super::{Advantage, Answer, OBSERVED, ROW, WorkPrecision};
+use super::method::{Degrees, METHODS, NamedMethod};
+use super::{Advantage, OBSERVED, ROW, WorkPrecision, Yardstick};
 use crate::error::evaluator::ErrorMeasure;
 use crate::error::free_vibration;
 use crate::kinds::convergence::Convergence;
@@ -77,7 +77,7 @@ fn dg(section: &Section<'_>) -> Result<Vec<Degrees>, InputError> {
 }
 
 /// The one-step method that runs with one number of steps on each mesh.
-fn diagonal(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<Option<Method>, InputError> {
+fn diagonal(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<Option<NamedMethod>, InputError> {
     let Some(field) = section.get("diagonal") else { return Ok(None) };
     let one_step: Vec<_> = METHODS.iter().filter(|method| method.one_step.is_some()).map(|&m| (m.name, m)).collect();
     let doubled = |list: &[usize]| list.windows(2).all(|two| two[1] == 2 * two[0]);
@@ -94,7 +94,7 @@ fn problem(
     section: &Section<'_>,
     folder: &Path,
     tip_alone: bool,
-) -> Result<(Family, Answer), InputError> {
+) -> Result<(Family, Yardstick), InputError> {
     for (table, key, owner) in [
         (section, "zeta", "vibration"),
         (section, "agreement", "scene"),
@@ -111,7 +111,7 @@ fn problem(
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
             let spec = Convergence::read(file.file(folder)?)?;
-            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), Answer::Exact))
+            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), Yardstick::Exact))
         }
         (None, Some(file), None) => {
             let scene = Scene { t_end: section.positive("t_end")?, ..Scene::read(file.file(folder)?)? };
@@ -119,17 +119,17 @@ fn problem(
             if tip_alone {
                 return match root.get("reference").or_else(|| section.get("agreement")) {
                     Some(field) => Err(field.refuse("beside diagonal", "no reference: a finer run of dG is one")),
-                    None => Ok((family, Answer::Tip(OnceLock::new()))),
+                    None => Ok((family, Yardstick::Tip(OnceLock::new()))),
                 };
             }
             let by = discretisations(root, "reference", None, scene.t_end)?;
             let agreement = section.positive("agreement")?;
             Ok((
                 family,
-                Answer::Agreed { scene: Box::new(scene), by: Box::new(by), agreement, computed: OnceLock::new() },
+                Yardstick::Agreed { scene: Box::new(scene), by: Box::new(by), agreement, computed: OnceLock::new() },
             ))
         }
-        (None, None, Some(_)) => Ok((vibration(section)?, Answer::Exact)),
+        (None, None, Some(_)) => Ok((vibration(section)?, Yardstick::Exact)),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
     }
 }

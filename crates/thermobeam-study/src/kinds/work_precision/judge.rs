@@ -1,13 +1,13 @@
 //! From the runs of all methods to checks, tables and figures.
 
-use super::law::{GridPoint, Law, front};
-use super::method::{Measurement, Method};
+use super::law::{CostLaw, GridPoint, front};
+use super::method::{Measurement, NamedMethod};
 use super::{Advantage, Runs, WorkPrecision};
 use crate::error::evaluator::ErrorMeasure;
 use crate::kinds::prelude::*;
 
 /// Results of all cases.
-type Results = [Ran<Runs, Vec<Measurement>>];
+type AllRuns = [Ran<Runs, Vec<Measurement>>];
 
 /// Errors of which the cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -22,9 +22,9 @@ const RATIO_TOLERANCE: f64 = 0.05;
 const FALL: [f64; 2] = [3.5, 4.5];
 
 /// What an error costs.
-enum Cost {
+enum CostBy {
     /// What the law says that was fitted to a grid, or why there is none.
-    Law(Result<Law, String>),
+    Law(Result<CostLaw, String>),
     /// Along a diagonal of the grid: error times cost is constant, the best that a scheme of second order in h and dt can do.
     Diagonal,
     /// What the cheapest run costs that has it.
@@ -32,14 +32,14 @@ enum Cost {
 }
 
 /// One method in one quantity.
-struct Row {
-    method: Method,
+struct MethodRow {
+    method: NamedMethod,
     quantity: ErrorMeasure,
     points: Vec<GridPoint>,
-    cost: Cost,
+    cost: CostBy,
 }
 
-impl Row {
+impl MethodRow {
     fn name(&self) -> String {
         format!("{}, {}", self.quantity.name(), self.method.name)
     }
@@ -49,13 +49,13 @@ impl Row {
         let cheaper = |a: [f64; 2], b: [f64; 2]| if b[1] >= a[1] { a } else { b };
         let none = [f64::NAN; 2];
         match &self.cost {
-            Cost::Law(Err(_)) => none,
-            Cost::Law(Ok(law)) => [law.cost(error), law.cost(error) * self.solves_per_step()],
-            Cost::Diagonal => {
+            CostBy::Law(Err(_)) => none,
+            CostBy::Law(Ok(law)) => [law.cost(error), law.cost(error) * self.solves_per_step()],
+            CostBy::Diagonal => {
                 let along = |p: &GridPoint| [p.node_steps * p.error / error, p.node_solves * p.error / error];
                 self.points.iter().map(along).reduce(cheaper).unwrap_or(none)
             }
-            Cost::Runs => {
+            CostBy::Runs => {
                 let good = self.points.iter().filter(|point| point.error <= error);
                 good.map(|point| [point.node_steps, point.node_solves]).reduce(cheaper).unwrap_or(none)
             }
@@ -65,9 +65,9 @@ impl Row {
     /// Whether a cost at that error is beyond what was measured.
     fn is_extrapolated(&self, error: f64) -> bool {
         match &self.cost {
-            Cost::Law(law) => !law.as_ref().is_ok_and(|law| error >= law.reach),
-            Cost::Diagonal => !self.points.iter().any(|point| point.error <= error),
-            Cost::Runs => false,
+            CostBy::Law(law) => !law.as_ref().is_ok_and(|law| error >= law.reach),
+            CostBy::Diagonal => !self.points.iter().any(|point| point.error <= error),
+            CostBy::Runs => false,
         }
     }
 
@@ -77,7 +77,7 @@ impl Row {
     }
 }
 
-pub(super) fn judge(study: &WorkPrecision, ran: &Results) -> Outcome {
+pub(super) fn judge(study: &WorkPrecision, ran: &AllRuns) -> Outcome {
     let rows = rows(study, ran);
     let mut checks = vec![completion(ran, |runs| {
         readings::not_finite(&runs.iter().flat_map(|run| found(study, run)).collect::<Vec<_>>())
@@ -107,7 +107,7 @@ fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> 
 }
 
 /// The runs of a method, with one error each; NaN where a run failed.
-fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize) -> Vec<GridPoint> {
+fn points(study: &WorkPrecision, ran: &AllRuns, method: &NamedMethod, quantity: usize) -> Vec<GridPoint> {
     let mut points = vec![];
     for Ran { case, found } in ran {
         let (elements, steps) = match case.data {
@@ -130,39 +130,39 @@ fn points(study: &WorkPrecision, ran: &Results, method: &Method, quantity: usize
     points
 }
 
-fn rows(study: &WorkPrecision, ran: &Results) -> Vec<Row> {
+fn rows(study: &WorkPrecision, ran: &AllRuns) -> Vec<MethodRow> {
     let mut rows = vec![];
     for method in study.methods() {
         let points = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
         let costs = match (method.one_step, study.diagonal) {
-            (None, _) => [const { Cost::Runs }; 3],
-            (Some(_), Some(_)) => [const { Cost::Diagonal }; 3],
+            (None, _) => [const { CostBy::Runs }; 3],
+            (Some(_), Some(_)) => [const { CostBy::Diagonal }; 3],
             (Some(scheme), None) => {
-                let fit = |points: &[GridPoint]| Law::fit(points, study.family.t_end, scheme.runs());
+                let fit = |points: &[GridPoint]| CostLaw::fit(points, study.family.t_end, scheme.runs());
                 let [full, superclose, tip] = &points;
                 let close = fit(superclose);
                 let law = match &close {
-                    Ok(close) => Law::with_interpolation(full, (superclose, close)),
+                    Ok(close) => CostLaw::with_interpolation(full, (superclose, close)),
                     Err(reason) => Err(reason.clone()),
                 };
-                [law, close, fit(tip)].map(Cost::Law)
+                [law, close, fit(tip)].map(CostBy::Law)
             }
         };
         let of_quantity = ErrorMeasure::ALL.into_iter().zip(points).zip(costs);
-        rows.extend(of_quantity.map(|((quantity, points), cost)| Row { method, quantity, points, cost }));
+        rows.extend(of_quantity.map(|((quantity, points), cost)| MethodRow { method, quantity, points, cost }));
     }
     rows.retain(|row| study.quantities().contains(&row.quantity));
     rows.sort_by_key(|row| row.quantity as usize);
     rows
 }
 
-fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
+fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
     let claim = format!("{}: the errors follow a law", row.name());
     let law = match &row.cost {
-        Cost::Law(Ok(law)) => law,
-        Cost::Law(Err(reason)) => return vec![Check::that(false, claim, reason)],
-        Cost::Runs => return vec![],
-        Cost::Diagonal => {
+        CostBy::Law(Ok(law)) => law,
+        CostBy::Law(Err(reason)) => return vec![Check::that(false, claim, reason)],
+        CostBy::Runs => return vec![],
+        CostBy::Diagonal => {
             let falls: Vec<f64> = row.points.windows(2).map(|two| two[0].error / two[1].error).collect();
             return vec![Check::that(
                 !falls.is_empty() && falls.iter().all(|fall| (FALL[0]..=FALL[1]).contains(fall)),
@@ -185,9 +185,9 @@ fn check_law(row: &Row, misfit: f64) -> Vec<Check> {
 }
 
 /// The ratio of the costs, and whether it is as large as claimed.
-fn check_advantage(claim: &Advantage, rows: &[Row]) -> (f64, Check) {
+fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
     let Advantage { quantity, error, of, over, times } = *claim;
-    let find = |method: Method| rows.iter().find(|row| row.quantity == quantity && row.method == method);
+    let find = |method: NamedMethod| rows.iter().find(|row| row.quantity == quantity && row.method == method);
     let cost = |method| find(method).map_or(f64::NAN, |row| row.cost(error)[claim.unit()]);
     let note = |method| match find(method) {
         Some(row) if !row.is_extrapolated(error) => "",
@@ -205,7 +205,7 @@ fn check_advantage(claim: &Advantage, rows: &[Row]) -> (f64, Check) {
 }
 
 /// Node-solves and name of each method whose cost is known, the cheapest first.
-fn ranking(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Vec<(f64, &'static str)> {
+fn ranking(rows: &[MethodRow], quantity: ErrorMeasure, error: f64) -> Vec<(f64, &'static str)> {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
     let mut costs: Vec<_> = of_quantity.map(|row| (row.cost(error)[1], row.method.name)).collect();
     costs.retain(|(cost, _)| cost.is_finite());
@@ -213,10 +213,10 @@ fn ranking(rows: &[Row], quantity: ErrorMeasure, error: f64) -> Vec<(f64, &'stat
     costs
 }
 
-fn winners(quantity: ErrorMeasure, rows: &[Row]) -> Table {
-    let of_quantity: Vec<&Row> = rows.iter().filter(|row| row.quantity == quantity).collect();
+fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
+    let of_quantity: Vec<&MethodRow> = rows.iter().filter(|row| row.quantity == quantity).collect();
     let line = |&error: &f64| {
-        let cell = |row: &&Row| match row.cost(error) {
+        let cell = |row: &&MethodRow| match row.cost(error) {
             [_, solves] if solves.is_nan() => "-".to_owned(),
             [steps, solves] => {
                 format!("{steps:.2e} / {solves:.2e}{}", if row.is_extrapolated(error) { "*" } else { "" })
@@ -241,10 +241,10 @@ fn winners(quantity: ErrorMeasure, rows: &[Row]) -> Table {
     )
 }
 
-fn laws(rows: &[Row]) -> Table {
-    let line = |row: &Row| {
-        let Cost::Law(law) = &row.cost else { return None };
-        let number = |name, of: fn(&Law) -> f64| Reading::new(name, law.as_ref().ok().map(of));
+fn laws(rows: &[MethodRow]) -> Table {
+    let line = |row: &MethodRow| {
+        let CostBy::Law(law) = &row.cost else { return None };
+        let number = |name, of: fn(&CostLaw) -> f64| Reading::new(name, law.as_ref().ok().map(of));
         let path = law.as_ref().map(|law| law.best(1e-4));
         let path = path.map_or_else(Clone::clone, |[h, dt]| format!("h = {h:.2e}, dt = {dt:.2e}"));
         let cells = vec![
@@ -253,7 +253,7 @@ fn laws(rows: &[Row]) -> Table {
             number("C_t", |law| law.c_t).scientific(3),
             number("q", |law| law.q).fixed(3),
             number("misfit", |law| law.misfit).fixed(3),
-            number("cost ~ E^-b", Law::exponent).fixed(2),
+            number("cost ~ E^-b", CostLaw::exponent).fixed(2),
             Reading::text("best path at E = 1e-4", path),
             Reading::new("solves a step", row.solves_per_step()).fixed(2),
         ];
@@ -264,7 +264,7 @@ fn laws(rows: &[Row]) -> Table {
 }
 
 /// The runs to which no law is fitted.
-fn runs(study: &WorkPrecision, ran: &Results) -> Table {
+fn runs(study: &WorkPrecision, ran: &AllRuns) -> Table {
     let single = ran.iter().filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
     let line = |ran: &Ran<Runs, Vec<Measurement>>| {
         let run = ran.ok().and_then(|runs| runs.first());
@@ -273,7 +273,7 @@ fn runs(study: &WorkPrecision, ran: &Results) -> Table {
     readings::table("Largest errors over time, and counted work", &["run"], &single.map(line).collect::<Vec<_>>())
 }
 
-fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure {
+fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
     let series = of_quantity.map(|row| plots::Series {
         label: row.method.name.to_owned(),
@@ -293,8 +293,8 @@ fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[Row]) -> Figure
 }
 
 /// Costs by the laws, and the ratios claimed of dG.
-fn guarded(rows: &[Row], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
-    let laws = rows.iter().filter(|row| matches!(row.cost, Cost::Law(_)));
+fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
+    let laws = rows.iter().filter(|row| matches!(row.cost, CostBy::Law(_)));
     let laws = laws
         .map(|row| Quantity::new(format!("node-steps for 1e-4, {}", row.name()), row.cost(1e-4)[0], COST_TOLERANCE));
     let of_dg = ratios.iter().filter(|(claim, ratio)| claim.unit() == 1 && ratio.is_finite());

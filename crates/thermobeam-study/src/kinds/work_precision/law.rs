@@ -14,7 +14,7 @@ use convergence_study::text::number::max_or_nan;
 
 /// The errors of one method in one quantity: rates, constants and the cost that follows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Law {
+pub struct CostLaw {
     /// Rate in space.
     pub p: f64,
     /// Constant in space.
@@ -48,7 +48,7 @@ pub struct GridPoint {
     pub node_solves: f64,
 }
 
-impl Law {
+impl CostLaw {
     /// Fits the law.
     ///
     /// # Errors
@@ -68,8 +68,8 @@ impl Law {
     /// `e² = (C h^p)² + s²`. What the scheme adds in time, s knows better than e, in which it is next to nothing.
     ///
     /// # Errors
-    /// As for [`Law::fit`].
-    pub fn with_interpolation(points: &[GridPoint], superclose: (&[GridPoint], &Law)) -> Result<Self, String> {
+    /// As for [`CostLaw::fit`].
+    pub fn with_interpolation(points: &[GridPoint], superclose: (&[GridPoint], &CostLaw)) -> Result<Self, String> {
         let (distances, law) = superclose;
         let finest = points.iter().map(|point| point.steps).max().unwrap_or(0);
         let levels: Vec<fit::Level> = points
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn the_best_path_is_the_cheapest_of_all_with_that_error() {
         let points = grid(|h, dt| (3.0 * h * h).hypot(0.5 * dt));
-        let law = Law::fit(&points, 2.0, 1.0).unwrap();
+        let law = CostLaw::fit(&points, 2.0, 1.0).unwrap();
         let [h, dt] = law.best(1e-3);
         assert!(((3.0 * h * h).hypot(0.5 * dt) / 1e-3 - 1.0).abs() < 1e-6);
         assert!((law.exponent() - 1.5).abs() < 1e-6);
@@ -175,8 +175,8 @@ mod tests {
     fn there_is_no_law_where_errors_are_no_numbers_or_do_not_fall() {
         let mut points = grid(|h, dt| h.hypot(dt));
         points[3].error = f64::NAN;
-        assert!(Law::fit(&points, 2.0, 1.0).is_err());
-        assert!(Law::fit(&grid(|h, dt| (1.0 / h).hypot(1.0 / dt)), 2.0, 1.0).is_err());
+        assert!(CostLaw::fit(&points, 2.0, 1.0).is_err());
+        assert!(CostLaw::fit(&grid(|h, dt| (1.0 / h).hypot(1.0 / dt)), 2.0, 1.0).is_err());
     }
 
     #[test]

@@ -6,19 +6,15 @@
 
 use std::time::Instant;
 
-use convergence_study::run::time_limit::Patience;
 use thermobeam::dg;
-use thermobeam::mesh::Mesh;
-use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
-use thermobeam::solve::{Level, Settings, Solver};
 
-use crate::error::evaluator::combine;
+use crate::error::levels::combine;
 use crate::kinds::prelude::*;
 use crate::run::family::{Family, OnMesh, Spent};
 
 /// A way to the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Method {
+pub struct NamedMethod {
     /// Name in study files, tables and figures.
     pub name: &'static str,
     /// How it steps; `None`: dG(q) on elements of degree p.
@@ -36,17 +32,17 @@ pub struct OneStep {
     pub extrapolated: bool,
 }
 
-const fn row(name: &'static str, scheme: Scheme, solver: Solver, extrapolated: bool) -> Method {
-    Method { name, one_step: Some(OneStep { scheme, solver, extrapolated }) }
+const fn row(name: &'static str, scheme: Scheme, solver: Solver, extrapolated: bool) -> NamedMethod {
+    NamedMethod { name, one_step: Some(OneStep { scheme, solver, extrapolated }) }
 }
 
 /// All methods; a new one-step method is a row.
-pub const METHODS: [Method; 5] = [
+pub const METHODS: [NamedMethod; 5] = [
     row("fixed-point", EULER_CRANK_NICOLSON, Solver::FixedPoint, false),
     row("euler-crank-nicolson", EULER_CRANK_NICOLSON, Solver::Newton, false),
     row("richardson", EULER_CRANK_NICOLSON, Solver::Newton, true),
     row("midpoint", MIDPOINT, Solver::Newton, false),
-    Method { name: "dg", one_step: None },
+    NamedMethod { name: "dg", one_step: None },
 ];
 
 /// A run: largest errors over the times of observation, and its cost.
@@ -142,7 +138,7 @@ impl Degrees {
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's own words.
-    pub(super) fn run(
+    pub(crate) fn run(
         self,
         family: &Family,
         nodes: &[f64],

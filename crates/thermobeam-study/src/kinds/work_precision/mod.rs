@@ -4,7 +4,7 @@
 //! are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation that all runs share;
 //! those of dG are of its values at the nodes of a mesh finer than all others. From a grid follow the fitted [`law::Law`], the best
 //! path dt(h), and the cost of an error E; of dG the cheapest run with that error counts. Costs are counted, not timed, so
-//! that a report is the same on every machine and at every time; [`WorkPrecision::timed`] measures the seconds.
+//! that a report is the same on every machine and at every time; [`timing`](crate::timing) measures the seconds.
 //!
 //! ```toml
 //! [work-precision]
@@ -31,23 +31,17 @@ mod file;
 mod judge;
 pub mod law;
 pub mod method;
-mod rival;
 pub mod surface;
-mod timed;
 
 use std::sync::OnceLock;
 
-use thermobeam::solve::{Level, Solver};
-
 use crate::error::evaluator::{ErrorMeasure, Evaluator};
-use crate::error::reference::{FINER, Reference, fine_mesh};
+use crate::error::reference::{FINER, Traced, fine_mesh};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
 use crate::run::dg::nodal;
 use crate::run::family::{Family, OnMesh};
-use method::{Degrees, GRADED, METHODS, Measurement, Meter, Method, OneStep, REFERENCE, worst};
-pub use rival::{Rival, beside};
-pub use timed::Timed;
+use method::{Degrees, GRADED, METHODS, Measurement, Meter, NamedMethod, OneStep, REFERENCE, worst};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -70,9 +64,9 @@ pub struct Advantage {
     /// The error.
     pub error: f64,
     /// The cheaper method.
-    pub of: Method,
+    pub of: NamedMethod,
     /// The more expensive one.
-    pub over: Method,
+    pub over: NamedMethod,
     /// At least so many times.
     pub times: f64,
 }
@@ -81,12 +75,12 @@ pub struct Advantage {
 pub struct WorkPrecision {
     header: Header,
     family: Family,
-    answer: Answer,
+    answer: Yardstick,
     elements: Vec<usize>,
     steps: Vec<usize>,
     dg: Vec<Degrees>,
     /// The only one-step method, with one number of steps for each mesh.
-    diagonal: Option<Method>,
+    diagonal: Option<NamedMethod>,
     tolerance: f64,
     misfit: f64,
     advantages: Vec<Advantage>,
@@ -102,11 +96,11 @@ impl Advantage {
 type Computed<T> = OnceLock<Result<T, CaseFailure>>;
 
 /// What errors are measured against. What has to be computed is computed once, by whichever thread comes first.
-enum Answer {
+enum Yardstick {
     /// The exact solution.
     Exact,
     /// A scene by two discretisations of any order, and how far they may be apart in the norm of Theorem 3.4.
-    Agreed { scene: Box<Scene>, by: Box<[Discretisation; 2]>, agreement: f64, computed: Computed<Reference> },
+    Agreed { scene: Box<Scene>, by: Box<[Discretisation; 2]>, agreement: f64, computed: Computed<Traced> },
     /// u(1, t) at the times of observation, by dG.
     Tip(Computed<Vec<f64>>),
 }
@@ -115,7 +109,7 @@ enum Answer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Runs {
     /// A one-step method on a mesh of so many elements: one run for each number of steps.
-    OnMesh(Method, OneStep, usize),
+    OnMesh(NamedMethod, OneStep, usize),
     /// One run by dG.
     Dg(Degrees),
 }
@@ -131,7 +125,7 @@ impl WorkPrecision {
         if self.diagonal.is_some() { &[ErrorMeasure::Tip] } else { &ErrorMeasure::ALL }
     }
 
-    fn methods(&self) -> impl Iterator<Item = Method> {
+    pub(crate) fn methods(&self) -> impl Iterator<Item = NamedMethod> {
         METHODS.into_iter().filter(|method| match method.one_step {
             None => !self.dg.is_empty(),
             Some(_) => self.diagonal.is_none_or(|only| only == *method),
@@ -139,14 +133,14 @@ impl WorkPrecision {
     }
 
     /// Steps of the runs on a mesh.
-    fn steps_on(&self, elements: usize) -> &[usize] {
+    pub(crate) fn steps_on(&self, elements: usize) -> &[usize] {
         match self.elements.iter().position(|&n| n == elements).filter(|_| self.diagonal.is_some()) {
             Some(place) => &self.steps[place..=place],
             None => &self.steps,
         }
     }
 
-    fn runs(&self) -> impl Iterator<Item = Runs> {
+    pub(crate) fn runs(&self) -> impl Iterator<Item = Runs> {
         self.methods().flat_map(|method| -> Vec<Runs> {
             match method.one_step {
                 Some(scheme) => self.elements.iter().map(|&n| Runs::OnMesh(method, scheme, n)).collect(),
@@ -155,10 +149,10 @@ impl WorkPrecision {
         })
     }
 
-    fn agreed(&self, scene: &Scene, by: &[Discretisation; 2], agreement: f64) -> Result<Reference, CaseFailure> {
+    fn agreed(&self, scene: &Scene, by: &[Discretisation; 2], agreement: f64) -> Result<Traced, CaseFailure> {
         let finest = self.elements.last().copied().unwrap_or(1);
         let run = |how: &Discretisation| {
-            Reference::compute(scene, how, fine_mesh(scene, finest)?, self.family.t_end, self.observations(), 0)
+            Traced::compute(&how.of(scene, self.family.t_end)?, fine_mesh(scene, finest)?, self.observations(), 0)
         };
         let (one, other) = (run(&by[0])?, run(&by[1])?);
         let apart = one.distance(&other);
@@ -179,22 +173,22 @@ impl WorkPrecision {
     /// Measures levels on a mesh.
     fn meter(&self, on: &OnMesh<'_>) -> Result<Box<Meter<'_>>, CaseFailure> {
         let reference = match &self.answer {
-            Answer::Tip(computed) => {
+            Yardstick::Tip(computed) => {
                 let tip = computed.get_or_init(|| self.exact_tip()).as_ref().map_err(Clone::clone)?;
                 let error = move |level: &Level, index: usize| (level.u[level.u.len() - 1] - tip[index]).abs();
                 return Ok(Box::new(move |level, index, _| [f64::NAN, f64::NAN, error(level, index)]));
             }
-            Answer::Agreed { scene, by, agreement, computed } => {
+            Yardstick::Agreed { scene, by, agreement, computed } => {
                 let computed = computed.get_or_init(|| self.agreed(scene, by, *agreement));
                 Some(computed.as_ref().map_err(Clone::clone)?)
             }
-            Answer::Exact => None,
+            Yardstick::Exact => None,
         };
         let mut evaluator = Evaluator::new(&self.family, on, reference)?;
         Ok(Box::new(move |level, index, t| evaluator.measure(level, index, t)))
     }
 
-    fn measure(&self, runs: Runs) -> Result<Vec<Measurement>, CaseFailure> {
+    pub(crate) fn measure(&self, runs: Runs) -> Result<Vec<Measurement>, CaseFailure> {
         let times = self.observations();
         match runs {
             Runs::OnMesh(_, scheme, elements) => {

@@ -5,8 +5,7 @@ use convergence_study::study::Figure;
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::parameters::Beam;
 
-use super::judge::{Lines, Rows};
-use super::{Map, Parameter, Point};
+use super::{Lines, Map, MapRows, Parameter, Point};
 
 /// Contractions below are shown as this: after a few iterations the ratio tells no more.
 const FASTEST: f64 = 1e-6;
@@ -14,7 +13,7 @@ const FASTEST: f64 = 1e-6;
 const EXACT: f64 = 1e-18;
 
 /// What a map shows at each point; where the solver fails it is hatched instead.
-struct Shown {
+struct MapPicture {
     file: &'static str,
     caption: String,
     z: Axis,
@@ -26,11 +25,11 @@ struct Shown {
     boundaries: Vec<Series>,
 }
 
-pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
+pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
     let maps = Maps { map, rows };
     let over = map.over.name();
     let shown = [
-        Shown {
+        MapPicture {
             file: "contraction",
             caption: format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
             z: Axis::log("contraction per iteration"),
@@ -39,7 +38,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Ve
             value: |point| point.fixed_point.contraction,
             boundaries: vec![maps.predicted(), maps.found(lines)],
         },
-        Shown {
+        MapPicture {
             file: "iterations",
             caption: format!("Iterations of the fixed point in a step over dt and {over}."),
             z: Axis::log("iterations of the fixed point"),
@@ -48,7 +47,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Ve
             value: |point| Some(point.fixed_point.iterations as f64),
             boundaries: vec![maps.predicted(), maps.found(lines)],
         },
-        Shown {
+        MapPicture {
             file: "newton",
             caption: format!("Most iterations of Newton's method in a step over dt and {over}."),
             z: Axis::linear("most Newton iterations in a step"),
@@ -57,7 +56,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Ve
             value: |point| Some(point.newton?.iterations as f64),
             boundaries: maps.definite(),
         },
-        Shown {
+        MapPicture {
             file: "balance",
             caption: format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
             z: Axis::log("largest residual / energy"),
@@ -72,12 +71,12 @@ pub(super) fn all(map: &Map, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Ve
 
 struct Maps<'a> {
     map: &'a Map,
-    rows: &'a Rows<'a>,
+    rows: &'a MapRows<'a>,
 }
 
 impl Maps<'_> {
-    fn draw(&self, id: &str, shown: Shown) -> Figure {
-        let Shown { file, caption, z, least, of_newton, value, boundaries } = shown;
+    fn draw(&self, id: &str, shown: MapPicture) -> Figure {
+        let MapPicture { file, caption, z, least, of_newton, value, boundaries } = shown;
         let fails = if of_newton { "operator not definite" } else { "the fixed point fails" };
         let hatched = |point: &Point| if of_newton { !point.newton_completes } else { !point.fixed_point.converged };
         let cell = |point: &Point| match value(point).filter(|_| !hatched(point)) {
@@ -92,8 +91,8 @@ impl Maps<'_> {
             z,
             x_values: self.map.time_steps(),
             y_values: self.rows.iter().map(|(value, _)| *value).collect(),
-            values: self.rows.iter().map(|(_, row)| row.points.iter().map(cell).collect()).collect(),
-            marked: self.rows.iter().map(|(_, row)| row.points.iter().map(hatched).collect()).collect(),
+            values: self.rows.iter().map(|(_, row)| row.iter().map(cell).collect()).collect(),
+            marked: self.rows.iter().map(|(_, row)| row.iter().map(hatched).collect()).collect(),
             marked_label: fails.to_owned(),
             boundaries,
         };
@@ -111,8 +110,8 @@ impl Maps<'_> {
 
     /// α = 1, row by row between the two time steps on either side, on logarithmic scales.
     fn predicted(&self) -> Series {
-        let crossing = |(value, row): &(f64, &super::Row)| {
-            let finite: Vec<&Point> = row.points.iter().filter(|point| point.alpha.is_finite()).collect();
+        let crossing = |(value, row): &(f64, &[Point])| {
+            let finite: Vec<&Point> = row.iter().filter(|point| point.alpha.is_finite()).collect();
             let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
             let [below, above] = [pair[0], pair[1]];
             let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();

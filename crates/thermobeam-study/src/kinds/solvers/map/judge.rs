@@ -1,9 +1,6 @@
 //! Claims, the table of boundaries, and what the baseline guards.
 
-use convergence_study::text::number::plain_text;
-use thermobeam::kirchhoff::BUCKLING;
-
-use super::{Boundary, Map, NewtonSteps, Point, Row, figures};
+use super::{Boundary, Lines, Map, MapRows, NewtonSteps, Point, figures};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
@@ -14,12 +11,8 @@ const ALONE: f64 = 0.01;
 /// Iterations that Newton's method may take in a step.
 const MOST: usize = 30;
 
-/// Results, each with its value of the second parameter.
-pub(super) type Rows<'r> = [(f64, &'r Row)];
-pub(super) type Lines<'r> = [(f64, &'r Boundary)];
-
 impl Map {
-    pub(in super::super) fn judge(&self, id: &str, rows: &Rows<'_>, lines: &Lines<'_>) -> Outcome {
+    pub(in super::super) fn judge(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
         checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
         checks.extend(energy(rows));
@@ -47,17 +40,17 @@ impl Map {
         }
     }
 
-    fn complete(&self, rows: &Rows<'_>) -> Check {
+    fn complete(&self, rows: &MapRows<'_>) -> Check {
         let (found, expected) = (points(rows).count(), self.points * self.points);
         Check::that(found == expected, "both solvers were run at every point", format!("{found} of {expected}"))
     }
 
     /// Newton's method converges wherever its operator is known to be definite.
-    fn newton_completes(&self, rows: &Rows<'_>) -> Check {
+    fn newton_completes(&self, rows: &MapRows<'_>) -> Check {
         let (mut known, mut wrong, mut failed) = (0, 0, 0);
         for (value, row) in rows {
             let beam = self.beam(*value);
-            for point in &row.points {
+            for point in *row {
                 failed += usize::from(!point.newton_completes);
                 if BUCKLING * (beam.zeta + 0.5 * point.dt) + 0.5 * beam.beta * point.dt > 0.0 {
                     known += 1;
@@ -130,26 +123,26 @@ impl Map {
     }
 }
 
-fn points<'r>(rows: &Rows<'r>) -> impl Iterator<Item = &'r Point> {
-    rows.iter().flat_map(|(_, row)| &row.points)
+fn points<'r>(rows: &MapRows<'r>) -> impl Iterator<Item = &'r Point> {
+    rows.iter().flat_map(|(_, row)| *row)
 }
 
-fn newton<'r>(rows: &Rows<'r>) -> impl Iterator<Item = &'r NewtonSteps> {
-    rows.iter().flat_map(|(_, row)| row.newton())
+fn newton<'r>(rows: &MapRows<'r>) -> impl Iterator<Item = &'r NewtonSteps> {
+    points(rows).filter_map(|point| point.newton.as_ref())
 }
 
-fn largest(rows: &Rows<'_>, number: impl Fn(&NewtonSteps) -> f64) -> f64 {
+fn largest(rows: &MapRows<'_>, number: impl Fn(&NewtonSteps) -> f64) -> f64 {
     newton(rows).map(number).fold(f64::NEG_INFINITY, max_or_nan)
 }
 
-fn in_contact(rows: &Rows<'_>) -> Check {
+fn in_contact(rows: &MapRows<'_>) -> Check {
     let least = -largest(rows, |newton| -newton.contact_force);
     let holds = least > 0.0 && newton(rows).next().is_some();
     Check::that(holds, "the first step ends in contact", format!("least contact force {least:.2e}"))
 }
 
 /// The map against α and γ: convergence where both are well below 1, none where α exceeds 1 by more than γ.
-fn as_predicted(rows: &Rows<'_>) -> Check {
+fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
     for &Point { alpha, gamma, fixed_point, .. } in points(rows) {
         if alpha < SLOW && gamma < SLOW {
@@ -170,16 +163,16 @@ fn as_predicted(rows: &Rows<'_>) -> Check {
     )
 }
 
-fn newton_is_quick(rows: &Rows<'_>) -> Check {
+fn newton_is_quick(rows: &MapRows<'_>) -> Check {
     let most = newton(rows).map(|newton| newton.iterations).max();
     let evidence = most.map_or("no step was done".to_owned(), |most| format!("at most {most}"));
     let claim = format!("Newton's method takes at most {MOST} iterations in any step");
     Check::that(most.is_some_and(|most| most <= MOST), claim, evidence)
 }
 
-fn energy(rows: &Rows<'_>) -> [Check; 2] {
+fn energy(rows: &MapRows<'_>) -> [Check; 2] {
     // A row without a single step of Newton's method shows nothing.
-    let every_row = rows.iter().all(|(_, row)| row.newton().next().is_some());
+    let every_row = rows.iter().all(|(_, row)| row.iter().any(|point| point.newton.is_some()));
     let check = |claim: &str, number: fn(&NewtonSteps) -> f64, share: fn(&NewtonSteps) -> f64| {
         let share = largest(rows, share);
         let evidence = format!("{:.1e} of the energy, {}", largest(rows, number), of_allowed(share));

@@ -20,21 +20,9 @@
 mod figures;
 mod judge;
 
-use std::ops::ControlFlow;
-
-use convergence_study::text::number::plain_text;
-use thermobeam::ensemble::Ensemble;
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::simulation::{Initial, Problem};
-use thermobeam::solve::{Level, Settings};
-
-use super::{FixedPointStep, Task, factors};
+use super::{FixedPointStep, SolverTask, factors};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::{SOLVED, Watch, Worst};
-use crate::run::ensemble::EnsembleDriver;
-use crate::scene::tables;
+use crate::kinds::watch::{Watched, Worst, watched};
 
 /// The obstacles, close enough for the heat to press the beam against them for every β on the maps.
 const GAP: f64 = 0.01;
@@ -169,16 +157,20 @@ impl Map {
         Ok(Problem { beam: self.beam(value), obstacles: Some(obstacles), mesh, initial })
     }
 
-    pub(super) fn cases(&self) -> Vec<Case<Task>> {
+    pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let name = self.over.name();
         let elements = |value: f64| if self.over == Parameter::Width { 1.0 / value } else { self.elements as f64 };
         let row = |value: f64| {
             let cost = (self.points * (ITERATIONS + 4 * self.steps)) as f64 * elements(value);
-            Case { label: format!("{name} = {value:.3e}"), cost, data: Task::Row(value) }
+            Case { label: format!("{name} = {value:.3e}"), cost, data: SolverTask::Row(value) }
         };
         let line = |&value: &f64| {
             let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
-            Case { label: format!("boundary at {name} = {}", plain_text(value)), cost, data: Task::Boundary(value) }
+            Case {
+                label: format!("boundary at {name} = {}", plain_text(value)),
+                cost,
+                data: SolverTask::Boundary(value),
+            }
         };
         self.row_values().into_iter().map(row).chain(self.lines.iter().map(line)).collect()
     }
@@ -209,12 +201,9 @@ fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], 
     Ok([ends[0], ends[1]])
 }
 
-/// What was found at one value of the second parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// One for each time step, ascending.
-    pub points: Vec<Point>,
-}
+/// Results, each with its value of the second parameter.
+type MapRows<'r> = [(f64, &'r [Point])];
+type Lines<'r> = [(f64, &'r Boundary)];
 
 /// Both solvers with one time step.
 #[derive(Debug, Clone, PartialEq)]
@@ -244,30 +233,23 @@ pub struct NewtonSteps {
     pub worst: Worst,
 }
 
-impl Row {
-    /// The points at which Newton's method did at least one step.
-    fn newton(&self) -> impl Iterator<Item = &NewtonSteps> {
-        self.points.iter().filter_map(|point| point.newton.as_ref())
-    }
-}
-
 impl Point {
     pub(super) fn not_finite(&self) -> Vec<String> {
         let contraction = self.fixed_point.contraction.filter(|_| self.fixed_point.converged).unwrap_or(0.0);
         // A predicted factor may be infinite.
         let predicted = |factor: f64| if factor.is_infinite() { 0.0 } else { factor };
         let [alpha, gamma] = [self.alpha, self.gamma].map(predicted);
-        let mut names = not_finite(&[("alpha", alpha), ("gamma", gamma), ("the contraction", contraction)]);
+        let mut numbers = vec![("alpha", alpha), ("gamma", gamma), ("the contraction", contraction)];
         if let Some(NewtonSteps { contact_force, worst, .. }) = self.newton {
-            names.extend(not_finite(&[("the contact force", contact_force)]));
-            names.extend(not_finite(&worst.named()));
+            numbers.push(("the contact force", contact_force));
+            numbers.extend(worst.named());
         }
-        names
+        not_finite(&numbers)
     }
 }
 
 impl Map {
-    pub(super) fn row(&self, value: f64) -> Result<Row, CaseFailure> {
+    pub(super) fn row(&self, value: f64) -> Result<Vec<Point>, CaseFailure> {
         let (problem, dts) = (self.problem(value)?, self.time_steps());
         let n_value = axial_force(&problem);
         let newton = newton(&problem, &dts, self.steps)?;
@@ -276,55 +258,24 @@ impl Map {
             let [alpha, gamma] = factors(&problem, dt, n_value);
             Ok(Point { dt, alpha, gamma, fixed_point, newton_completes, newton })
         };
-        Ok(Row { points: dts.iter().copied().zip(newton).map(point).collect::<Result<_, CaseFailure>>()? })
-    }
-}
-
-/// A time step while Newton's method is under way.
-struct Lane {
-    old: Level,
-    new: Level,
-    watch: Watch,
-    iterations: usize,
-    /// After the first step, if it was done.
-    contact_force: Option<f64>,
-}
-
-impl Lane {
-    fn new(ensemble: &Ensemble, k: usize, nodes: usize) -> Self {
-        let mut old = Level::new(nodes);
-        ensemble.observe(k, &mut old);
-        let watch = Watch::new(ensemble.energy_scale(k, &old));
-        Self { new: old.clone(), old, watch, iterations: 0, contact_force: None }
-    }
-
-    fn steps(&self) -> Option<NewtonSteps> {
-        let (iterations, worst) = (self.iterations, self.watch.worst);
-        self.contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst })
+        dts.iter().copied().zip(newton).map(point).collect()
     }
 }
 
 /// Newton's method, several time steps side by side: whether all steps were done, and what was seen in them.
 fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Option<NewtonSteps>)>, CaseFailure> {
-    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    // The most iterations, and the contact force after the first step, if it was done.
+    let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
     let problems = vec![problem.clone(); dts.len()];
-    let mut driver = EnsembleDriver::new(problems, dts, EULER_CRANK_NICOLSON, settings)?;
-    let nodes = problem.mesh.nodes().len();
-    let mut lanes: Vec<Lane> = (0..dts.len()).map(|k| Lane::new(driver.ensemble(), k, nodes)).collect();
-    driver.run(steps, |ensemble, balances| {
-        for (k, (lane, balance)) in lanes.iter_mut().zip(balances).enumerate() {
-            let Ok(report) = ensemble.report(k) else { continue };
-            lane.iterations = lane.iterations.max(report.iterations);
-            ensemble.observe(k, &mut lane.new);
-            lane.contact_force.get_or_insert(lane.new.contact_force);
-            let scale = ensemble.energy_scale(k, &lane.new);
-            lane.watch.step(balance, scale, || ensemble.rounding(k, &lane.old, &lane.new));
-            std::mem::swap(&mut lane.old, &mut lane.new);
-        }
-        ControlFlow::Continue(())
+    let runs = watched(problems, dts, EULER_CRANK_NICOLSON, steps, |k, iterations, level| {
+        let (most, contact_force) = &mut seen[k];
+        *most = iterations.max(*most);
+        contact_force.get_or_insert(level.contact_force);
     })?;
-    let ensemble = driver.ensemble();
-    Ok(lanes.iter().enumerate().map(|(k, lane)| (ensemble.report(k).is_ok(), lane.steps())).collect())
+    let steps = |(Watched { worst, failure }, (iterations, contact_force)): (Watched, (usize, Option<f64>))| {
+        (failure.is_none(), contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst }))
+    };
+    Ok(runs.into_iter().zip(seen).map(steps).collect())
 }
 
 /// Predicted and measured boundary on a line of constant second parameter.

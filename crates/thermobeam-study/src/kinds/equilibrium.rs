@@ -60,15 +60,6 @@ pub struct EndStates {
     any_order: Option<(Discretisation, f64, f64)>,
 }
 
-/// A scene on one mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct EndOn {
-    /// Its place in the list of scenes.
-    pub scene: usize,
-    /// Linear elements; `None` for the run of any order.
-    pub elements: Option<usize>,
-}
-
 /// A beam at rest, and the exact stable state next to it. Pairs are of u and of φ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RestingEnd {
@@ -115,14 +106,15 @@ impl FromFile for EndStates {
 }
 
 impl Kind for EndStates {
-    type Data = EndOn;
+    /// A scene, by its place in the list, and its linear elements; `None` for the run of any order.
+    type Data = (usize, Option<usize>);
     type Found = RestingEnd;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<EndOn>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |(scene, elements): (usize, Option<usize>)| {
             let (how, cost) = match (elements, &self.any_order) {
                 (None, Some((how, t_end, _))) => (how.label(), how.cost(*t_end)),
@@ -131,7 +123,7 @@ impl Kind for EndStates {
                     (format!("n = {n}"), REST / self.dt * n as f64)
                 }
             };
-            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: EndOn { scene, elements } }
+            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: (scene, elements) }
         };
         let scenes = || 0..self.scenes.len();
         let linear = scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));
@@ -139,7 +131,7 @@ impl Kind for EndStates {
         linear.chain(any_order).map(case).collect()
     }
 
-    fn run(&self, &EndOn { scene, elements }: &EndOn) -> Result<RestingEnd, CaseFailure> {
+    fn run(&self, &(scene, elements): &Self::Data) -> Result<RestingEnd, CaseFailure> {
         let scene = &self.scenes[scene];
         let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
         if let Some(elements) = elements {
@@ -152,7 +144,7 @@ impl Kind for EndStates {
         end(scene, &found.mesh, *t_end, found.levels.last().ok_or_else(|| absent("the run has no end"))?)
     }
 
-    fn judge(&self, ran: &[Ran<EndOn, RestingEnd>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, Option<usize>), RestingEnd>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
         let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
         // What lies below the floor is known to the last of the motion only.
@@ -235,8 +227,8 @@ struct Ends<'a> {
 }
 
 impl<'a> Ends<'a> {
-    fn of(study: &'a EndStates, ran: &'a [Ran<EndOn, RestingEnd>], scene: usize) -> Self {
-        let end = |elements: Option<usize>| found(ran, &EndOn { scene, elements });
+    fn of(study: &'a EndStates, ran: &'a [Ran<(usize, Option<usize>), RestingEnd>], scene: usize) -> Self {
+        let end = |elements: Option<usize>| found(ran, &(scene, elements));
         let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
         Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
     }

@@ -48,15 +48,6 @@ const CLOSED: f64 = 1e-12;
 /// Relative change of a published number that the baseline tolerates.
 const TOLERANCE: f64 = 1e-8;
 
-/// One run of one scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExperimentRun {
-    /// Number of the scene.
-    pub scene: usize,
-    /// By the discretisation of this number; `None`: by the scene's own scheme, mesh and steps.
-    pub by: Option<usize>,
-}
-
 /// What a run shows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShownStates {
@@ -126,27 +117,28 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
 }
 
 impl Kind for ExactExperiments {
-    type Data = ExperimentRun;
+    /// A scene, by its place in the list, and the number of the discretisation that it is run by; `None`: its own scheme, mesh and steps.
+    type Data = (usize, Option<usize>);
     type Found = ShownStates;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<ExperimentRun>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |scene: usize, by: Option<usize>| {
             let of = &self.scenes[scene];
             let (how, cost) = match by.map(|k| &self.discretisations[k]) {
                 Some(how) => (how.label(), how.cost(of.t_end)),
                 None => (of.method.name().to_owned(), of.mesh.elements() as f64 * of.steps() as f64),
             };
-            Case { label: format!("{}, {how}", of.name), cost, data: ExperimentRun { scene, by } }
+            Case { label: format!("{}, {how}", of.name), cost, data: (scene, by) }
         };
         let runs = [Some(0), Some(1), None].into_iter().filter(|by| self.compare || by.is_some());
         (0..self.scenes.len()).flat_map(|scene| runs.clone().map(move |by| case(scene, by))).collect()
     }
 
-    fn run(&self, &ExperimentRun { scene, by }: &ExperimentRun) -> Result<ShownStates, CaseFailure> {
+    fn run(&self, &(scene, by): &Self::Data) -> Result<ShownStates, CaseFailure> {
         let scene = &self.scenes[scene];
         let t_end = self.times.last().copied().unwrap_or(scene.t_end);
         match by {
@@ -155,7 +147,7 @@ impl Kind for ExactExperiments {
         }
     }
 
-    fn judge(&self, ran: &[Ran<ExperimentRun, ShownStates>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, Option<usize>), ShownStates>]) -> Outcome {
         let scenes: Vec<OfScene<'_>> = (0..self.scenes.len()).map(|scene| OfScene::of(self, ran, scene)).collect();
         let mut checks = vec![completion(ran, |shown: &ShownStates| {
             let tip = shown.tip.iter().map(|(_, u)| *u).reduce(|a, b| if a.is_finite() { b } else { a });
@@ -278,8 +270,8 @@ fn differences(one: &Sample, other: &Sample) -> [Reading; 6] {
 type AtTime = (Vec<String>, Vec<Reading>);
 
 impl<'r> OfScene<'r> {
-    fn of(study: &'r ExactExperiments, ran: &'r [Ran<ExperimentRun, ShownStates>], scene: usize) -> Self {
-        let by = |by: Option<usize>| found(ran, &ExperimentRun { scene, by });
+    fn of(study: &'r ExactExperiments, ran: &'r [Ran<(usize, Option<usize>), ShownStates>], scene: usize) -> Self {
+        let by = |by: Option<usize>| found(ran, &(scene, by));
         Self { name: &study.scenes[scene].name, any_order: [by(Some(0)), by(Some(1))], own: by(None) }
     }
 

@@ -17,7 +17,7 @@ fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
     assert_eq!(sound.len(), 9, "the honest solver and eight coefficients");
-    assert_eq!(sound[0].case.data.fault, Fault::None);
+    assert_eq!(sound[0].case.data.1, Fault::None);
     for (index, ran) in sound.iter().enumerate() {
         let judged = ran.ok().expect("a verdict");
         // The error of a wrong coefficient is far from round-off, that of none is round-off.

@@ -82,10 +82,10 @@ fn each_coefficient_must_be_detected() {
     let study = sensitivity();
     let sound = run_cases_here(&study);
     assert_eq!(study.judge(&sound).verdict, Verdict::Pass, "{}", report(&study.judge(&sound)));
-    for key in sound.iter().map(|ran| ran.case.data.key) {
+    for key in sound.iter().map(|ran| ran.case.data.1) {
         for planted in [Some(2e-3), Some(f64::NAN), None] {
             let runs = changed::<Sensitivity>(&sound, |index, found| {
-                if sound[index].case.data.key == key {
+                if sound[index].case.data.1 == key {
                     *found = planted;
                 }
             });

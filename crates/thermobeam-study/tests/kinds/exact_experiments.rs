@@ -67,7 +67,7 @@ fn the_published_digits_are_those_of_the_prototype() {
 fn the_scenes_own_scheme_is_compared_where_asked_for() {
     let study = study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
     let cases = study.cases();
-    assert!(cases.len() == 3 && cases[2].data.by.is_none());
+    assert!(cases.len() == 3 && cases[2].data.1.is_none());
     let mut sound: Vec<_> = convergence_study::study::run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));

@@ -12,10 +12,10 @@ fn every_claim_about_rigid_obstacles_can_fail() {
     let study = RigidStudy::read(file("rigid-obstacles.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
     let position = |run: RunOf, nth: usize| {
-        let of_run = sound.iter().enumerate().filter(|(_, ran)| ran.case.data.run == run);
+        let of_run = sound.iter().enumerate().filter(|(_, ran)| ran.case.data.1 == run);
         of_run.map(|(index, _)| index).nth(nth).expect("a case")
     };
-    let stiffest = sound.iter().filter(|ran| ran.case.data.run == RunOf::Impact).count() - 1;
+    let stiffest = sound.iter().filter(|ran| ran.case.data.1 == RunOf::Impact).count() - 1;
     let with = |run: RunOf, nth: usize, change: &dyn Fn(&mut ShownImpact)| {
         verdict_with(&study, &sound, position(run, nth), |found| change(found))
     };

@@ -29,15 +29,6 @@ pub struct AnyOrderControls {
     faults: Vec<Fault>,
 }
 
-/// One study under one fault.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Faulty {
-    /// The study, by its place in the list.
-    pub study: usize,
-    /// What is wrong.
-    pub fault: Fault,
-}
-
 /// What the study says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judged {
@@ -70,27 +61,28 @@ impl FromFile for AnyOrderControls {
 }
 
 impl Kind for AnyOrderControls {
-    type Data = Faulty;
+    /// A study, by its place in the list, and what is wrong.
+    type Data = (usize, Fault);
     type Found = Judged;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<Faulty>> {
+    fn cases(&self) -> Vec<Case<(usize, Fault)>> {
         let case = |study: usize, fault: Fault| {
             let name = if fault == Fault::None { "no fault" } else { fault.name() };
             Case {
                 label: format!("{}, {name}", self.studies[study].header().id),
                 cost: self.studies[study].cases().iter().map(|case| case.cost).sum(),
-                data: Faulty { study, fault },
+                data: (study, fault),
             }
         };
         let of_study = |study: usize| self.faults.iter().map(move |&fault| case(study, fault));
         (0..self.studies.len()).flat_map(of_study).collect()
     }
 
-    fn run(&self, &Faulty { study, fault }: &Faulty) -> Result<Judged, CaseFailure> {
+    fn run(&self, &(study, fault): &(usize, Fault)) -> Result<Judged, CaseFailure> {
         let study = &self.studies[study];
         let planted = match fault {
             Fault::Coefficient(key) => {
@@ -110,13 +102,13 @@ impl Kind for AnyOrderControls {
         Ok(Judged { verdict: planted.judge(&ran).verdict, error })
     }
 
-    fn judge(&self, ran: &[Ran<Faulty, Judged>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, Fault), Judged>]) -> Outcome {
         // Of a wrong run a number that is not finite is a detection.
         let completion = completion(ran, |_| vec![]);
         let mut matrix = Matrix::new(self.studies.iter().map(Kind::header), true, completion);
         let (mut quantities, mut honest) = (vec![], 0.0);
         for &fault in &self.faults {
-            let judged = |study: usize| ran.iter().find(|ran| ran.case.data == Faulty { study, fault })?.ok();
+            let judged = |study: usize| found(ran, &(study, fault));
             let judged: Vec<Option<&Judged>> = (0..self.studies.len()).map(judged).collect();
             for (study, judged) in self.studies.iter().zip(&judged) {
                 let error = judged.map_or(f64::NAN, |judged| judged.error);

@@ -22,17 +22,6 @@ pub struct Controls {
     studies: Vec<Convergence>,
 }
 
-/// One level of one study, on which every fault is planted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LevelOf {
-    /// The study, by its place in the list.
-    pub study: usize,
-    /// Elements of the level.
-    pub elements: usize,
-    /// Time steps of the level.
-    pub steps: usize,
-}
-
 /// The errors of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planted {
@@ -52,7 +41,8 @@ impl FromFile for Controls {
 }
 
 impl Kind for Controls {
-    type Data = LevelOf;
+    /// A study, by its place in the list, and elements and steps of a level of it, on which every fault is planted.
+    type Data = (usize, (usize, usize));
     /// One run for each fault that can be planted.
     type Found = Vec<Planted>;
 
@@ -60,25 +50,25 @@ impl Kind for Controls {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<LevelOf>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let faults = Fault::all().len() as f64;
         let case = |study: usize, (n, steps): (usize, usize)| Case {
             label: format!("{}, n = {n}, {steps} steps", self.studies[study].header.id),
             cost: n as f64 * (steps as f64 * faults + 50.0),
-            data: LevelOf { study, elements: n, steps },
+            data: (study, (n, steps)),
         };
         let levels = |study: usize| self.studies[study].refine.cases().into_iter().map(move |level| case(study, level));
         (0..self.studies.len()).flat_map(levels).collect()
     }
 
-    fn run(&self, level: &LevelOf) -> Result<Vec<Planted>, CaseFailure> {
-        let spec = &self.studies[level.study];
-        let mut prepared = spec.prepared(level.elements)?;
+    fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<Planted>, CaseFailure> {
+        let spec = &self.studies[study];
+        let mut prepared = spec.prepared(elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
             let Some(disagreement) = fault.plant(spec, self.relative) else { continue };
             // A fault that breaks a run down is detected; only the honest run has to end.
-            let errors = match prepared.run(level.steps, disagreement) {
+            let errors = match prepared.run(steps, disagreement) {
                 Ok(errors) => errors,
                 Err(failure) if fault == Fault::None => return Err(failure),
                 Err(_) => BROKEN,
@@ -88,7 +78,7 @@ impl Kind for Controls {
         Ok(found)
     }
 
-    fn judge(&self, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, (usize, usize)), Vec<Planted>>]) -> Outcome {
         // Of a wrong run a number that is not finite is a detection.
         let not_finite = |found: &Vec<Planted>| {
             let honest = found.iter().find(|planted| planted.fault == Fault::None);
@@ -112,14 +102,19 @@ impl Kind for Controls {
 
 impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` where the fault cannot be planted.
-    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Option<Verdict> {
+    fn verdict(
+        &self,
+        study: usize,
+        fault: Fault,
+        ran: &[Ran<(usize, (usize, usize)), Vec<Planted>>],
+    ) -> Option<Verdict> {
         let spec = &self.studies[study];
         fault.plant(spec, self.relative)?;
-        let level = |ran: &Ran<LevelOf, Vec<Planted>>| {
+        let level = |ran: &Ran<(usize, (usize, usize)), Vec<Planted>>| {
             let planted = ran.ok().and_then(|found| found.iter().find(|planted| planted.fault == fault));
-            ((ran.case.data.elements, ran.case.data.steps), planted.map_or(BROKEN, |planted| planted.errors))
+            (ran.case.data.1, planted.map_or(BROKEN, |planted| planted.errors))
         };
-        let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.study == study).map(level).collect();
+        let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.0 == study).map(level).collect();
         Some(Verdict::worst(verdicts(spec, &levels)))
     }
 }

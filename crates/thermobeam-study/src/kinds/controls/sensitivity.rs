@@ -24,15 +24,6 @@ pub struct Sensitivity {
     at_most: f64,
 }
 
-/// A coefficient of a study.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Coefficient {
-    /// The study, by its place in the list.
-    pub study: usize,
-    /// The coefficient.
-    pub key: &'static str,
-}
-
 impl FromFile for Sensitivity {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.require("sensitivity", "a table with studies, range and at_most")?.section()?;
@@ -46,8 +37,8 @@ impl FromFile for Sensitivity {
 }
 
 impl Kind for Sensitivity {
-    /// Coefficients that a study lacks, or has zero, are left out.
-    type Data = Coefficient;
+    /// A study, by its place in the list, and a coefficient; those that a study lacks, or has zero, are left out.
+    type Data = (usize, &'static str);
     /// The smallest relative error detected; `None` where the range does not bracket it.
     type Found = Option<f64>;
 
@@ -55,7 +46,7 @@ impl Kind for Sensitivity {
         &self.header
     }
 
-    fn cases(&self) -> Vec<Case<Coefficient>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let cost = |spec: &Convergence| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
             spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
@@ -63,18 +54,18 @@ impl Kind for Sensitivity {
         let of_study = |(study, spec): (usize, &Convergence)| {
             let can_be_planted = |key: &&'static str| Fault::Coefficient(key).plant(spec, self.at_most).is_some();
             let label = |key: &str| format!("{key} in {}", spec.header.id);
-            let case = |key| Case { label: label(key), cost: cost(spec), data: Coefficient { study, key } };
+            let case = |key| Case { label: label(key), cost: cost(spec), data: (study, key) };
             coefficients().filter(can_be_planted).map(case).collect::<Vec<_>>()
         };
         self.studies.iter().enumerate().flat_map(of_study).collect()
     }
 
-    fn run(&self, coefficient: &Coefficient) -> Result<Option<f64>, CaseFailure> {
-        let mut detector = Detector::new(&self.studies[coefficient.study])?;
-        Ok(detector.smallest(coefficient.key, self.range))
+    fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
+        let mut detector = Detector::new(&self.studies[study])?;
+        Ok(detector.smallest(key, self.range))
     }
 
-    fn judge(&self, ran: &[Ran<Coefficient, Option<f64>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Outcome {
         let not_finite =
             |smallest: &Option<f64>| readings::not_finite(&[Reading::new("the smallest error", *smallest)]);
         let mut checks = vec![completion(ran, not_finite)];
@@ -102,8 +93,8 @@ impl Kind for Sensitivity {
 
 /// The smallest error that a study detects, and its cell: NaN where the case failed, infinite where the study lacks the
 /// coefficient or the range does not bracket it.
-fn cell(study: usize, key: &str, ran: &[Ran<Coefficient, Option<f64>>]) -> (f64, String) {
-    let case = ran.iter().find(|ran| ran.case.data.study == study && ran.case.data.key == key);
+fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> (f64, String) {
+    let case = ran.iter().find(|ran| ran.case.data == (study, key));
     match case.map(|case| &case.found) {
         None => (f64::INFINITY, "n/a".to_owned()),
         Some(Err(_)) => (f64::NAN, "failed".to_owned()),

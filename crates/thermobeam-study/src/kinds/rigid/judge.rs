@@ -5,7 +5,7 @@ use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::text::number::rate_text;
 
 use super::theory::peak_penetration;
-use super::{RigidStudy, RigidTask, RunOf, ShownImpact};
+use super::{RigidStudy, RunOf, ShownImpact};
 use crate::figures::{Contraction, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
@@ -42,8 +42,8 @@ fn penetration(run: Option<&ShownImpact>) -> f64 {
 }
 
 impl<'r> Compliance<'r> {
-    fn new(epsilon: f64, ran: &'r [Ran<RigidTask, ShownImpact>], limit: Option<&ShownImpact>) -> Self {
-        let of = |run: RunOf| found(ran, &RigidTask { epsilon, run });
+    fn new(epsilon: f64, ran: &'r [Ran<(f64, RunOf), ShownImpact>], limit: Option<&ShownImpact>) -> Self {
+        let of = |run: RunOf| found(ran, &(epsilon, run));
         let bouncing = of(RunOf::Bouncing);
         let distance = match (bouncing, limit) {
             (Some(ShownImpact { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => {
@@ -107,8 +107,8 @@ fn not_finite(found: &ShownImpact) -> Vec<String> {
     readings::not_finite(&numbers.map(|(name, value)| Reading::new(name, value)))
 }
 
-pub(super) fn judge(study: &RigidStudy, ran: &[Ran<RigidTask, ShownImpact>]) -> Outcome {
-    let limit = found(ran, &RigidTask { epsilon: study.limit, run: RunOf::RigidLimit });
+pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
+    let limit = found(ran, &(study.limit, RunOf::RigidLimit));
     let all: Vec<Compliance<'_>> = study.epsilons.iter().map(|&epsilon| Compliance::new(epsilon, ran, limit)).collect();
     let rates = rates(study, &all);
     let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();

@@ -64,15 +64,6 @@ pub struct RigidStudy {
     steps: usize,
 }
 
-/// What a case computes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigidTask {
-    /// Compliance of the obstacles.
-    pub epsilon: f64,
-    /// The computation.
-    pub run: RunOf,
-}
-
 /// A computation with one compliance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunOf {
@@ -180,7 +171,8 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
 }
 
 impl Kind for RigidStudy {
-    type Data = RigidTask;
+    /// Compliance of the obstacles, and what is computed.
+    type Data = (f64, RunOf);
     type Found = ShownImpact;
 
     fn header(&self) -> &Header {
@@ -188,7 +180,7 @@ impl Kind for RigidStudy {
     }
 
     /// The rigid limit, then each compliance in four scenes.
-    fn cases(&self) -> Vec<Case<RigidTask>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |run: RunOf, epsilon: f64| {
             let (name, scene, steps) = match run {
                 RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", &self.moving, self.moving.steps() as f64),
@@ -197,14 +189,14 @@ impl Kind for RigidStudy {
                 RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
             };
             let cost = steps * scene.mesh.elements() as f64;
-            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: RigidTask { epsilon, run } }
+            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: (epsilon, run) }
         };
         let runs = [RunOf::Bouncing, RunOf::FixedPoint, RunOf::Rest, RunOf::Impact];
         let all = runs.iter().flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
         std::iter::once(case(RunOf::RigidLimit, self.limit)).chain(all).collect()
     }
 
-    fn run(&self, &RigidTask { epsilon, run }: &RigidTask) -> Result<ShownImpact, CaseFailure> {
+    fn run(&self, &(epsilon, run): &Self::Data) -> Result<ShownImpact, CaseFailure> {
         let with_compliance = |scene: &Scene| {
             let obstacles = scene.obstacles.map(|obstacles| Obstacles { epsilon, ..obstacles });
             Scene { obstacles, ..scene.clone() }
@@ -226,7 +218,7 @@ impl Kind for RigidStudy {
         }
     }
 
-    fn judge(&self, ran: &[Ran<RigidTask, ShownImpact>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
         judge::judge(self, ran)
     }
 }

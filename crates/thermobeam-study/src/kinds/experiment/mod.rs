@@ -34,7 +34,7 @@ use super::steady::{ToRest, at_resolution, listed_scene};
 use convergence_study::input::POSITIVE;
 
 pub use super::steady::{AtRest, Nearest};
-pub use run::{CurvePoint, Frame, Measured};
+pub use run::{CurvePoint, Measured};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

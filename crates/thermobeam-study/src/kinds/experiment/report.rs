@@ -2,7 +2,7 @@
 
 use super::judge::{self, OfGroup};
 use super::run::{SPAN, straight_energy};
-use super::{CurvePoint, Experiment, ExperimentTask, Experiments, Found, Frame, Measured, SectionGroup};
+use super::{CurvePoint, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup};
 use crate::figures;
 use crate::kinds::prelude::*;
 
@@ -154,11 +154,11 @@ fn tip(runs: &Each<'_>) -> plots::History {
 }
 
 /// The beam hitting its obstacles.
-fn animated(scene: &Scene, frames: &[Frame]) -> String {
+fn animated(scene: &Scene, frames: &[(f64, Vec<f64>)]) -> String {
     figures::animation(&figures::Animation {
         title: Some("The beam between its obstacles".to_owned()),
-        frames: frames.iter().map(|frame| frame.u.clone()).collect(),
-        times: frames.iter().map(|frame| frame.t).collect(),
+        frames: frames.iter().map(|(_, u)| u.clone()).collect(),
+        times: frames.iter().map(|(t, _)| *t).collect(),
         nodes: scene.mesh.nodes().to_vec(),
         obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
         seconds: SECONDS,

@@ -49,8 +49,8 @@ pub struct Measured {
     pub largest_increase: f64,
     /// Free end and energy over time.
     pub points: Vec<CurvePoint>,
-    /// Shapes of the beam over the first seconds.
-    pub frames: Vec<Frame>,
+    /// Times of the first seconds, each with u at each node.
+    pub frames: Vec<(f64, Vec<f64>)>,
 }
 
 /// A point of the curves.
@@ -64,15 +64,6 @@ pub struct CurvePoint {
     pub phi_tip: f64,
     /// The energy.
     pub energy: f64,
-}
-
-/// The shape of the beam at one time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Frame {
-    /// The time.
-    pub t: f64,
-    /// u at each node.
-    pub u: Vec<f64>,
 }
 
 /// Runs a scene until its energy stands still.
@@ -108,7 +99,7 @@ struct MotionLog<'a> {
     motion: Vec<[f64; 3]>,
     largest_increase: f64,
     points: Vec<CurvePoint>,
-    frames: Vec<Frame>,
+    frames: Vec<(f64, Vec<f64>)>,
 }
 
 impl<'a> MotionLog<'a> {
@@ -134,7 +125,7 @@ impl<'a> MotionLog<'a> {
         }
         let of_frames = (SPAN / dt).round() as usize;
         if step <= of_frames && step.is_multiple_of((of_frames / PARTS).max(1)) {
-            self.frames.push(Frame { t, u: level.u.clone() });
+            self.frames.push((t, level.u.clone()));
         }
         // Beyond the figures' span only slow, smooth motion is left.
         let stride = ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };

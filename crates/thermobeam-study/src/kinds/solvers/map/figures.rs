@@ -1,11 +1,9 @@
 //! The maps.
 
-use convergence_study::plots::{self, Axis, Series, Surface};
-use convergence_study::study::Figure;
-use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::parameters::Beam;
+use convergence_study::plots::{Axis, Series, Surface};
 
 use super::{Lines, Map, MapRows, Parameter, Point};
+use crate::kinds::prelude::*;
 
 /// Contractions below are shown as this: after a few iterations the ratio tells no more.
 const FASTEST: f64 = 1e-6;
@@ -26,7 +24,6 @@ struct MapPicture {
 }
 
 pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
-    let maps = Maps { map, rows };
     let over = map.over.name();
     let shown = [
         MapPicture {
@@ -36,7 +33,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) ->
             least: FASTEST,
             of_newton: false,
             value: |point| point.fixed_point.contraction,
-            boundaries: vec![maps.predicted(), maps.found(lines)],
+            boundaries: vec![predicted(rows), map.found(lines)],
         },
         MapPicture {
             file: "iterations",
@@ -45,7 +42,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) ->
             least: 1.0,
             of_newton: false,
             value: |point| Some(point.fixed_point.iterations as f64),
-            boundaries: vec![maps.predicted(), maps.found(lines)],
+            boundaries: vec![predicted(rows), map.found(lines)],
         },
         MapPicture {
             file: "newton",
@@ -54,7 +51,7 @@ pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) ->
             least: 1.0,
             of_newton: true,
             value: |point| Some(point.newton?.iterations as f64),
-            boundaries: maps.definite(),
+            boundaries: map.definite(),
         },
         MapPicture {
             file: "balance",
@@ -63,19 +60,14 @@ pub(super) fn all(map: &Map, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) ->
             least: EXACT,
             of_newton: true,
             value: |point| Some(point.newton?.worst.residual),
-            boundaries: vec![maps.predicted()],
+            boundaries: vec![predicted(rows)],
         },
     ];
-    shown.into_iter().map(|shown| maps.draw(id, shown)).collect()
+    shown.into_iter().map(|shown| map.draw(id, rows, shown)).collect()
 }
 
-struct Maps<'a> {
-    map: &'a Map,
-    rows: &'a MapRows<'a>,
-}
-
-impl Maps<'_> {
-    fn draw(&self, id: &str, shown: MapPicture) -> Figure {
+impl Map {
+    fn draw(&self, id: &str, rows: &MapRows<'_>, shown: MapPicture) -> Figure {
         let MapPicture { file, caption, z, least, of_newton, value, boundaries } = shown;
         let fails = if of_newton { "operator not definite" } else { "the fixed point fails" };
         let hatched = |point: &Point| if of_newton { !point.newton_completes } else { !point.fixed_point.converged };
@@ -89,10 +81,10 @@ impl Maps<'_> {
             x: Axis::log("time step dt"),
             y: self.second_axis(),
             z,
-            x_values: self.map.time_steps(),
-            y_values: self.rows.iter().map(|(value, _)| *value).collect(),
-            values: self.rows.iter().map(|(_, row)| row.iter().map(cell).collect()).collect(),
-            marked: self.rows.iter().map(|(_, row)| row.iter().map(hatched).collect()).collect(),
+            x_values: self.time_steps(),
+            y_values: rows.iter().map(|(value, _)| *value).collect(),
+            values: rows.iter().map(|(_, row)| row.iter().map(cell).collect()).collect(),
+            marked: rows.iter().map(|(_, row)| row.iter().map(hatched).collect()).collect(),
             marked_label: fails.to_owned(),
             boundaries,
         };
@@ -100,7 +92,7 @@ impl Maps<'_> {
     }
 
     fn second_axis(&self) -> Axis {
-        match self.map.over {
+        match self.over {
             Parameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
             Parameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
             Parameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
@@ -108,37 +100,37 @@ impl Maps<'_> {
         }
     }
 
-    /// α = 1, row by row between the two time steps on either side, on logarithmic scales.
-    fn predicted(&self) -> Series {
-        let crossing = |(value, row): &(f64, &[Point])| {
-            let finite: Vec<&Point> = row.iter().filter(|point| point.alpha.is_finite()).collect();
-            let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
-            let [below, above] = [pair[0], pair[1]];
-            let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
-            Some((below.dt * (above.dt / below.dt).powf(share), *value))
-        };
-        Series { label: "predicted: α = 1".to_owned(), points: self.rows.iter().filter_map(crossing).collect() }
-    }
-
     /// The boundaries found, line by line.
     fn found(&self, lines: &Lines<'_>) -> Series {
         let mut points: Vec<(f64, f64)> =
             lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value))).collect();
-        points.retain(|(_, value)| self.map.over.is_linear() || *value > 0.0);
+        points.retain(|(_, value)| self.over.is_linear() || *value > 0.0);
         points.sort_by(|a, b| a.1.total_cmp(&b.1));
         Series { label: "found by bisection".to_owned(), points }
     }
 
     /// For β above this line the operator is definite.
     fn definite(&self) -> Vec<Series> {
-        if self.map.over != Parameter::Beta {
+        if self.over != Parameter::Beta {
             return vec![];
         }
         let zeta = Beam::default().zeta;
         let force = |&dt: &f64| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt));
-        let [low, high] = self.map.range;
-        let dts = super::spaced(self.map.dt, 400, false);
+        let [low, high] = self.range;
+        let dts = super::spaced(self.dt, 400, false);
         let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta)).collect();
         vec![Series { label: "definite above: β = -B (1 + 2ζ/dt)".to_owned(), points }]
     }
+}
+
+/// α = 1, row by row between the two time steps on either side, on logarithmic scales.
+fn predicted(rows: &MapRows<'_>) -> Series {
+    let crossing = |(value, row): &(f64, &[Point])| {
+        let finite: Vec<&Point> = row.iter().filter(|point| point.alpha.is_finite()).collect();
+        let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
+        let [below, above] = [pair[0], pair[1]];
+        let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
+        Some((below.dt * (above.dt / below.dt).powf(share), *value))
+    };
+    Series { label: "predicted: α = 1".to_owned(), points: rows.iter().filter_map(crossing).collect() }
 }

@@ -58,9 +58,12 @@ pub struct Template {
     pub name: &'static str,
     /// The same in a few words, for `--help`.
     pub about: &'static str,
-    /// What follows the user's name in the name of each file, such as `.toml`, and its text, in which `NAME` stands for that name and
-    /// `PROGRAM` for the project's command.
+    /// What follows the user's name in the name of each file, such as `.toml`, and its text, in which `NAME` stands for that name,
+    /// `PROGRAM` for the project's command, `DIRECTORY` for the folder that it runs in, as seen from the files, and `BELOW` for their folder as
+    /// seen from there, such as `studies/`.
     pub files: &'static [(&'static str, &'static str)],
+    /// The text of `.gitignore` beside the files, where none is there yet; empty for none.
+    pub ignored: &'static str,
     /// Commands that take the first file, for the user to go on with: two at most.
     pub next: &'static [&'static str],
 }

@@ -2,7 +2,7 @@
 
 use std::panic::catch_unwind;
 
-use convergence_study::judge::verdict::Verdict;
+use convergence_study::judge::verdict::{Verdict, judge_pairs};
 use convergence_study::{assert_order, levels};
 
 const H: [f64; 5] = [0.25, 0.125, 0.0625, 0.03125, 0.015625];
@@ -47,4 +47,15 @@ fn levels_are_run_and_asserted_in_a_line() {
     assert!(failed.contains("n = 32: panicked at asserted.rs:") && failed.contains("pivot lost"), "{failed}");
     let nothing = panics(move || drop(levels([8, 16, 32, 64], solve).assert_passes()));
     assert!(nothing.contains("no order of any error is claimed"), "{nothing}");
+}
+
+/// The Python package has the same numbers in its `tests/test_package.py`.
+#[test]
+fn the_bits_of_a_rate_are_those_that_python_has() {
+    let table = [(0.25, 0.041), (0.125, 0.0103), (0.0625, 0.00257), (0.03125, 0.000642)];
+    let rate = judge_pairs(table, 2.0, 0.25);
+    assert_eq!(
+        (rate.fitted, rate.interval),
+        (Some(2.0020817574012386), Some([1.9826157110107165, 2.0215478037917607]))
+    );
 }

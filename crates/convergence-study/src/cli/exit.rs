@@ -2,7 +2,6 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::process::ExitCode;
 
 use crate::cli::output;
 use crate::text::visible;
@@ -59,13 +58,13 @@ impl<E: Error> From<E> for Unusable {
 pub type Outcome = Result<Ended, Unusable>;
 
 /// Reports what is unusable, and turns the outcome into the exit status.
-pub fn code(outcome: Outcome) -> ExitCode {
+pub fn status(outcome: Outcome) -> u8 {
     match outcome {
-        Ok(Ended::Well) => ExitCode::SUCCESS,
-        Ok(Ended::Badly) => ExitCode::from(1),
+        Ok(Ended::Well) => 0,
+        Ok(Ended::Badly) => 1,
         Err(Unusable(message)) => {
             output::complain(&message);
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -26,6 +26,8 @@ mod study;
 mod verify;
 pub mod workspace;
 
+use std::env;
+use std::ffi::OsString;
 use std::fmt::Write;
 use std::process::ExitCode;
 
@@ -111,9 +113,17 @@ fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command 
 
 /// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.
 pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
-    let asked = P::from_arg_matches(&line.get_matches()).unwrap_or_else(|error| error.exit());
+    ExitCode::from(status(line, env::args_os(), run))
+}
+
+fn status<P: Parser>(
+    line: clap::Command,
+    arguments: impl Iterator<Item = OsString>,
+    run: impl FnOnce(P) -> exit::Outcome,
+) -> u8 {
+    let asked = P::from_arg_matches(&line.get_matches_from(arguments)).unwrap_or_else(|error| error.exit());
     interrupt::listen();
-    exit::code(run(asked))
+    exit::status(run(asked))
 }
 
 #[derive(Debug, Parser)]
@@ -129,6 +139,11 @@ pub fn program(project: &Project) -> clap::Command {
 
 /// The whole `main` of a project that adds no commands of its own.
 pub fn main(project: &Project) -> ExitCode {
+    ExitCode::from(main_with(project, env::args_os()))
+}
+
+/// The same with these arguments, the first of which is the program; returns the exit status.
+pub fn main_with(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
     let line = program(project);
-    ended(line.clone(), |asked: CommandLine| asked.command.run(project, line))
+    status(line.clone(), arguments, |asked: CommandLine| asked.command.run(project, line))
 }

@@ -1,7 +1,7 @@
 //! `new WHAT NAME`: files to begin with.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use serde_json::json;
@@ -55,9 +55,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         atomic::prepare_folder(folder)?;
     }
+    let (directory, below) = places(flags.out.as_deref());
     for (path, text) in &files {
         let text = text.replace("NAME", name).replace("PROGRAM", project.command);
-        atomic::write(path, text)?;
+        atomic::write(path, text.replace("DIRECTORY", &directory).replace("BELOW", &below))?;
+    }
+    let ignored = flags.out.as_deref().unwrap_or(Path::new("")).join(".gitignore");
+    if !template.ignored.is_empty() && fs::symlink_metadata(&ignored).is_err() {
+        atomic::write(&ignored, template.ignored)?;
     }
     let wrote: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     let written = format!("wrote {}", wrote.join(", "));
@@ -68,6 +73,20 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let words = flags.words(Verdict::Pass, &written, || text);
     flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?;
     Ok(Ended::Well)
+}
+
+/// The folder that the command runs in as seen from the files, and theirs as seen from there, with the slash behind it. A folder that is not
+/// below is the one that everything is in.
+fn places(folder: Option<&Path>) -> (String, String) {
+    let parts: Vec<Component<'_>> =
+        folder.into_iter().flat_map(Path::components).filter(|part| *part != Component::CurDir).collect();
+    let is_below =
+        |part: &Component<'_>| matches!(part, Component::Normal(name) if !name.as_encoded_bytes().contains(&b'"'));
+    if parts.is_empty() || !parts.iter().all(is_below) {
+        return (".".to_owned(), String::new());
+    }
+    let below = parts.iter().map(|part| format!("{}/", part.as_os_str().display())).collect();
+    (vec![".."; parts.len()].join("/"), below)
 }
 
 /// The files of a template in a folder, or in the current one, and their texts.

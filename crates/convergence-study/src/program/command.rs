@@ -11,6 +11,7 @@ use super::answer::{Answer, Expected};
 use super::guard::Group;
 use super::output::{read_last_words, read_output};
 use crate::study::CaseFailure;
+use crate::text::number::plain_text;
 use crate::text::visible::visible;
 
 /// Between the request to end and the signal that cannot be ignored.
@@ -66,7 +67,8 @@ impl Invocation {
         }
         let held = |_| "a process that it has started holds its standard output open".to_owned();
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.map_err(|reason| failed(format!("answered nothing: {reason}{words}")))?;
+        let object =
+            object.map_err(|reason| failed(format!("answered nothing: {}{words}", with_example(reason, expected))))?;
         let unusable = |error: String| CaseFailure { reason: format!("{program}: {error}{words}") };
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
         let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
@@ -125,6 +127,14 @@ fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: 
         let _ = thread::Builder::new().spawn(move || send.send(read(stream)));
     }
     receive
+}
+
+/// The reason, with the line that would be an answer: the number is that of the last line, where it ends in one.
+fn with_example(reason: String, expected: &[Expected]) -> String {
+    let Some(first) = expected.first() else { return reason };
+    let number = reason.trim_end_matches('`').rsplit([':', '=', ' ']).next().and_then(|word| word.parse().ok());
+    let number = plain_text(number.filter(|number: &f64| number.is_finite()).unwrap_or(1.5e-3));
+    format!("{reason}; expected a last line such as {{\"{}s\": {{\"{}\": {number}}}}}", first.what(), first.name)
 }
 
 /// Exit status or signal, in words.

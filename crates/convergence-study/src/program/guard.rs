@@ -8,9 +8,11 @@
 //! A process that has left its group, such as a daemon, is found on Linux by the mark in its environment.
 
 use std::env;
+use std::ffi::OsString;
 use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
 
 #[cfg(unix)]
 use unix as system;
@@ -24,13 +26,25 @@ const MARK: &str = "CONVERGENCE_STUDY_CASE";
 /// Set in guards: one that runs studies instead would start guards without end.
 const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
 
-/// Whether this executable has the command [`COMMAND`].
-static HAS_GUARDS: AtomicBool = AtomicBool::new(false);
+/// The command that starts a guard, without its mark; nothing where there are none.
+static GUARD: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Says by which command a guard is started, where this executable is an interpreter: the program and its arguments, to which the mark is
+/// added. Of several calls, and of [`enable`], the first counts.
+pub fn enable_by(command: Vec<OsString>) {
+    let _ = GUARD.set(command);
+}
 
 /// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's command line does; without it, as in a
 /// program that uses this crate as a library, processes end with their case, but not where this process is killed.
 pub fn enable() {
-    HAS_GUARDS.store(true, Ordering::Relaxed);
+    enable_by(this_executable().map_or(vec![], |own| vec![own.into(), COMMAND.into()]));
+}
+
+/// On Linux also where the file has been replaced since.
+fn this_executable() -> io::Result<PathBuf> {
+    let own = Path::new("/proc/self/exe");
+    if own.exists() { Ok(own.to_owned()) } else { env::current_exe() }
 }
 
 /// Whether this process was started as a guard.
@@ -73,10 +87,8 @@ impl Group {
     /// The guard cannot be started.
     pub(super) fn new() -> io::Result<Self> {
         let mark = new_mark();
-        if !HAS_GUARDS.load(Ordering::Relaxed) {
-            return Ok(Self { mark, guard: None, leader: None });
-        }
-        let guard = system::start_guard(&mark)?;
+        let Some(command) = GUARD.get() else { return Ok(Self { mark, guard: None, leader: None }) };
+        let guard = system::start_guard(command, &mark)?;
         Ok(Self { mark, leader: Some(guard.id()), guard: Some(guard) })
     }
 
@@ -137,7 +149,7 @@ impl Group {
 
 /// A mark that no other case has, of this process or another.
 fn new_mark() -> String {
-    use std::sync::atomic::AtomicU64;
+    use std::sync::atomic::{AtomicU64, Ordering};
     use std::time::{SystemTime, UNIX_EPOCH};
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
@@ -146,11 +158,11 @@ fn new_mark() -> String {
 
 #[cfg(unix)]
 mod unix {
+    use std::ffi::OsString;
     use std::os::unix::process::CommandExt;
-    use std::path::{Path, PathBuf};
     use std::process::{Child, Command, Stdio};
     use std::time::Duration;
-    use std::{env, fs, io, thread};
+    use std::{fs, io, thread};
 
     use nix::sys::signal::{SigSet, Signal, killpg};
     use nix::unistd::{Pid, getpgrp};
@@ -163,12 +175,16 @@ mod unix {
     /// A process may start others while the processes are listed.
     const MOST_ROUNDS: usize = 100;
 
-    pub(super) fn start_guard(mark: &str) -> io::Result<Child> {
+    pub(super) fn start_guard(command: &[OsString], mark: &str) -> io::Result<Child> {
         if super::is_guard() {
             return Err(io::Error::other("this process was started as a guard"));
         }
-        let mut guard = Command::new(this_executable()?)
-            .args([COMMAND, mark])
+        let Some((program, arguments)) = command.split_first() else {
+            return Err(io::Error::other("this executable has no path"));
+        };
+        let mut guard = Command::new(program)
+            .args(arguments)
+            .arg(mark)
             .env(IS_GUARD, "1")
             .process_group(0)
             .stdin(Stdio::piped())
@@ -183,12 +199,6 @@ mod unix {
             return Err(io::Error::other(format!("this executable has no command `{COMMAND}`")));
         }
         Ok(guard)
-    }
-
-    /// On Linux also where the file has been replaced since.
-    fn this_executable() -> io::Result<PathBuf> {
-        let own = Path::new("/proc/self/exe");
-        if own.exists() { Ok(own.to_owned()) } else { env::current_exe() }
     }
 
     /// This process has one thread: no other may take the signals that this one does not.

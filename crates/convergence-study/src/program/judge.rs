@@ -54,12 +54,9 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
 pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
     let budget = study.refine.budget?;
     let seconds: Vec<f64> = ran.iter().map(|ran| Some(ran.ok()?.seconds)).collect::<Option<_>>()?;
-    let (last, before) = (seconds[seconds.len() - 1], seconds[seconds.len() - 2]);
-    // The next level takes as many times longer as the last one did, and at least twice as long.
-    let cost = last * (last / before).max(2.0);
     let levels = levels(study, ran);
     let rates = [levels.judge(), values::judge(study, ran, &levels.refinements).rates].concat();
-    Some(until_decided::next(&rates, ran.len(), cost, seconds.iter().sum(), budget))
+    Some(until_decided::next_by_time(&rates, &seconds, budget))
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {

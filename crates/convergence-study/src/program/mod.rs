@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::input::{InputError, Section};
-use crate::project::Template;
+use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
@@ -59,8 +59,13 @@ pub const TEMPLATE: Template = Template {
     name: "program",
     about: "A convergence study of a program in any language",
     files: &[(".toml", include_str!("begin/study.toml")), (".py", include_str!("begin/program.py"))],
+    ignored: "# Results that are kept, and reports that are made anew.\n.convergence-study/\n/report/\n/reports/local/\n",
     next: &["study", "explain"],
 };
+
+/// The project of the program `convergence-study`: studies of any program, in the folder that it runs in.
+pub const PROJECT: Project =
+    Project { kinds: &[ROW], templates: &[TEMPLATE], ..Project::new("convergence-study", "convergence-study") };
 
 /// A study of a program, validated.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use super::{Finished, run_one};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Judge, ROUND_OFF_FLOOR, Verdict, judge};
-use crate::study::{ErrorsOverLevels, IntoErrors, LevelErrors};
+use crate::study::{ErrorsOverLevels, IntoErrors};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is [`DEFAULT_TOLERANCE`].
 ///
@@ -62,11 +62,7 @@ impl Finished {
     /// Verdict, errors with their rates, reasons and advice as text.
     pub fn explained(&self) -> String {
         let (id, outcome) = (&self.header.id, &self.outcome);
-        let levels = |name: &str| -> Vec<Level> {
-            let level = |level: &LevelErrors| Level { step: level.step.unwrap_or(f64::NAN), error: level.error(name) };
-            outcome.levels.iter().map(level).collect()
-        };
-        let levels: Vec<Vec<Level>> = outcome.rates.iter().map(|(name, _)| levels(name)).collect();
+        let levels: Vec<Vec<Level>> = outcome.rates.iter().map(|(name, _)| outcome.levels_of(name)).collect();
         let rates = outcome.rates.iter().zip(&levels);
         let columns: Vec<Shown<'_>> =
             rates.map(|((name, rate), levels)| Shown { name, levels, rate, late: 0 }).collect();

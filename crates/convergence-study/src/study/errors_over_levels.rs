@@ -122,7 +122,8 @@ impl<F> ErrorsOverLevels<F> {
         format!("{} = {count}", self.counted)
     }
 
-    fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
+    /// What the levels have found, which [`until_decided`](super::until_decided) judges as it grows.
+    pub fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
         let own = |ran: &Ran<_, NamedErrors>| {
             ran.ok().and_then(|found| found.iter().find(|(name, _)| is_step(name)).cloned())
         };

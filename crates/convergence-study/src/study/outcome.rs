@@ -1,5 +1,6 @@
 //! What a study has found: the one form in which studies of every kind reach record, baseline and report.
 
+use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::json;
 
@@ -188,6 +189,12 @@ mod rates {
 }
 
 impl Outcome {
+    /// The errors of that name over their steps, NaN where a level has none.
+    pub fn levels_of(&self, name: &str) -> Vec<Level> {
+        let level = |level: &LevelErrors| Level { step: level.step.unwrap_or(f64::NAN), error: level.error(name) };
+        self.levels.iter().map(level).collect()
+    }
+
     /// Puts an outcome together; the verdict is the worst of all rates and checks.
     pub fn new(summary: impl Into<String>, rates: Vec<(String, RateVerdict)>, checks: Vec<Check>) -> Self {
         let verdicts = rates.iter().map(|(_, rate)| rate.verdict).chain(checks.iter().map(|check| check.verdict));

@@ -48,6 +48,14 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     }
 }
 
+/// The same where the cost is time: the next level takes as many times longer as the last one did, and at least twice as long.
+///
+/// * `seconds`: what each level took; two at least.
+pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
+    let [.., before, last] = seconds else { return Next::Another };
+    next(rates, seconds.len(), last * (last / before).max(2.0), seconds.iter().sum(), budget)
+}
+
 /// The outcome of a study that adds levels: it says how the study ended, and guards its first levels alone, for another machine may
 /// afford others.
 pub fn ended(mut outcome: Outcome, next: Next, levels: &Levels, budget: f64, unit: &str) -> Outcome {

@@ -446,6 +446,19 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     } else {
         assert!(status == Some(1) && out.contains("python3 cannot be started"), "{out}");
     }
+    // In a folder of a repository the program runs from where the command was: from its root.
+    let (status, out, err) = run(&root, &["new", "program", "other", "--out", "studies"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    let text = fs::read_to_string(root.path().join("studies/other.toml")).unwrap();
+    assert!(text.contains("directory = \"..\"") && text.contains("files = [\"studies/other.py\"]"), "{text}");
+    let ignored = fs::read_to_string(root.path().join("studies/.gitignore")).unwrap();
+    assert!(ignored.contains("\n.convergence-study/\n"), "{ignored}");
+    if Command::new("python3").arg("--version").output().is_ok() {
+        assert_eq!(run(&root, &["study", "studies/other.toml"]).0, Some(0));
+        fs::write(root.path().join("studies/other.py"), "print('max error: 1e-3')\n").unwrap();
+        let (_, out, _) = run(&root, &["study", "studies/other.toml"]);
+        assert!(out.contains("expected a last line such as {\"errors\": {\"max\": 0.001}}"), "{out}");
+    }
     // The second file is there: the first is not written either.
     fs::remove_file(root.path().join("mine.toml")).unwrap();
     let (status, _, err) = run(&root, &["new", "program", "mine"]);

@@ -92,6 +92,12 @@ impl RateTable {
         columns::read(RawTable::read(&text::plain(text)), file_name, choice)
     }
 
+    /// The column of errors of this name, with or without its unit.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        let at = names::position(self.columns.iter().map(|column| column.name.as_str()), name)?;
+        self.columns.get(at)
+    }
+
     /// Judges every column of errors against its order.
     pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
         let claim = |column: &Column| Claim::new(order(&column.name), judge.tolerance());

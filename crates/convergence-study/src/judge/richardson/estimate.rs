@@ -145,6 +145,15 @@ impl Estimator {
     }
 }
 
+impl Estimator {
+    /// The same where no order is claimed: the observed one stands for it in limit and index, and nothing is confirmed.
+    pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
+        let judged = self.estimate(values, f64::NAN).judged;
+        let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
+        Estimate { judged, ..self.estimate(values, observed) }
+    }
+}
+
 /// Whether there is a difference to extrapolate from.
 fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
     let step_usable = |level: &Value| level.step > 0.0 && level.step.is_finite();

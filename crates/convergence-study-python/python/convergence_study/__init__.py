@@ -1,0 +1,14 @@
+"""Convergence studies: rates with intervals, and verdicts that are hard to fool.
+
+>>> import convergence_study as cs
+>>> h = [0.25, 0.125, 0.0625, 0.03125]
+>>> cs.judge(h, [0.041, 0.0103, 0.00257, 0.000642], order=2).verdict
+'pass'
+
+`judge` and `assert_order` take errors that are there, `study` a function that computes them, `limit` values without an exact solution. All of
+them ask the Rust crate `convergence-study`; there is no rule in Python.
+"""
+
+from ._native import Judgement, Limit, Study, assert_order, judge, limit, study
+
+__all__ = ["Judgement", "Limit", "Study", "assert_order", "judge", "limit", "study"]

@@ -1,0 +1,16 @@
+"""The program `convergence-study`; also `python -m convergence_study`, which its guards of processes are started by."""
+
+import signal
+import sys
+
+from ._native import run_program
+
+
+def main():
+    # The program answers Ctrl-C itself; Python would only take it down for later.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sys.exit(run_program(sys.executable, sys.argv[1:]))
+
+
+if __name__ == "__main__":
+    main()

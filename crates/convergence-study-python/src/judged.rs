@@ -1,0 +1,313 @@
+//! Tables of errors, judged.
+
+use convergence_study::input::error_table::{Choice, RateTable};
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::richardson::{Estimate, Estimator, Value};
+use convergence_study::judge::shown::{self, Shown};
+use convergence_study::judge::verdict::{ROUND_OFF_FLOOR, RateVerdict};
+use convergence_study::study::levels::{ErrorColumn, Levels};
+use convergence_study::study::{Axis, Claim, Refinement};
+use pyo3::exceptions::{PyAssertionError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::values::{self, Claims, refuse};
+
+/// What was found of one error: the verdict, and the numbers that it rests on.
+///
+/// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval: its two ends (95 %), or None; pairwise: the
+/// rates between neighbouring levels, one fewer than levels, NaN where there is none; code, reason, advice: why, and what to do (None for a pass);
+/// order: what was claimed, or None; table(): step, error and rate of each level, coarse to fine, as a pandas DataFrame where pandas is
+/// there, else as a dict of lists. It has no truth value. In a notebook it is a table and a picture.
+#[pyclass(frozen, module = "convergence_study")]
+pub(crate) struct Judgement {
+    pub(crate) name: String,
+    pub(crate) step: String,
+    pub(crate) levels: Vec<Level>,
+    pub(crate) rate: RateVerdict,
+}
+
+impl Judgement {
+    fn shown(&self) -> Shown<'_> {
+        Shown { name: &self.name, levels: &self.levels, rate: &self.rate, late: 0 }
+    }
+
+    /// The errors over the steps, with the rate and the order claimed.
+    fn picture(&self) -> String {
+        let refinement = |level: &Level| Refinement { label: String::new(), parameters: vec![], step: level.step };
+        let claim = Some(Claim::new(self.rate.order, self.rate.tolerance)).filter(|claim| claim.order.is_finite());
+        let errors = self.levels.iter().map(|level| Some(level.error)).collect();
+        let axis = if self.step == "dt" { Axis::Time } else { Axis::Space };
+        let columns = vec![ErrorColumn { name: self.name.clone(), errors, claim, look: 0 }];
+        let levels = Levels { axis, refinements: self.levels.iter().map(refinement).collect(), columns };
+        levels.figure(String::new(), None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
+    }
+}
+
+#[pymethods]
+impl Judgement {
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    #[getter]
+    fn verdict(&self) -> &'static str {
+        self.rate.verdict.name()
+    }
+
+    #[getter]
+    fn order(&self) -> Option<f64> {
+        Some(self.rate.order).filter(|order| !order.is_nan())
+    }
+
+    #[getter]
+    fn rate(&self) -> Option<f64> {
+        self.rate.fitted
+    }
+
+    #[getter]
+    fn interval(&self) -> Option<(f64, f64)> {
+        self.rate.interval.map(|[low, high]| (low, high))
+    }
+
+    #[getter]
+    fn pairwise(&self) -> Vec<f64> {
+        self.rate.pairwise.clone()
+    }
+
+    #[getter]
+    fn code(&self) -> &'static str {
+        self.rate.kind.code()
+    }
+
+    #[getter]
+    fn reason(&self) -> &str {
+        &self.rate.reason
+    }
+
+    #[getter]
+    fn advice(&self) -> Option<&'static str> {
+        self.rate.advice()
+    }
+
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let rates = std::iter::once(f64::NAN).chain(self.rate.pairwise.iter().copied()).collect();
+        let column = |value: fn(&Level) -> f64| self.levels.iter().map(value).collect::<Vec<f64>>();
+        let columns = [
+            (self.step.clone(), column(|level| level.step)),
+            (self.name.clone(), column(|level| level.error)),
+            ("rate".to_owned(), rates),
+        ];
+        frame(py, &columns)
+    }
+
+    fn __bool__(&self) -> PyResult<bool> {
+        Err(PyTypeError::new_err("a judgement is no truth value: pass, fail or inconclusive; ask .verdict"))
+    }
+
+    fn __repr__(&self) -> String {
+        shown::explained(&self.step, &[self.shown()], ROUND_OFF_FLOOR)
+    }
+
+    fn _repr_html_(&self) -> String {
+        html(&self.__repr__(), &[self.picture()])
+    }
+}
+
+/// Text and pictures for a notebook.
+pub(crate) fn html(text: &str, pictures: &[String]) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    format!("<div><pre>{text}</pre>{}</div>", pictures.concat())
+}
+
+/// A data frame where the caller has imported pandas, else a dict of lists.
+pub(crate) fn frame<'py>(py: Python<'py>, columns: &[(String, Vec<f64>)]) -> PyResult<Bound<'py, PyAny>> {
+    let table = PyDict::new(py);
+    columns.iter().try_for_each(|(name, numbers)| table.set_item(name, numbers))?;
+    match py.import("pandas") {
+        Ok(pandas) => pandas.call_method1("DataFrame", (table,)),
+        Err(_) => Ok(table.into_any()),
+    }
+}
+
+/// The errors of one or several columns, judged.
+fn judged(
+    h: &Bound<'_, PyAny>,
+    errors: Option<&Bound<'_, PyAny>>,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<(Vec<Judgement>, bool)> {
+    let judge = values::judge_with(tolerance)?;
+    let judgement = |step: &str, name: &str, levels: Vec<Level>, claim: Claim| {
+        let rate = claim.judge(&judge, &levels);
+        Judgement { name: name.to_owned(), step: step.to_owned(), levels, rate }
+    };
+    let claims = match errors {
+        Some(errors) => {
+            let claim = values::claim(order, tolerance)?;
+            return Ok((vec![judgement("h", "error", values::levels(h, "errors", errors)?, claim)], false));
+        }
+        None => Claims::read(order, tolerance)?,
+    };
+    let table = table(h, &claims.names())?;
+    let known = || table.columns.iter().map(|column| column.name.as_str()).collect::<Vec<_>>().join(", ");
+    let of = |name: &str, claim: &Claim| {
+        let unknown = || refuse(format!("order: expected names of columns of errors, {}; found `{name}`", known()));
+        let column = table.column(name).ok_or_else(unknown)?;
+        Ok(judgement(&table.step, &column.name, column.levels.clone(), *claim))
+    };
+    let found = match &claims {
+        Claims::ForAll(claim) => table.columns.iter().map(|column| of(&column.name, claim)).collect::<PyResult<_>>()?,
+        Claims::Named(named) => named.iter().map(|(name, claim)| of(name, claim)).collect::<PyResult<_>>()?,
+    };
+    Ok((found, true))
+}
+
+/// A data frame as `convergence-study rates` reads its text, with all digits.
+fn table(table: &Bound<'_, PyAny>, claimed: &[String]) -> PyResult<RateTable> {
+    let Some(columns) = values::columns(table, claimed)? else {
+        return Err(refuse("errors: expected the errors at the steps h, or a data frame in place of h"));
+    };
+    let rows = columns.iter().map(|(_, numbers)| numbers.len()).max().unwrap_or(0);
+    if let Some((name, numbers)) = columns.iter().find(|(_, numbers)| numbers.len() != rows) {
+        return Err(refuse(format!("{name}: expected {rows} numbers, as other columns have; found {}", numbers.len())));
+    }
+    let names: Vec<String> = columns.iter().map(|(name, _)| format!("\"{}\"", name.replace('"', "'"))).collect();
+    let mut text = names.join(",") + "\n";
+    for row in 0..rows {
+        let cells: Vec<String> = columns.iter().map(|(_, numbers)| format!("{:?}", numbers[row])).collect();
+        text += &(cells.join(",") + "\n");
+    }
+    let choice = Choice { claimed: claimed.to_vec(), ..Choice::default() };
+    RateTable::parse_with(&text, "the data frame", &choice).map_err(refuse)
+}
+
+/// Judges errors against the order that theory claims.
+///
+/// h: the steps, in any order, positive; errors: as many errors, in any unit. Lists, arrays and series are taken. Or h is a data frame, or a
+/// dict of lists, with a column of steps and columns of errors, which are recognised as `convergence-study rates` does; errors is then None.
+/// order: a number > 0, or ">= 2" for a least order; of a data frame also a dict of names and orders; None for none, which is never
+/// a pass. tolerance: how far the rate may be from the order, 0 < tolerance < 0.5.
+///
+/// Returns a Judgement; of a data frame a dict of them by name. Raises ValueError, which names the argument, for what is no table of
+/// numbers: NaN among the errors is a finding and no such thing.
+#[pyfunction]
+#[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
+pub(crate) fn judge<'py>(
+    py: Python<'py>,
+    h: &Bound<'py, PyAny>,
+    errors: Option<&Bound<'py, PyAny>>,
+    order: Option<&Bound<'py, PyAny>>,
+    tolerance: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (mut found, is_frame) = judged(h, errors, order, tolerance)?;
+    if let (false, Some(one)) = (is_frame, found.pop_if(|_| !is_frame)) {
+        return Ok(Bound::new(py, one)?.into_any());
+    }
+    let by_name = PyDict::new(py);
+    for judgement in found {
+        by_name.set_item(judgement.name.clone(), Bound::new(py, judgement)?)?;
+    }
+    Ok(by_name.into_any())
+}
+
+/// Does nothing where the order is confirmed; arguments as those of judge.
+///
+/// Raises AssertionError with the table, the rate, its interval, the reason and what to do, unless every verdict is a pass: inconclusive is none.
+/// Raises ValueError as judge does.
+#[pyfunction]
+#[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
+pub(crate) fn assert_order(
+    h: &Bound<'_, PyAny>,
+    errors: Option<&Bound<'_, PyAny>>,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<()> {
+    let (found, _) = judged(h, errors, order, tolerance)?;
+    if !found.is_empty() && found.iter().all(|judgement| judgement.rate.verdict.is_pass()) {
+        return Ok(());
+    }
+    let step = found.first().map_or("h", |judgement| &judgement.step);
+    let columns: Vec<Shown<'_>> = found.iter().map(Judgement::shown).collect();
+    let text = shown::explained(step, &columns, ROUND_OFF_FLOOR);
+    Err(PyAssertionError::new_err(format!("the order is not confirmed\n{text}")))
+}
+
+/// The limit of values at h = 0.
+///
+/// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci: half the width of the grid convergence index
+/// about the finest value; all in the unit of the values, and None where there is no such number. order: the one observed; verdict: on the
+/// order claimed; reason: why there is no limit, or how the order was found.
+#[pyclass(frozen, module = "convergence_study")]
+pub(crate) struct Limit {
+    estimate: Estimate,
+}
+
+#[pymethods]
+impl Limit {
+    #[getter]
+    fn value(&self) -> Option<f64> {
+        self.estimate.bar.as_ref().ok().map(|bar| bar.extrapolated)
+    }
+
+    #[getter]
+    fn interval(&self) -> Option<(f64, f64)> {
+        self.estimate.bar.as_ref().ok().map(|bar| (bar.limit[0], bar.limit[1]))
+    }
+
+    #[getter]
+    fn error(&self) -> Option<f64> {
+        self.estimate.bar.as_ref().ok().map(|bar| bar.error)
+    }
+
+    #[getter]
+    fn order(&self) -> Option<f64> {
+        self.estimate.judged.fitted
+    }
+
+    #[getter]
+    fn gci(&self) -> Option<f64> {
+        self.estimate.gci.as_ref().ok().map(|gci| gci.half_width)
+    }
+
+    #[getter]
+    fn verdict(&self) -> &'static str {
+        self.estimate.judged.verdict.name()
+    }
+
+    #[getter]
+    fn reason(&self) -> String {
+        self.estimate.bar.as_ref().map_or_else(ToString::to_string, |_| self.estimate.judged.reason.clone())
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.estimate.bar {
+            Ok(bar) => {
+                format!("limit {:?} ({:?} to {:?}): {}", bar.extrapolated, bar.limit[0], bar.limit[1], self.reason())
+            }
+            Err(refusal) => format!("no limit: {refusal}"),
+        }
+    }
+}
+
+/// The limit of values at h = 0, of which no exact value is known, with its interval, the observed order and the grid convergence index.
+///
+/// h: the steps, in any order, positive; values: as many values, three at least, in any unit. order: what theory claims, or None: then
+/// the observed order stands for it. tolerance as that of judge. Returns a Limit. Raises ValueError, which names the argument.
+#[pyfunction]
+#[pyo3(signature = (h, values, order=None, tolerance=0.25))]
+pub(crate) fn limit(
+    h: &Bound<'_, PyAny>,
+    values: &Bound<'_, PyAny>,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<Limit> {
+    let claim = values::claim(order, tolerance)?;
+    let levels = values::levels(h, "values", values)?;
+    let values: Vec<Value> = levels.iter().map(|level| Value { step: level.step, value: level.error }).collect();
+    let estimator = Estimator::new(tolerance).map_err(refuse)?;
+    let estimate =
+        if order.is_none() { estimator.estimate_unclaimed(&values) } else { estimator.estimate(&values, claim.order) };
+    Ok(Limit { estimate })
+}

@@ -1,0 +1,37 @@
+//! The Python package `convergence_study`: values of Python become those of the crate `convergence-study`, which judges them.
+//!
+//! There is no rule here: whether an order is confirmed is decided where Rust and the command line ask, too.
+
+mod judged;
+mod session;
+mod studied;
+mod values;
+
+use std::ffi::OsString;
+
+use convergence_study::cli;
+use convergence_study::program::{self, guard};
+use pyo3::prelude::*;
+
+/// The program `convergence-study`; returns its exit status.
+///
+/// * `executable`: the Python interpreter, which starts the guards of processes by `python -m convergence_study guard`.
+/// * `arguments`: those of the program, without its name.
+#[pyfunction]
+fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -> u8 {
+    guard::enable_by([executable, "-m".into(), "convergence_study".into(), guard::COMMAND.into()].into());
+    let arguments = std::iter::once("convergence-study".into()).chain(arguments);
+    py.detach(|| cli::main_with(&program::PROJECT, arguments))
+}
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::judged::{Judgement, Limit, assert_order, judge, limit};
+    #[pymodule_export]
+    use super::run_program;
+    #[pymodule_export]
+    use super::session::finish;
+    #[pymodule_export]
+    use super::studied::{Study, of_table, study};
+}

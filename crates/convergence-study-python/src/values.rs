@@ -1,0 +1,125 @@
+//! Values of Python as those of Rust; what cannot be one is a `ValueError` that names the argument.
+
+use convergence_study::judge::claims::{Claim, order_from_text};
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::verdict::Judge;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
+
+/// What an order may be.
+const ORDER: &str = "a number > 0, or a text such as \">= 2\"";
+
+pub(crate) fn refuse(message: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(message.to_string())
+}
+
+/// The start of what Python shows of a value.
+fn shown(value: &Bound<'_, PyAny>) -> String {
+    let text = value.repr().map_or_else(|_| "a value".to_owned(), |text| text.to_string());
+    if text.chars().count() > 60 { text.chars().take(60).chain("...".chars()).collect() } else { text }
+}
+
+fn is_text(value: &Bound<'_, PyAny>) -> bool {
+    value.is_instance_of::<PyString>() || value.is_instance_of::<PyBytes>() || value.is_instance_of::<PyBool>()
+}
+
+/// A number; NaN and infinity are numbers.
+pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let expected = || refuse(format!("{}: expected a number, found {}", name(), shown(value)));
+    if is_text(value) { Err(expected()) } else { value.extract().map_err(|_| expected()) }
+}
+
+/// The numbers of a list, an array, a series: whatever has `tolist` or `to_list`, or can be iterated.
+pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let expected = || refuse(format!("{name}: expected a sequence of numbers, found {}", shown(value)));
+    if is_text(value) || value.is_instance_of::<PyDict>() {
+        return Err(expected());
+    }
+    let list = ["tolist", "to_list"].into_iter().find(|method| value.hasattr(*method).unwrap_or(false));
+    let list = list.map_or_else(|| Ok(value.clone()), |method| value.call_method0(method))?;
+    let items = list.try_iter().map_err(|_| expected())?;
+    items.enumerate().map(|(k, item)| number(|| format!("{name}[{k}]"), &item?)).collect()
+}
+
+/// The levels, coarse to fine, in whatever order they come.
+pub(crate) fn levels(h: &Bound<'_, PyAny>, name: &str, errors: &Bound<'_, PyAny>) -> PyResult<Vec<Level>> {
+    let (steps, errors) = (numbers("h", h)?, numbers(name, errors)?);
+    if steps.is_empty() {
+        return Err(refuse("h: expected the step of each level, found none"));
+    }
+    if steps.len() != errors.len() {
+        let (found, expected) = (errors.len(), steps.len());
+        return Err(refuse(format!("{name}: expected as many numbers as h has, {expected}; found {found}")));
+    }
+    if let Some(k) = steps.iter().position(|step| !(*step > 0.0 && step.is_finite())) {
+        return Err(refuse(format!("h[{k}]: expected a finite number > 0, found {}", steps[k])));
+    }
+    let mut levels: Vec<Level> = steps.into_iter().zip(errors).map(|(step, error)| Level { step, error }).collect();
+    levels.sort_by(|a, b| b.step.total_cmp(&a.step));
+    Ok(levels)
+}
+
+/// The rule with a tolerance.
+pub(crate) fn judge_with(tolerance: f64) -> PyResult<Judge> {
+    Judge::new(tolerance).map_err(refuse)
+}
+
+/// What is claimed of an error; of none the order is NaN, which nothing confirms.
+pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Claim> {
+    judge_with(tolerance)?;
+    let Some(order) = order else { return Ok(Claim::new(f64::NAN, tolerance)) };
+    let expected = || refuse(format!("order: expected {ORDER}, found {}", shown(order)));
+    let (order, at_least) = match order.extract::<String>() {
+        Ok(text) => order_from_text(&text).ok_or_else(expected)?,
+        Err(_) => (number(|| "order".to_owned(), order).map_err(|_| expected())?, false),
+    };
+    if !(order > 0.0 && order.is_finite()) {
+        return Err(expected());
+    }
+    Ok(Claim { at_least, ..Claim::new(order, tolerance) })
+}
+
+/// Claims by name, or one for all names.
+pub(crate) enum Claims {
+    ForAll(Claim),
+    Named(Vec<(String, Claim)>),
+}
+
+impl Claims {
+    pub(crate) fn read(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Self> {
+        let Some(by_name) = order.and_then(|order| order.cast::<PyDict>().ok()) else {
+            return Ok(Self::ForAll(claim(order, tolerance)?));
+        };
+        let named = by_name.iter().map(|(name, order)| Ok((name.extract()?, claim(Some(&order), tolerance)?)));
+        Ok(Self::Named(named.collect::<PyResult<_>>()?))
+    }
+
+    pub(crate) fn names(&self) -> Vec<String> {
+        match self {
+            Self::ForAll(_) => vec![],
+            Self::Named(named) => named.iter().map(|(name, _)| name.clone()).collect(),
+        }
+    }
+}
+
+/// The columns of numbers of a data frame or a dict of lists, by name; `None` where it is neither.
+pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<Option<Vec<(String, Vec<f64>)>>> {
+    let names = match table.cast::<PyDict>() {
+        Ok(table) => table.keys().into_any(),
+        Err(_) if table.hasattr("columns")? => table.getattr("columns")?,
+        Err(_) => return Ok(None),
+    };
+    let mut columns = vec![];
+    for name in names.try_iter()? {
+        let name = name?;
+        let text = name.str()?.to_string();
+        match numbers(&text, &table.get_item(&name)?) {
+            Ok(numbers) => columns.push((text, numbers)),
+            // A column of words is a remark, unless something is claimed of it.
+            Err(error) if needed.contains(&text) => return Err(error),
+            Err(_) => {}
+        }
+    }
+    Ok(Some(columns))
+}

@@ -31,10 +31,12 @@ class Convergence:
 
     def assert_order(self, h, errors, order, tolerance=0.25, allow_inconclusive=False):
         """As `convergence_study.assert_order`; with `allow_inconclusive` only a verdict of fail fails."""
+        __tracebackhide__ = True
         return self._judged(of_table(self._id(), h, errors, order, tolerance), allow_inconclusive)
 
     def study(self, solve, n="auto", order=None, budget=60.0, tolerance=0.25, allow_inconclusive=False):
         """As `convergence_study.study`, and asserts that it passes."""
+        __tracebackhide__ = True
         return self._judged(study(solve, n, order, budget, tolerance, self._id()), allow_inconclusive)
 
     def _id(self):

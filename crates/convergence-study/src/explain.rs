@@ -7,6 +7,13 @@ use crate::project::Project;
 use crate::study::{KindRow, Study};
 use crate::text::names::nearest;
 
+/// The code of a case that was stopped at its limit of work.
+const WORK: &str = "work";
+
+const WORK_MEANS: &str = "The case has counted three times the node-steps of its blessing, and two per cent of its tier's: it was stopped, at \
+    the same step on every machine. An iteration needs more steps, a run does not come to rest, or steps have become smaller. If more \
+    work is meant: `verify --bless`, which limits nothing, takes the new counts for `studies/work.json`.";
+
 /// A term of the project, a reason or a kind, in words; `None` where nothing has that name.
 pub fn term(project: &Project, name: &str) -> Option<String> {
     if let Some(term) = project.terms.iter().find(|term| term.name == name) {
@@ -18,6 +25,12 @@ pub fn term(project: &Project, name: &str) -> Option<String> {
         let mut words = format!("{name}, a reason for {}\n", reason.verdict());
         section(&mut words, "in short", &format!("{}.", reason.text()));
         section(&mut words, "what it means", reason.advice());
+        section(&mut words, "mathematics, and what to try", reason.mathematics());
+        return Some(words);
+    }
+    if name == WORK {
+        let mut words = format!("{name}, a reason for which a case fails\n");
+        section(&mut words, "what it means", WORK_MEANS);
         return Some(words);
     }
     let kind = project.kinds.iter().find(|kind| kind.name == name)?;
@@ -49,6 +62,7 @@ fn groups(project: &Project) -> Vec<(String, Vec<&'static str>)> {
         }
     }
     groups.push(("reasons for a verdict".to_owned(), Reason::ALL.map(Reason::code).to_vec()));
+    groups.push(("reasons for which a case fails".to_owned(), vec![WORK]));
     groups.push(("kinds of study".to_owned(), project.kinds.iter().map(|kind| kind.name).collect()));
     groups
 }

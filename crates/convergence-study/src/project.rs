@@ -22,6 +22,8 @@ pub struct Project {
     pub templates: &'static [Template],
     /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.
     pub front_pictures: &'static [(&'static str, &'static str)],
+    /// What the report of a run that passes begins with.
+    pub front: Front,
     /// What an item of a study exercises, by its name: what a diagnosis tells failing from passing items by.
     pub settings: fn(&Header, &str) -> Vec<Setting>,
     /// Where to look: a value of a setting or a field, and the place.
@@ -44,11 +46,23 @@ impl Project {
             terms: &[],
             templates: &[],
             front_pictures: &[],
+            front: Front { verified: "", plot: "", statements: &[] },
             settings,
             places: &[],
             fingerprints: None,
         }
     }
+}
+
+/// What a run that passes has verified.
+#[derive(Debug, Clone, Copy)]
+pub struct Front {
+    /// In some sentences.
+    pub verified: &'static str,
+    /// The file name of the figure that shows it.
+    pub plot: &'static str,
+    /// Statements, each with the study whose numbers answer it.
+    pub statements: &'static [(&'static str, &'static str)],
 }
 
 /// Files to begin with, commented, that run as they are.

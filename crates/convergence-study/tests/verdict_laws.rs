@@ -354,6 +354,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
         };
         assert_eq!(reason.verdict(), expected, "{reason:?}");
         assert!(reason.text().len() > 10 && reason.advice().len() > 30, "{reason:?}");
+        assert!(["To try", "to try"].iter().any(|words| reason.mathematics().contains(words)), "{reason:?}");
         // A finer level decides only what is undecided.
         assert!(!reason.wants_a_level() || expected == Verdict::Inconclusive, "{reason:?}");
     }

@@ -1,7 +1,7 @@
 //! The beam as a project of the harness.
 
 use convergence_study::program;
-use convergence_study::project::{Project, Template};
+use convergence_study::project::{Front, Project, Template};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS, settings};
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
@@ -27,11 +27,32 @@ pub const fn project(command: &'static str) -> Project {
         templates: &TEMPLATES,
         // Others show this picture, and need a name that studies do not change.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
+        front: FRONT,
         settings,
         places: &PLACES,
         fingerprints: Some(".cargo/fingerprints.json"),
     }
 }
+
+const FRONT: Front = Front {
+    verified: "Theorem 3.4 of Bernardi and Copetti bounds the error of their scheme by c (h + dt), for solutions that are smooth. Each order is \
+               measured with solutions that are known exactly, with the other error isolated, and is judged by the interval of its rate at \
+               h -> 0, not by a fit through coarse levels. A rate agrees only where its whole interval lies in the claim's tolerance, and \
+               every coefficient of the equations that is off by 1e-4 is shown to be noticed.",
+    plot: "theorem-3.4-space-rates.svg",
+    statements: &[
+        ("Theorem 3.4, in h", "theorem-3.4-space"),
+        ("Theorem 3.4, in dt", "theorem-3.4-time"),
+        ("Theorem 3.4, over a grid of h and dt", "theorem-3.4-grid"),
+        ("Proposition 3.1: the energy never rises, its balance closes", "energy-decay"),
+        ("Section 4: the fixed point contracts by alpha", "fixed-point"),
+        ("Section 5: the experiments", "section-5"),
+        ("Steady states, in closed form", "equilibria"),
+        ("Beyond: elements of degree p", "any-order-space"),
+        ("Beyond: dG(q) in time", "any-order-time"),
+        ("Beyond: the experiments to ten digits", "experiments-exact"),
+    ],
+};
 
 const TEMPLATES: [Template; 4] = [
     Template {

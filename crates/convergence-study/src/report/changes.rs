@@ -16,6 +16,11 @@ pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
 pub(super) fn parts(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
         findings.moves().iter().partition(|change| change.movement.needs_a_reason());
+    // Numbers of studies that fail move for the same cause.
+    let fails = |id: &str| {
+        findings.record.studies.iter().any(|study| study.header.id == id && !study.outcome.verdict.is_pass())
+    };
+    let numbers: Vec<&Change> = numbers.into_iter().filter(|change| !fails(&change.study)).collect();
     vec![of_claims(&claims, link), worst(&numbers, link), acceptance(findings), all(&numbers)]
 }
 

@@ -5,11 +5,13 @@ use std::collections::HashSet;
 
 use super::html::{badge, escape, phrase};
 use super::markdown::{anchor, cell, text};
+use super::section;
 use super::words::summary;
 use crate::input::visible;
 use crate::judge::verdict::{Reason, Verdict};
 use crate::run::Finished;
 use crate::store::diagnosis::Diagnosis;
+use crate::store::record::Record;
 use crate::study::case::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
@@ -83,37 +85,52 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
     NotPassed { id: header.id.clone(), verdict: outcome.verdict, reasons }
 }
 
+/// The same, the clearest first; how many of them are shown, the others being folded.
+fn clearest_first(record: &Record) -> (Vec<NotPassed>, usize) {
+    let mut studies = not_passed(&record.studies);
+    let Some(Diagnosis { clearest, .. }) = &record.diagnosis else { return (studies, usize::MAX) };
+    let place = |study: &NotPassed| clearest.iter().position(|id| *id == study.id).unwrap_or(usize::MAX);
+    studies.sort_by_key(place);
+    (studies, clearest.len())
+}
+
 /// The same in Markdown, under a heading; empty where everything passed.
 ///
 /// * `linked`: whether each id is a link to the section of its study.
-pub(super) fn markdown(finished: &[Finished], linked: bool) -> String {
-    let studies = not_passed(finished);
-    if studies.is_empty() {
-        return String::new();
-    }
-    let mut lines = String::from("## What did not pass\n\n");
-    for NotPassed { id, verdict, reasons } in studies {
-        let name = if linked { format!("[{}](#{})", cell(&id), anchor(&id)) } else { cell(&id) };
-        lines += &format!("- {name}: **{verdict}**\n");
-        for reason in reasons {
-            lines += &format!("  - {}\n", text(&reason));
+pub(super) fn markdown(record: &Record, linked: bool) -> String {
+    let (studies, shown) = clearest_first(record);
+    let item = |NotPassed { id, verdict, reasons }: &NotPassed| {
+        let name = if linked { format!("[{}](#{})", cell(id), anchor(id)) } else { cell(id) };
+        let reasons: String = reasons.iter().map(|reason| format!("  - {}\n", text(reason))).collect();
+        format!("- {name}: **{verdict}**\n{reasons}")
+    };
+    let (first, rest) = studies.split_at(shown.min(studies.len()));
+    let [first, folded] = [first, rest].map(|part| part.iter().map(item).collect::<String>());
+    match (first.is_empty(), rest.len()) {
+        (true, _) => String::new(),
+        (false, 0) => format!("## What did not pass\n\n{first}\n"),
+        (false, more) => {
+            format!("## What did not pass\n\n{first}\n{}\n", section::folded(&format!("{more} more"), &folded, false))
         }
     }
-    lines + "\n"
 }
 
 /// The same for the page, each id a link to the section of its study.
-pub(super) fn html(finished: &[Finished]) -> String {
-    let studies = not_passed(finished);
-    if studies.is_empty() {
-        return String::new();
-    }
-    let item = |NotPassed { id, verdict, reasons }: NotPassed| {
+pub(super) fn html(record: &Record) -> String {
+    let (studies, shown) = clearest_first(record);
+    let item = |NotPassed { id, verdict, reasons }: &NotPassed| {
         let reasons: String = reasons.iter().map(|reason| format!("<li>{}</li>\n", phrase(reason))).collect();
-        let id = escape(&id);
-        format!("<li><a href=\"#{id}\">{id}</a> {}\n<ul>\n{reasons}</ul></li>\n", badge(verdict))
+        let id = escape(id);
+        format!("<li><a href=\"#{id}\">{id}</a> {}\n<ul>\n{reasons}</ul></li>\n", badge(*verdict))
     };
-    format!("<h2>What did not pass</h2>\n<ul>\n{}</ul>\n", studies.into_iter().map(item).collect::<String>())
+    let (first, rest) = studies.split_at(shown.min(studies.len()));
+    let list = |part: &[NotPassed]| format!("<ul>\n{}</ul>\n", part.iter().map(item).collect::<String>());
+    let folded = format!("<details>\n<summary>{} more</summary>\n{}</details>\n", rest.len(), list(rest));
+    match (first.is_empty(), rest.is_empty()) {
+        (true, _) => String::new(),
+        (false, true) => format!("<h2>What did not pass</h2>\n{}", list(first)),
+        (false, false) => format!("<h2>What did not pass</h2>\n{}{folded}", list(first)),
+    }
 }
 
 /// The same in plain text; empty where everything passed.

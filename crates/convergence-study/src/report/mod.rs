@@ -7,6 +7,7 @@ mod changes;
 mod errors;
 mod failures;
 mod forest;
+mod front;
 mod html;
 mod markdown;
 mod page;
@@ -115,9 +116,10 @@ impl Findings<'_> {
         page += &format!(
             "\n\n{}{}{}",
             self.diagnosis(),
-            failures::markdown(&self.record.studies, true),
+            failures::markdown(self.record, true),
             changes::parts(self, &link).concat()
         );
+        page += &front::front(self, &link).0;
         page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         page.extend(self.record.studies.iter().map(|finished| section::section(finished, &self.again(finished))));
@@ -146,7 +148,7 @@ impl Findings<'_> {
             &self.overview(cell),
             false,
         );
-        let failures = failures::markdown(&self.record.studies, false);
+        let failures = failures::markdown(self.record, false);
         let parts = [vec![self.diagnosis(), failures], changes::parts(self, &cell), vec![folded]].concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {

@@ -5,10 +5,13 @@
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
 use super::{Findings, SeeAlso};
-use super::{changes, failures, forest, section};
+use super::{changes, failures, forest, front, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::outcome::Figure;
+
+/// Studies that do not pass and are unfolded; more would fill screens.
+const OPEN: usize = 3;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
 const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), include_str!("picture.js")];
@@ -22,7 +25,9 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let groups = groups(findings);
     let listed = groups.iter().flat_map(|(_, studies)| studies);
-    let studies: String = listed.map(|finished| study(finished, &findings.again(finished))).collect();
+    // Those that do not pass stand first: the first of them are open.
+    let each = |(k, finished): (usize, &&Finished)| study(finished, &findings.again(finished), k < OPEN);
+    let studies: String = listed.enumerate().map(each).collect();
     let scripts: String = SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -50,9 +55,11 @@ fn head(findings: &Findings<'_>) -> String {
 fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
     let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
+    let (verified, plot) = front::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
-        + &failures::html(&findings.record.studies)
+        + &failures::html(findings.record)
         + &html(&changes, &[])
+        + &html(&verified, plot.map(std::slice::from_ref).unwrap_or_default())
         + &origin(findings)
         + &picture.unwrap_or_default()
 }
@@ -120,16 +127,16 @@ fn overview(groups: &Groups<'_>) -> String {
     )
 }
 
-fn study(finished: &Finished, again: &str) -> String {
+fn study(finished: &Finished, again: &str, open: bool) -> String {
     let Finished { header, outcome, .. } = finished;
-    let open = if outcome.verdict == Verdict::Pass { "" } else { " open=\"\"" };
+    let open = if outcome.verdict == Verdict::Pass || !open { "" } else { " open=\"\"" };
     format!(
         "<details class=\"study\" id=\"{id}\" data-verdict=\"{}\"{open}>\n\
          <summary>{} <h2>{id}</h2> <span class=\"claim\">{}</span></summary>\n{}</details>\n",
         outcome.verdict.name(),
         badge(outcome.verdict),
         phrase(&header.claim),
-        html(&section::body(finished, again), &outcome.figures),
+        html(&section::body(finished, again, true), &outcome.figures),
         id = escape(&header.id),
     )
 }

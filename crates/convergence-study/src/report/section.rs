@@ -16,15 +16,17 @@ const MOST_ROWS: usize = 12;
 /// * `again`: the command that runs it again.
 pub(super) fn section(finished: &Finished, again: &str) -> String {
     let header = &finished.header;
-    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, again))
+    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, again, false))
 }
 
 /// All of a section but heading and claim.
-pub(super) fn body(finished: &Finished, again: &str) -> String {
+///
+/// * `whole`: long tables of a study that passes are in it, too; else it says where they are.
+pub(super) fn body(finished: &Finished, again: &str, whole: bool) -> String {
     let Finished { header, outcome, .. } = finished;
     let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&summary(outcome)))];
     let passes = outcome.verdict == Verdict::Pass;
-    parts.extend(tables(finished).iter().map(|table| titled(table, passes)));
+    parts.extend(tables(finished).iter().map(|table| titled(table, passes, whole || !passes)));
     parts.extend(outcome.figures.iter().map(figure));
     let (tier, kind) = (header.tier.name(), &header.kind);
     parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
@@ -42,10 +44,13 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
 }
 
 /// A table under its title; a long one is folded, but open in a study that does not pass.
-fn titled(whole: &Table, passes: bool) -> String {
-    let (Table { title, rows, .. }, lines) = (whole, markdown(whole));
+fn titled(table: &Table, passes: bool, whole: bool) -> String {
+    let (Table { title, rows, .. }, lines) = (table, markdown(table));
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
+    }
+    if !whole {
+        return format!("**{}**: {} rows, in [results.json](results.json) and on the page\n", text(title), rows.len());
     }
     folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
 }

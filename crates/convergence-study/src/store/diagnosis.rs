@@ -12,6 +12,7 @@ use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
 use crate::study::levels::COMPLETION;
 use crate::study::settings::field;
+use crate::text::json;
 use crate::text::number::short_text;
 use contrast::{Vote, contrast};
 
@@ -47,10 +48,13 @@ pub struct Field {
     /// Its name.
     pub name: String,
     /// Its share in what moved, on the finest levels, summed over studies.
+    #[serde(deserialize_with = "json::nan")]
     pub share: f64,
     /// The farthest rate that does not pass, with its order.
+    #[serde(deserialize_with = "json::nan_pair")]
     pub rate: Option<[f64; 2]>,
     /// The largest factor by which one of its errors grew; else by which a number changed.
+    #[serde(deserialize_with = "json::nan")]
     pub factor: f64,
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::cli::workspace;
-use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose};
+use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose, names};
 use convergence_study::study::settings::Setting;
 
 use super::list::Regression;
@@ -90,17 +90,17 @@ fn threshold(all: &[Judged<'_>]) -> f64 {
 
 fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
     let values: Vec<&str> = diagnosis.contrast.settings.iter().map(|(_, value)| value.as_str()).collect();
-    let names = |word: &String| match word.as_str() {
+    let named = |word: &String| match word.as_str() {
         "both" => !values.iter().any(|value| METHODS.contains(value)),
-        word => values.contains(&word),
+        word => values.iter().any(|value| names(value, word)),
     };
     let field = diagnosis.first.first().map(|field| field.name.as_str());
-    let about = |word: &String| names(word) || field == Some(word.as_str());
+    let about = |word: &String| named(word) || field == Some(word.as_str());
     let module = regression.module();
     let place = diagnosis.look_at.iter().any(|place| place.contains(module))
         || diagnosis.resembles.iter().any(|one| one.file.starts_with(module));
     let of = |words: &[String], names: &dyn Fn(&String) -> bool| (!words.is_empty()).then(|| words.iter().any(names));
-    [of(&regression.method, &names), of(&regression.about, &about), Some(place)]
+    [of(&regression.method, &named), of(&regression.about, &about), Some(place)]
 }
 
 /// The fingerprints as they are committed.

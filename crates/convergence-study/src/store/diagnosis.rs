@@ -80,7 +80,7 @@ pub fn diagnose(
     let clearest = clearest(&failing);
     let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
-        .filter_map(|word| project.places.iter().find(|(of, _)| of == word).map(|(_, place)| (*place).to_owned()))
+        .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))
         .collect();
     let again = clearest.first().map(String::as_str).or(wrong.first().copied());
     look_at.extend(again.map(|id| format!("`{} verify {id}` repeats the clearest failure", project.command)));
@@ -94,6 +94,11 @@ pub fn diagnose(
         clearest,
         moved: moved(finished, changes),
     })
+}
+
+/// Whether the words of a setting are those, alone or in brackets: `ID alone (whole scenes)`.
+pub fn names(words: &str, what: &str) -> bool {
+    words == what || words.strip_suffix(')').is_some_and(|words| words.ends_with(&format!("({what}")))
 }
 
 /// Whether a number has moved or is gone: what is new has no cause.

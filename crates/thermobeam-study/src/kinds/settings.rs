@@ -51,7 +51,9 @@ pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
         settings.push(("mesh", of.mesh().to_owned()));
     }
     let settings = settings.into_iter().map(|(key, value)| (key.to_owned(), value));
-    std::iter::once(study(header)).chain(settings).collect()
+    // A study alone says of what kind it is: that is where to look.
+    let (key, alone) = study(header);
+    std::iter::once((key, format!("{alone} ({})", of.kind()))).chain(settings).collect()
 }
 
 /// The dotted path of the case that an item is about, such as `case[2].`; empty where there is none.
@@ -128,26 +130,20 @@ impl Of<'_> {
         method.map(|(key, value)| (key, value.to_owned())).to_vec()
     }
 
-    /// The terms of the equations that are at work; those of scenes in other files are not known here.
+    /// The terms of the equations that are at work; scenes in other files are those of the paper, whose beam is the default.
     fn beam(&self) -> Vec<(&'static str, String)> {
-        let default = Beam::default();
+        let free = self.kind() == "free vibrations";
+        let default = if free { Beam { a: 0.0, rho: 0.0, ..Beam::default() } } else { Beam::default() };
         let number = |name: &str, default: f64| {
             self.text(&format!("beam.{name}")).map_or(default, |text| text.parse().unwrap_or(default))
         };
-        let mut terms = vec![];
-        if self.has("beam.") {
-            let on = |value: f64, on: &'static str, off: &'static str| if value == 0.0 { off } else { on };
-            terms.push(("coupling", on(number("a", default.a), "coupling a > 0", "no coupling")));
-            terms.push(("rho", on(number("rho", default.rho), "Kirchhoff's term, rho > 0", "a linear beam")));
-            terms.push(("theta_a", on(number("theta_a", 0.0), "a hot end, theta_A > 0", "a cold end")));
-            terms.push((
-                "zeta",
-                on(f64::from(u8::from(number("zeta", default.zeta) < SMALL_ZETA)), "small zeta", "zeta of order 0.1"),
-            ));
-        } else if self.header.kind == "frequencies" {
-            terms.push(("coupling", "no coupling"));
-            terms.push(("rho", "a linear beam"));
-        }
+        let on = |is_on: bool, on: &'static str, off: &'static str| if is_on { on } else { off };
+        let mut terms = vec![
+            ("coupling", on(number("a", default.a) != 0.0, "coupling a > 0", "no coupling")),
+            ("rho", on(number("rho", default.rho) != 0.0, "Kirchhoff's term, rho > 0", "a linear beam")),
+            ("theta_a", on(number("theta_a", 0.0) != 0.0, "a hot end, theta_A > 0", "a cold end")),
+            ("zeta", on(number("zeta", default.zeta) < SMALL_ZETA, "small zeta", "zeta of order 0.1")),
+        ];
         let meets = matches!(
             self.kind(),
             "experiments with contact" | "maps of the solvers" | "the energy's laws" | "steady states"

@@ -44,9 +44,6 @@ struct Listed {
 
 const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
 
-/// The narrowest claim that still says something.
-const NARROWEST: usize = 24;
-
 /// Prints a row for each study.
 ///
 /// # Errors
@@ -71,10 +68,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let words = arguments.flags.words(verdict, &sentence, || {
         let mut rows: Vec<Vec<String>> = studies.iter().map(row).collect();
         let mut head = HEAD.to_vec();
-        if let Some(width) = screen::width() {
-            fit(&mut head, &mut rows, width);
-        }
-        screen::table(&head, &rows)
+        let width = screen::width();
+        width.iter().for_each(|width| make_room(&mut head, &mut rows, *width));
+        screen::table_within(width, &head, &rows)
     });
     // The verdict is the worst of the last ones.
     arguments.flags.show("list", verdict, &json!({"studies": studies}), &words)?;
@@ -101,18 +97,14 @@ fn row(study: &Listed) -> Vec<String> {
     vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
 }
 
-/// Leaves out columns for a claim to have room, then cuts the claims, so that no row is wider than the screen.
-fn fit(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
+/// Leaves out columns for a claim to have room.
+fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
     for dispensable in ["kind", "work", "tier"] {
         let column = head.iter().position(|name| *name == dispensable);
-        if let Some(column) = column.filter(|_| room(head, rows, width) < NARROWEST) {
+        if let Some(column) = column.filter(|_| room(head, rows, width) < screen::LEAST) {
             head.remove(column);
             rows.iter_mut().for_each(|row| drop(row.remove(column)));
         }
-    }
-    let (claim, room) = (head.len() - 1, room(head, rows, width).max(NARROWEST));
-    for cell in rows.iter_mut().map(|row| &mut row[claim]).filter(|cell| cell.chars().count() > room) {
-        *cell = cell.chars().take(room - 1).chain(['…']).collect();
     }
 }
 
@@ -125,7 +117,7 @@ fn room(head: &[&str], rows: &[Vec<String>], width: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{HEAD, NARROWEST, fit};
+    use super::{HEAD, make_room};
     use crate::cli::screen;
 
     fn row(id: &str, claim: &str) -> Vec<String> {
@@ -135,8 +127,8 @@ mod tests {
     /// The widest line, and the names of the columns.
     fn fitted(rows: &mut [Vec<String>], width: usize) -> (String, Vec<&'static str>) {
         let mut head = HEAD.to_vec();
-        fit(&mut head, rows, width);
-        (screen::table(&head, rows), head)
+        make_room(&mut head, rows, width);
+        (screen::table_within(Some(width), &head, rows), head)
     }
 
     #[test]
@@ -150,7 +142,6 @@ mod tests {
             assert_eq!(head.len(), columns, "{head:?}");
         }
         let mut rows = [row("x", &long)];
-        let (_, head) = fitted(&mut rows, 10);
-        assert_eq!(rows[0][head.len() - 1].chars().count(), NARROWEST);
+        assert_eq!(fitted(&mut rows, 10).0.matches('é').count(), screen::LEAST - 1);
     }
 }

@@ -13,7 +13,7 @@ use crate::text::visible::visible;
 const GAP: &str = "  ";
 
 /// Least width to which a column is cut: less is worse than a line that wraps.
-const LEAST: usize = 12;
+pub(super) const LEAST: usize = 24;
 
 /// Rows under a head, in columns; cells without control characters.
 pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
@@ -96,11 +96,11 @@ mod tests {
             .map(|row| row.map(str::to_owned).to_vec());
         let table = |width| table_within(width, &["study", "seconds", "key numbers"], &rows);
         let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
-        assert_eq!(widest(&table(Some(40))), 40);
-        assert_eq!(table(Some(40)).lines().nth(1), Some("a             0.01  long and longer lon…"));
-        assert!(table(Some(40)).ends_with("longer-id     0.20  short\n"));
+        assert_eq!(widest(&table(Some(50))), 50);
+        assert_eq!(table(Some(50)).lines().nth(1), Some("a             0.01  long and longer long and long…"));
+        assert!(table(Some(50)).ends_with("longer-id     0.20  short\n"));
         assert!(!table(None).contains('…') && widest(&table(None)) > 80);
         // A terminal too narrow for the other columns.
-        assert_eq!(table(Some(10)).lines().nth(1), Some("a             0.01  long and lo…"));
+        assert_eq!(table(Some(10)).lines().nth(1), Some("a             0.01  long and longer long an…"));
     }
 }

@@ -175,12 +175,7 @@ impl<'a> Field<'a> {
     }
 
     fn complain(&self, offset: usize, complaint: Complaint) -> InputError {
-        InputError {
-            file: self.source.file.to_owned(),
-            place: Some(self.source.place(offset)),
-            field: Some(self.path.clone()),
-            complaint: Box::new(complaint),
-        }
+        self.source.error(offset, Some(self.path.clone()), complaint)
     }
 }
 

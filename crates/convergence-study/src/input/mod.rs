@@ -43,6 +43,11 @@ impl Source<'_> {
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Place { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
     }
+
+    /// An error about the byte of the text at `offset`.
+    fn error(&self, offset: usize, field: Option<String>, complaint: Complaint) -> InputError {
+        InputError { place: Some(self.place(offset)), field, ..failed(self.file, complaint) }
+    }
 }
 
 /// The whole text of a file.
@@ -130,10 +135,8 @@ pub fn parse_overlaid<T>(
 /// The topmost table of `text`, whose places are those of `source`.
 fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
     // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
-    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| InputError {
-        file: source.file.to_owned(),
-        place: Some(source.place(error.span().map_or(text.len(), |span| span.start))),
-        field: None,
-        complaint: Box::new(Complaint::Malformed { reason: error.message().to_owned() }),
+    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| {
+        let offset = error.span().map_or(text.len(), |span| span.start);
+        source.error(offset, None, Complaint::Malformed { reason: error.message().to_owned() })
     })
 }

@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::de::DeTable;
 
 use super::error::{Complaint, InputError};
-use super::{Field, POSITIVE, Source, settings};
+use super::{Field, POSITIVE, Source, settings, shorten};
 use crate::text::names::nearest;
 
 /// A table of the document, with its dotted name.
@@ -49,17 +49,10 @@ impl<'a> Section<'a> {
         let unknown = self.table.keys().filter(|key| !keys.contains(&key.get_ref().as_ref()));
         // The table is sorted by name; a reader starts at the top of the file.
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
-        let found = key.get_ref().as_ref();
-        Err(InputError {
-            file: self.source.file.to_owned(),
-            place: Some(self.source.place(key.span().start)),
-            field: Some(self.name_of(&super::field::shorten(found))),
-            complaint: Box::new(Complaint::UnknownKey {
-                found: super::field::shorten(found),
-                suggestion: nearest(found, keys.iter().copied()).map(str::to_owned),
-                allowed: keys.join(", "),
-            }),
-        })
+        let (found, shown) = (key.get_ref().as_ref(), shorten(key.get_ref()));
+        let (name, suggestion) = (self.name_of(&shown), nearest(found, keys.iter().copied()).map(str::to_owned));
+        let complaint = Complaint::UnknownKey { found: shown, suggestion, allowed: keys.join(", ") };
+        Err(self.source.error(key.span().start, Some(name), complaint))
     }
 
     /// The value of a key.
@@ -128,11 +121,6 @@ impl<'a> Section<'a> {
     }
 
     fn complain(&self, key: &str, complaint: Complaint) -> InputError {
-        InputError {
-            file: self.source.file.to_owned(),
-            place: Some(self.source.place(self.span.start)),
-            field: Some(self.name_of(key)),
-            complaint: Box::new(complaint),
-        }
+        self.source.error(self.span.start, Some(self.name_of(key)), complaint)
     }
 }

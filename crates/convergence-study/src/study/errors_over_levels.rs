@@ -111,13 +111,6 @@ impl<F> ErrorsOverLevels<F> {
         self
     }
 
-    #[cfg(feature = "reports")]
-    fn figure(&self, levels: &Levels, rates: &levels::Rates) -> super::outcome::Figure {
-        let file = format!("{}-errors.svg", self.header.id);
-        let caption = "Errors over levels of refinement.".to_owned();
-        levels.figure(file, None, caption, rates)
-    }
-
     fn label(&self, count: usize) -> String {
         format!("{} = {count}", self.counted)
     }
@@ -180,7 +173,6 @@ where
 
     fn judge(&self, ran: &[Ran<usize, NamedErrors>]) -> Outcome {
         let levels = self.levels(ran);
-        let rates = levels.judge();
         let found = levels.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
         let names: Vec<&str> = found.map(|column| column.name.as_str()).collect();
         let not_finite = |errors: &NamedErrors| {
@@ -192,13 +184,7 @@ where
             let (claim, evidence) = ("an order is claimed".to_owned(), "no order of any error is claimed".to_owned());
             checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence });
         }
-        Outcome {
-            levels: levels.errors(),
-            #[cfg(feature = "reports")]
-            figures: vec![self.figure(&levels, &rates)],
-            quantities: levels.quantities(&rates),
-            ..Outcome::new(levels::summary(&rates), rates, checks)
-        }
+        levels.outcome(&self.header.id, "errors", None, "Errors over levels of refinement.", checks)
     }
 
     fn details(&self) -> Vec<(String, String)> {

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use super::axis::Axis;
 use super::case::{Ran, by_reason};
-use super::outcome::{Check, LevelErrors, Quantity, Table};
 #[cfg(feature = "reports")]
-use super::outcome::{Figure, Outcome};
+use super::outcome::Figure;
+use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
@@ -191,17 +191,16 @@ impl Levels {
     }
 
     /// All that errors over levels give: rates with their verdicts, errors, guarded numbers and the figure `<id>-<what>.svg`.
-    #[cfg(feature = "reports")]
     pub fn outcome(&self, id: &str, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
         let rates = self.judge();
+        #[cfg(feature = "reports")]
+        let figure =
+            Some(self.figure(format!("{id}-{what}.svg"), title.map(str::to_owned), caption.to_owned(), &rates));
+        #[cfg(not(feature = "reports"))]
+        let (figure, _) = (None, (id, what, title, caption));
         Outcome {
             levels: self.errors(),
-            figures: vec![self.figure(
-                format!("{id}-{what}.svg"),
-                title.map(str::to_owned),
-                caption.to_owned(),
-                &rates,
-            )],
+            figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
             ..Outcome::new(summary(&rates), rates, checks)
         }
@@ -209,15 +208,16 @@ impl Levels {
 
     /// Every error of every level, for record and report.
     pub fn errors(&self) -> Vec<LevelErrors> {
-        let level = |(i, level): (usize, &Refinement)| LevelErrors {
-            parameters: level.parameters.clone(),
-            step: Some(level.step),
-            work: None,
-            errors: self.columns.iter().map(|column| (column.name.clone(), number(&column.errors, i))).collect(),
-            without: {
-                let lacking = self.columns.iter().filter(|column| at(&column.errors, i).is_none());
-                lacking.map(|column| column.name.clone()).collect()
-            },
+        let level = |(i, level): (usize, &Refinement)| {
+            let error = |column: &ErrorColumn| (column.name.clone(), number(&column.errors, i));
+            let lacks = |column: &&ErrorColumn| at(&column.errors, i).is_none();
+            LevelErrors {
+                parameters: level.parameters.clone(),
+                step: Some(level.step),
+                work: None,
+                errors: self.columns.iter().map(error).collect(),
+                without: self.columns.iter().filter(lacks).map(|column| column.name.clone()).collect(),
+            }
         };
         self.refinements.iter().enumerate().map(level).collect()
     }

@@ -1,9 +1,9 @@
-//! Which column is the step and which are errors: by their numbers, and by their names where the numbers leave it open.
+//! Which columns are errors, values and rates: by their numbers, and by their names where the numbers leave it open.
 
 use std::collections::HashSet;
 
 use super::column::{Cells, limit};
-use super::names::{self, Word, reciprocal};
+use super::names::{self, Word};
 use super::number::{halves, number};
 use super::text::RawTable;
 use super::{Choice, Column, RateTable};
@@ -15,15 +15,15 @@ use crate::text::number::{counted, plain_text};
 /// Most names that a message lists.
 const LISTED: usize = 12;
 /// Rates are looked for among as many columns on either side.
-const NEIGHBOURS: usize = 40;
+pub(super) const NEIGHBOURS: usize = 40;
 
 /// A grid and what is asked of it.
-struct TableReader<'g, 't> {
+pub(super) struct TableReader<'g, 't> {
     grid: RawTable<'t>,
     file: &'g str,
-    choice: &'g Choice,
+    pub(super) choice: &'g Choice,
     /// The columns of the grid.
-    columns: Vec<Cells>,
+    pub(super) columns: Vec<Cells>,
 }
 
 /// What a column that nobody has chosen holds.
@@ -194,7 +194,7 @@ impl TableReader<'_, '_> {
     }
 
     /// A complaint about the row of names.
-    fn refuse(&self, expected: &str, found: &str) -> InputError {
+    pub(super) fn refuse(&self, expected: &str, found: &str) -> InputError {
         self.error(Some(self.above(0)), expected, found)
     }
 
@@ -204,7 +204,7 @@ impl TableReader<'_, '_> {
         InputError { field, ..self.error(Some(cell), expected, &format!("`{}`", shorten(cell))) }
     }
 
-    fn named(&self, columns: &[usize]) -> Vec<String> {
+    pub(super) fn named(&self, columns: &[usize]) -> Vec<String> {
         columns.iter().map(|k| self.columns[*k].name.clone()).collect()
     }
 
@@ -228,7 +228,7 @@ impl TableReader<'_, '_> {
     }
 
     /// The column of that name, or of that number from 1.
-    fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
+    pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
         let names = || self.columns.iter().map(|column| column.name.as_str());
         let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.columns.len());
         names::position(names(), wanted).or_else(numbered).ok_or_else(|| {
@@ -236,130 +236,6 @@ impl TableReader<'_, '_> {
             let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
             self.refuse(&format!("a column for {option}: {}", listed(names().map(str::to_owned))), &found)
         })
-    }
-
-    /// The column of the step, and how it was found where its name does not say so.
-    fn step(&self) -> Result<(usize, String), InputError> {
-        if let Some(wanted) = &self.choice.step {
-            return Ok((self.find(wanted, "--step")?, String::new()));
-        }
-        let of = |wanted: fn(Word) -> bool| -> Vec<usize> {
-            let is_free = |column: &Cells| wanted(column.word) && !column.is_claimed && !column.is_constant();
-            (0..self.columns.len()).filter(|k| is_free(&self.columns[*k])).collect()
-        };
-        let steps = of(|word| word == Word::Step);
-        if let Some((&first, others)) = steps.split_first() {
-            if let Some(other) = others.iter().find(|k| !self.columns[first].is_in_proportion(&self.columns[**k])) {
-                let found = self.named(&steps).join(", ") + &self.with_step(first) + &self.with_step(*other);
-                return Err(self.refuse("one column of steps, or --step COLUMN", &found));
-            }
-            let alike = listed(others.iter().map(|k| format!("`{}`", self.columns[*k].name)));
-            return Ok((first, if alike.is_empty() { alike } else { format!(", in proportion to {alike}") }));
-        }
-        let rank = |k: &usize| if let Word::Count(rank) = self.columns[*k].word { rank } else { u8::MAX };
-        if let Some(count) = of(|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
-            return Ok((count, String::new()));
-        }
-        // The only column of unknown name that falls by regular ratios; of several the first, unless another has a
-        // smaller ratio.
-        let first = self.columns.iter().position(|column| !column.is_index);
-        let unknown = of(|word| word == Word::Unknown);
-        let regular = unknown.iter().filter_map(|k| Some((*k, self.columns[*k].regular()?)));
-        let regular: Vec<(usize, f64)> = regular.collect();
-        if let Some((&(k, ratio), others)) = regular.split_first()
-            && (others.is_empty() || Some(k) == first)
-            && others.iter().all(|(_, other)| *other >= ratio)
-        {
-            return Ok((k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
-        }
-        let described = |column: &Cells| {
-            let why = match column.word {
-                _ if column.is_index => " (the number of the row)",
-                Word::Logarithm => " (give the values, not their logarithms)",
-                Word::Step => " (the same in each row)",
-                _ => "",
-            };
-            format!("`{}`{why}", column.name)
-        };
-        let may_be = |k: &usize| {
-            let column = &self.columns[*k];
-            unknown.contains(k) && column.values().is_some() && !column.name.contains(['^', '²'])
-        };
-        let command = first.filter(may_be).map_or(String::new(), |k| self.with_step(k));
-        let found = listed(self.columns.iter().map(described));
-        Err(self.refuse("a column of steps: add `h`, or name it with --step", &(found + &command)))
-    }
-
-    /// The command with a column for the step.
-    fn with_step(&self, column: usize) -> String {
-        let name = self.columns[column].name.trim_start_matches("column ").to_owned();
-        let dim = if self.is_count(column) { Some(1.0) } else { self.choice.dim };
-        self.choice.command(|choice| (choice.step, choice.dim) = (Some(name), dim))
-    }
-
-    /// The dimension for a column that counts; `None` for a step.
-    fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
-        let Cells { name, word, .. } = &self.columns[step];
-        let is_edge = reciprocal(name).is_some()
-            || matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt");
-        let is_count = self.is_count(step);
-        let with = |dim: Option<f64>| self.choice.command(|choice| choice.dim = dim);
-        match self.choice.dim {
-            _ if *word == Word::Logarithm => Err(self.refuse("the values, not their logarithms", &format!("`{name}`"))),
-            Some(dim) if is_count && is_edge && dim != 1.0 => {
-                let found = format!("`{name}`, which is known to be of one dimension{}", with(None));
-                Err(self.refuse("no --dim but 1", &found))
-            }
-            Some(dim) if is_count || *word == Word::Unknown => Ok(Some(dim)),
-            Some(_) => {
-                let found = format!("the step `{name}`{}", with(None));
-                Err(self.refuse("no --dim, which is for counts such as `cells`", &found))
-            }
-            None if !is_count => Ok(None),
-            None if is_edge && matches!(word, Word::Count(_)) => Ok(Some(1.0)),
-            None => {
-                let [edge, plane, space] = [1.0, 2.0, 3.0].map(|dim| with(Some(dim)));
-                let commands = match word {
-                    Word::Count(1) | Word::Step => edge,
-                    _ if edge.is_empty() => edge,
-                    _ => format!("{edge}  # along an edge{plane}  # all, in the plane{space}  # all, in space"),
-                };
-                let expected =
-                    format!("--dim D for h = {name}^(-1/D), with D = 1 for cells along an edge, or --step COLUMN");
-                Err(self.refuse(&expected, &format!("the count `{name}` and no step{commands}")))
-            }
-        }
-    }
-
-    /// Whether a column counts: by its name, or because it has whole numbers that grow where errors fall.
-    fn is_count(&self, column: usize) -> bool {
-        let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
-        let Some(values) = self.columns[column].values() else { return false };
-        // How many columns fall where it falls, less those that grow or, as it does, cannot tell.
-        let alike = |k: usize| {
-            let others = self.columns[k].values()?;
-            if k == column || is_whole(&others) || others.iter().any(|other| !(*other > 0.0)) {
-                return Some(-1.0);
-            }
-            let signs = values.windows(2).zip(others.windows(2));
-            Some(signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum())
-        };
-        let together = || (0..self.columns.len().min(NEIGHBOURS)).filter_map(alike).sum::<f64>();
-        match self.columns[column].word {
-            Word::Count(_) => true,
-            _ if !is_whole(&values) || values.iter().all(|value| *value == 1.0) => false,
-            Word::Step => together() < 0.0,
-            _ => together() <= 0.0,
-        }
-    }
-
-    fn label(&self, step: usize, dim: Option<f64>) -> String {
-        let name = &self.columns[step].name;
-        match dim {
-            Some(1.0) => reciprocal(name).map_or_else(|| format!("1/{name}"), str::to_owned),
-            Some(dim) => format!("{name}^(-1/{dim})"),
-            None => name.to_owned(),
-        }
     }
 
     /// The columns of errors, those of values, and the others, each with the reason.
@@ -489,7 +365,7 @@ impl TableReader<'_, '_> {
 }
 
 /// Names in a message, not too many of them.
-fn listed(names: impl Iterator<Item = String>) -> String {
+pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.take(LISTED + 1).collect();
     names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
 }

@@ -24,6 +24,7 @@ mod digits;
 pub(crate) mod names;
 mod number;
 mod pairs;
+mod step;
 mod text;
 
 use std::io;

@@ -28,12 +28,9 @@ const BEHIND: char = '\u{1f}';
 /// A text without colours and timestamps, `0.1 (2.0)` as two cells, and a line for each of nested lists.
 pub(super) fn plain(text: &str) -> String {
     // Spreadsheets put a byte order mark in front; the first Macintosh ended lines by \r.
-    let text = text
-        .trim_start_matches('\u{feff}')
-        .replace("\r\n", "\n")
-        .replace('\r', "\n")
-        .replace(['│', '┃', '┆', '║'], "|");
-    let text = ["np.float64(", "np.int64(", "array("].iter().fold(text, |text, wrapper| text.replace(wrapper, "("));
+    let marks = [("\u{feff}", ""), ("\r\n", "\n"), ("\r", "\n"), ("│", "|"), ("┃", "|"), ("┆", "|"), ("║", "|")];
+    let wrappers = [("np.float64(", "("), ("np.int64(", "("), ("array(", "(")];
+    let text = marks.iter().chain(&wrappers).fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
     let uncoloured = |(k, part): (usize, &str)| {
         let end = part.find(|c: char| !c.is_ascii_digit() && c != ';').map_or(part.len(), |end| end + 1);
         part.get(if k == 0 { 0 } else { end }..).unwrap_or_default().to_owned()

@@ -44,7 +44,7 @@ pub struct Convergence {
     pub y_label: String,
     /// One series per norm.
     pub series: Vec<ErrorSeries>,
-    /// Orders to draw slope triangles for.
+    /// Orders to draw slope triangles for, beside those of the series.
     pub slopes: Vec<f64>,
     /// A level of note, such as the round-off floor.
     pub floor: Option<Guide>,
@@ -95,7 +95,11 @@ pub fn convergence(figure: &Convergence) -> String {
     if figure.series.iter().any(has_unused_points) {
         xy.notes.push("open markers: points that the rate does not use".to_owned());
     }
-    let (outlines, bottom) = triangles(&figure.slopes, &trends(&figure.series), &xy.x_ruler(), &xy.y_ruler());
+    let mut orders: Vec<f64> = figure.series.iter().filter_map(|series| series.order).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders.extend(&figure.slopes);
+    let (outlines, bottom) = triangles(&orders, &trends(&figure.series), &xy.x_ruler(), &xy.y_ruler());
     if !outlines.is_empty() {
         xy.show_y.push(bottom);
     }

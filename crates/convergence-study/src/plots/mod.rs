@@ -25,7 +25,7 @@
 //!
 //! let points = [8.0, 16.0, 32.0].map(|n: f64| (1.0 / n, 0.3 / n)).to_vec();
 //! let series = vec![ErrorSeries { label: "velocity".into(), points, order: Some(1.0), ..Default::default() }];
-//! let svg = convergence(&Convergence { series, slopes: vec![1.0], ..Convergence::in_space() });
+//! let svg = convergence(&Convergence { series, ..Convergence::in_space() });
 //! assert!(svg.starts_with("<svg"));
 //! ```
 

@@ -147,7 +147,7 @@ impl Levels {
     /// * `caption`: what is drawn, as a sentence; what the lines are is added where there are any.
     pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
         let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
-        let series = claimed.clone().map(|(column, claim)| {
+        let series = claimed.map(|(column, claim)| {
             let points = self.points(column);
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
@@ -160,9 +160,6 @@ impl Levels {
                 look: Some(column.look),
             }
         });
-        let mut slopes: Vec<f64> = claimed.clone().map(|(_, claim)| claim.order).collect();
-        slopes.sort_by(f64::total_cmp);
-        slopes.dedup();
         let labels = Convergence { x_label: self.axis.label().into(), ..Convergence::in_space() };
         let series: Vec<ErrorSeries> = series.collect();
         let has_line = series.iter().any(|series| series.line().is_some());
@@ -173,7 +170,7 @@ impl Levels {
             [] => caption,
             labels => format!("{caption} No result: {}.", labels.join("; ")),
         };
-        let svg = plots::convergence(&Convergence { title, series, slopes, notes, ..labels });
+        let svg = plots::convergence(&Convergence { title, series, notes, ..labels });
         Figure { file, caption, svg }
     }
 

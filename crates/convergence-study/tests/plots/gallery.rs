@@ -52,7 +52,7 @@ pub(crate) fn space_errors() -> Convergence {
     norms[0].used = Some(3..10);
     // A norm that hides another one.
     norms.push(ErrorSeries { label: "energy norm, lumped".into(), ..norms[5].clone() });
-    Convergence { series: norms, slopes: vec![1.0, 2.0], ..Convergence::in_space() }
+    Convergence { series: norms, ..Convergence::in_space() }
 }
 
 pub(crate) fn time_errors() -> Convergence {
@@ -63,7 +63,6 @@ pub(crate) fn time_errors() -> Convergence {
     Convergence {
         title: Some("Time isolated: error over dt".into()),
         series: vec![euler, midpoint],
-        slopes: vec![1.0, 2.0],
         floor: Some(Guide { label: "round-off".into(), value: 1e-8 }),
         x_label: "time step dt".into(),
         ..Convergence::in_space()

@@ -170,14 +170,11 @@ fn figure(findings: &Judgement<'_>) -> String {
         ..ErrorSeries::default()
     };
     let series: Vec<ErrorSeries> = drawn.iter().take(DRAWN).map(series).collect();
-    let mut slopes: Vec<f64> = series.iter().filter_map(|series| series.order).collect();
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
     let at_floor =
         |judged: &&JudgedColumn<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
     let floor = drawn.iter().any(at_floor).then(|| Guide { label: "floor".to_owned(), value: findings.judge.floor() });
     let (x_label, y_label) = (findings.table.step.clone(), "error".to_owned());
-    convergence(&Convergence { title: None, x_label, y_label, series, slopes, floor, ..Convergence::default() })
+    convergence(&Convergence { x_label, y_label, series, floor, ..Convergence::default() })
 }
 
 /// What is printed, as a page.

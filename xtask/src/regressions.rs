@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let reported = root.join("reports/regressions.md");
     let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
     let copy = Copy::of(&root)?;
-    let passing = copy.as_it_is()?.seconds;
+    let passing = copy.as_it_is(arguments.recorded)?.seconds;
     let count = chosen.len();
     interrupt::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
     let mut all = vec![];

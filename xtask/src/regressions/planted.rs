@@ -14,9 +14,10 @@ use convergence_study::store::record::{self, Record};
 use convergence_study::store::{atomic, content_hash};
 use serde::{Deserialize, Serialize};
 
-/// What the copy leaves out: what is built, what is written by the program, and what is hidden, but for `.cargo`.
+/// What the copy leaves out: what is built, what is written by the program, and what is hidden, but for `.cargo`. No run is to know
+/// what these mistakes did before.
 fn is_left_out(name: &str) -> bool {
-    matches!(name, "target" | "reports") || (name.starts_with('.') && name != ".cargo")
+    matches!(name, "target" | "reports" | "fingerprints.json") || (name.starts_with('.') && name != ".cargo")
 }
 
 /// Profile of `cargo build`: optimised so far that the quick tier takes seconds, and compiled step by step.
@@ -60,12 +61,12 @@ impl Copy {
         self.folder.join("tree")
     }
 
-    /// What `verify` finds without a mistake.
+    /// What `verify` finds without a mistake; what is known is read.
     ///
     /// # Errors
     /// Where it does not pass: then it would notice every one.
-    pub(super) fn as_it_is(&self) -> Result<Found, Unusable> {
-        let found = self.verify(String::new())?;
+    pub(super) fn as_it_is(&self, recorded: bool) -> Result<Found, Unusable> {
+        let found = self.kept("as-it-is", self.hash, recorded, |key| self.verify(key))?;
         if found.record.verdict.is_pass() {
             return Ok(found);
         }
@@ -79,9 +80,28 @@ impl Copy {
     /// # Errors
     /// A text that does not compile, and errors of the operating system.
     pub(super) fn with(&self, name: &str, file: &str, text: &str, recorded: bool) -> Result<Found, Unusable> {
+        let hash = self.hash ^ content_hash(format!("{file}\n{text}").as_bytes());
+        self.kept(name, hash, recorded, |key| {
+            let path = self.tree().join(file);
+            let honest = fs::read(&path)?;
+            fs::write(&path, text)?;
+            let found = self.verify(key);
+            fs::write(&path, honest)?;
+            found
+        })
+    }
+
+    /// What was found before under this name and hash, else what is found now, which is kept.
+    fn kept(
+        &self,
+        name: &str,
+        hash: u64,
+        recorded: bool,
+        find: impl FnOnce(String) -> Result<Found, Unusable>,
+    ) -> Result<Found, Unusable> {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
         let kept = self.folder.join("records").join(name.chars().map(plain).collect::<String>() + ".json");
-        let key = format!("{:016x}", self.hash ^ content_hash(format!("{file}\n{text}").as_bytes()));
+        let key = format!("{hash:016x}");
         let known = fs::read_to_string(&kept).ok().and_then(|text| serde_json::from_str::<Found>(&text).ok());
         if let Some(known) = known.filter(|known| recorded || known.key == key) {
             return Ok(known);
@@ -89,12 +109,7 @@ impl Copy {
         if recorded {
             return Err(Unusable::because("nothing was recorded of it"));
         }
-        let path = self.tree().join(file);
-        let honest = fs::read(&path)?;
-        fs::write(&path, text)?;
-        let found = self.verify(key);
-        fs::write(&path, honest)?;
-        let found = found?;
+        let found = find(key)?;
         fs::create_dir_all(self.folder.join("records"))?;
         atomic::write(&kept, record::json(&found).map_err(io::Error::from)?)?;
         Ok(found)

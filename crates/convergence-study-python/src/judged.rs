@@ -118,7 +118,7 @@ impl Judgement {
 /// Text and pictures for a notebook.
 pub(crate) fn html(text: &str, pictures: &[String]) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    format!("<div><pre>{text}</pre>{}</div>", pictures.concat())
+    format!("<div><pre style=\"white-space: pre-wrap\">{text}</pre>{}</div>", pictures.concat())
 }
 
 /// A data frame where the caller has imported pandas, else a dict of lists.

@@ -165,7 +165,7 @@ fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
     let Some(n) = n.filter(|n| n.extract::<String>().map_or(true, |text| text != "auto")) else { return Ok(None) };
     let mut counts = vec![];
     for (k, number) in numbers("n", n)?.into_iter().enumerate() {
-        if !(number >= 1.0 && number <= 1e15 && number.fract() == 0.0) {
+        if !(1.0..=1e15).contains(&number) || number.fract() != 0.0 {
             return Err(refuse(format!("n[{k}]: expected a whole number > 0, found {number}")));
         }
         if counts.contains(&(number as usize)) {

@@ -120,7 +120,7 @@ def test_a_million_levels_and_a_hundred_thousand_calls():
     assert peaks[2] - peaks[0] < 1 << 20, peaks
 
 
-def test_a_study_adds_levels_until_it_is_decided(capfd):
+def test_a_study_adds_levels_until_it_is_decided(capfd, tmp_path):
     asked = []
 
     def solve(n):
@@ -132,6 +132,8 @@ def test_a_study_adds_levels_until_it_is_decided(capfd):
     assert abs(r.rates["L2"].rate - 2) < 1e-6 and list(dict(r.table()))[:3] == ["h", "L2", "rate L2"]
     assert list(r.table()["h"]) == [0.25, 0.125, 0.0625, 0.03125]
     assert "<svg" in r._repr_html_() and "too low" in repr(cs.study(solve, [8, 16, 32], order={"H1": 2}))
+    r.report(tmp_path / "report")
+    assert "decided after 4 levels" in (tmp_path / "report/README.md").read_text()
     late = cs.study(lambda n: n**-2.0 + 1.5 * n**-3.0 * (-1) ** int(math.log2(n)), order=2)
     assert late.verdict != "fail" and "levels" in late.summary
     absent = cs.study(solve, [8, 16, 32, 64], order={"L3": 2})
@@ -207,7 +209,7 @@ def test_a_notebook_shows_table_and_picture(tmp_path):
     notebook = nbformat.read(source, as_version=4)
     nbclient.NotebookClient(notebook, timeout=120).execute()
     shown = [output["data"]["text/html"] for cell in notebook.cells for output in cell.get("outputs", []) if "data" in output]
-    assert len(shown) == 2 and all("<pre>" in html and "<svg" in html for html in shown)
+    assert len(shown) == 2 and all("<pre" in html and "<svg" in html for html in shown)
     assert "error: pass" in shown[0] and "L2: fail" in shown[1] and "too-low" in shown[1]
     if folder := os.environ.get("CONVERGENCE_NOTEBOOK"):
         pathlib.Path(folder, "notebook.html").write_text("\n".join(shown))

@@ -127,3 +127,16 @@ fn a_wrong_order_is_judged_and_has_a_bar_all_the_same() {
     assert!((found.bar.unwrap().extrapolated - 1.0).abs() < 1e-9);
     assert_eq!(found.gci.unwrap().factor, SAFETY_UNCONFIRMED);
 }
+
+#[test]
+fn values_without_a_claim_have_a_limit_and_no_verdict() {
+    let values: Vec<Value> = [0.2, 0.1, 0.05, 0.025].map(|step| Value { step, value: 3.0 + step * step }).to_vec();
+    let found = Estimator::new(0.25).expect("a tolerance").estimate_unclaimed(&values);
+    let bar = found.bar.expect("a limit");
+    assert!(bar.limit[0] <= 3.0 && 3.0 <= bar.limit[1] && (bar.rate - 2.0).abs() < 1e-6, "{bar:?}");
+    assert_eq!((found.judged.verdict, found.gci.is_ok()), (Verdict::Inconclusive, true));
+    let zigzag: Vec<Value> =
+        values.iter().zip([1.0, 2.0, 1.0, 2.0]).map(|(level, value)| Value { value, ..*level }).collect();
+    let found = Estimator::new(0.25).expect("a tolerance").estimate_unclaimed(&zigzag);
+    assert_eq!(found.bar, Err(Refusal::Oscillating));
+}

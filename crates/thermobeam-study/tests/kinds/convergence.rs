@@ -77,7 +77,7 @@ fn a_claim_that_is_no_order_is_refused() {
     let refused = |from: &str, to: &str| {
         let text = std::fs::read_to_string(file()).unwrap();
         assert!(text.contains(from));
-        Convergence::parse(&text.replacen(from, to, 1), &file()).err().expect("a refusal").to_string()
+        Convergence::parse(&text.replacen(from, to, 1), &file()).expect_err("a refusal").to_string()
     };
     for to in ["order = \"<= 1\"", "order = \">= 0\"", "order = \"1\"", "order = -1"] {
         let message = refused("order = 1.0", to);

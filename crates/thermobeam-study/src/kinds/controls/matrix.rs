@@ -22,6 +22,9 @@ pub struct Controls {
     studies: Vec<Convergence>,
 }
 
+/// A study, by its place in the list, and elements and steps of a level of it, on which every fault is planted.
+type LevelOf = (usize, (usize, usize));
+
 /// The errors of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planted {
@@ -41,8 +44,7 @@ impl FromFile for Controls {
 }
 
 impl Kind for Controls {
-    /// A study, by its place in the list, and elements and steps of a level of it, on which every fault is planted.
-    type Data = (usize, (usize, usize));
+    type Data = LevelOf;
     /// One run for each fault that can be planted.
     type Found = Vec<Planted>;
 
@@ -78,7 +80,7 @@ impl Kind for Controls {
         Ok(found)
     }
 
-    fn judge(&self, ran: &[Ran<(usize, (usize, usize)), Vec<Planted>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Outcome {
         // Of a wrong run a number that is not finite is a detection.
         let not_finite = |found: &Vec<Planted>| {
             let honest = found.iter().find(|planted| planted.fault == Fault::None);
@@ -102,15 +104,10 @@ impl Kind for Controls {
 
 impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` where the fault cannot be planted.
-    fn verdict(
-        &self,
-        study: usize,
-        fault: Fault,
-        ran: &[Ran<(usize, (usize, usize)), Vec<Planted>>],
-    ) -> Option<Verdict> {
+    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Option<Verdict> {
         let spec = &self.studies[study];
         fault.plant(spec, self.relative)?;
-        let level = |ran: &Ran<(usize, (usize, usize)), Vec<Planted>>| {
+        let level = |ran: &Ran<LevelOf, Vec<Planted>>| {
             let planted = ran.ok().and_then(|found| found.iter().find(|planted| planted.fault == fault));
             (ran.case.data.1, planted.map_or(BROKEN, |planted| planted.errors))
         };

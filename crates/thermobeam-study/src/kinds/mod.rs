@@ -21,7 +21,6 @@ pub mod self_convergence;
 mod settings;
 pub mod solvers;
 mod steady;
-mod table;
 pub mod tables;
 mod terms;
 pub mod vibration;
@@ -29,12 +28,34 @@ mod watch;
 pub mod work_precision;
 
 pub use settings::{PLACES, settings};
-pub use table::KINDS;
 pub use terms::TERMS;
 
 use convergence_study::input::InputError;
-use convergence_study::study::{Study, StudyFile};
+use convergence_study::program;
+use convergence_study::study::{KindRow, Study, StudyFile};
 use std::path::Path;
+
+/// One row for each kind; the first is that of a file without `kind`.
+pub const KINDS: [KindRow; 18] = [
+    convergence::ROW,
+    any_order::ROW,
+    controls::ROW,
+    energy::ROW,
+    scenes::ROW,
+    solvers::ROW,
+    vibration::ROW,
+    frequencies::ROW,
+    self_convergence::ROW,
+    experiment::ROW,
+    exact_experiments::ROW,
+    equilibrium::ROW,
+    bifurcation::ROW,
+    random_errors::ROW,
+    rigid::ROW,
+    work_precision::ROW,
+    calibration::ROW,
+    program::ROW,
+];
 
 /// Reads a study file of any of the beam's kinds.
 ///

@@ -237,12 +237,12 @@ impl Kind for Scenes {
             ..plots::History::default()
         };
         let caption = "Displacement of the free end in the scenes that end with an answer.";
-        let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"].into_iter().chain(COUNTS);
-        let rows = found.iter().map(|(whole, shown)| whole.row(shown));
+        let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"];
+        let rows: Vec<_> = found.iter().map(|(whole, shown)| (whole.cells(shown), whole.readings(shown))).collect();
         Outcome {
-            tables: vec![Table::new("Scenes against an independent implementation", head, rows)],
+            tables: vec![readings::table("Scenes against an independent implementation", &head, &rows)],
             figures: vec![over_time(&self.header.id, "tip", caption, &history)],
-            quantities: found.iter().flat_map(|(whole, shown)| whole.quantities(shown)).collect(),
+            quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
             headline: headline.clone(),
             ..Outcome::new(headline, vec![], checks)
         }
@@ -300,20 +300,20 @@ impl Whole {
     }
 
     /// All numbers and counts of a run, unless a run without a step has no change of the energy.
-    fn quantities(&self, shown: &Shown) -> Vec<Quantity> {
+    fn readings(&self, shown: &Shown) -> Vec<Reading> {
+        let name = |of: &str| format!("{}: {of}", self.name);
         let numbers = NUMBERS.into_iter().zip(shown.numbers).filter(|(_, value)| value.is_finite());
-        let numbers = numbers.map(|(name, value)| (name, value, TOLERANCE));
-        let counts = COUNTS.into_iter().zip(shown.counts).map(|(name, count)| (name, count as f64, COUNT_TOLERANCE));
-        let quantity = |(name, value, tolerance)| Quantity::new(format!("{}: {name}", self.name), value, tolerance);
-        numbers.chain(counts).map(quantity).collect()
+        let numbers = numbers.map(|(of, value)| Reading::new(of, value).guarded(name(of), TOLERANCE));
+        let counts = COUNTS.into_iter().zip(shown.counts).map(|(of, count)| (of, count as f64));
+        let counts = counts.map(|(of, count)| Reading::new(of, count).fixed(0).guarded(name(of), COUNT_TOLERANCE));
+        numbers.chain(counts).collect()
     }
 
-    fn row(&self, shown: &Shown) -> Vec<String> {
+    fn cells(&self, shown: &Shown) -> Vec<String> {
         let solver = self.scene.one_step().map_or("newton", |stepping| stepping.settings.solver.name());
         let (name, distance) = self.farthest(shown);
         let by = if self.answer.is_empty() { "-".to_owned() } else { format!("{distance:.1e}") };
-        let cells = [&self.name, self.scene.method.name(), solver, shown.end.name(), name, &by].map(str::to_owned);
-        cells.into_iter().chain(shown.counts.map(|count| count.to_string())).collect()
+        [&self.name, self.scene.method.name(), solver, shown.end.name(), name, &by].map(str::to_owned).to_vec()
     }
 }
 

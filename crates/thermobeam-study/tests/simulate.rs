@@ -1,5 +1,6 @@
 //! Laws of running a scene.
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use convergence_study::run::time_limit::within;
@@ -7,6 +8,7 @@ use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
 use thermobeam_study::run::error::RunError;
+use thermobeam_study::run::motion::{Motion, Report};
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::run::together::run_together;
@@ -227,6 +229,23 @@ fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
     assert_eq!((event.from, event.to), (Phase::Upper, Phase::Free));
     assert_eq!(run.contact_phases()[0], (0.0, event.t));
     assert!(0 < run.contact_steps && run.contact_steps < run.steps);
+}
+
+#[test]
+fn a_step_by_dg_is_in_contact_if_the_free_end_touches_an_obstacle_in_all_of_it() {
+    let mut steps = vec![];
+    let mut watch = |motion: &mut dyn Motion, report: &Report| {
+        steps.push((motion.t() - report.dt, motion.t(), report.in_contact));
+        Ok(ControlFlow::Continue(()))
+    };
+    let simulator = Simulator::new(&located("t_end = 1.0", "0.01*x*(x-2)")).unwrap();
+    let run = simulator.watched(Recording::Summary, &[], &mut watch);
+    let phases = run.contact_phases();
+    assert!(phases.len() == 2 && steps.len() == run.steps, "{phases:?}");
+    for (from, to, in_contact) in steps {
+        let is_inside = phases.iter().any(|(start, end)| start - 1e-12 <= from && to <= end + 1e-12);
+        assert_eq!(in_contact, is_inside, "from {from} to {to}, {phases:?}");
+    }
 }
 
 #[test]

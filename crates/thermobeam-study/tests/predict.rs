@@ -231,6 +231,23 @@ fn the_error_asked_for_is_made_inside_steps_too_and_the_checks_cost_a_few_runs()
 }
 
 #[test]
+fn the_parts_of_an_error_are_what_much_finer_elements_and_much_shorter_steps_take_away() {
+    for (beam, target) in [("", 1e-5), ("zeta = 0.01", 1e-5), ("beta = 5", 1e-7)] {
+        let choice = chosen(&scene(beam, "t_end = 1.0"), target);
+        let Method::Dg(by) = choice.scene.method else { panic!("{choice:?}") };
+        let shorter =
+            Stepping { dt: by.dt / 6.0, restart_dt: by.restart_dt / 36.0, growth: 1.0 + (by.growth - 1.0) / 6.0, ..by };
+        let finer = Scene { degree: choice.scene.degree + 8, ..choice.scene.clone() };
+        let shorter = Scene { method: Method::Dg(shorter), ..choice.scene.clone() };
+        let own = run(&choice.scene, TIMES);
+        for (part, other) in choice.parts.iter().zip([finer, shorter]) {
+            let made = largest_difference(&own, &run(&other, TIMES));
+            assert!(made <= 1.5 * part && *part <= 20.0 * made, "{beam}: {made:e}, not {part:e}, by {other:?}");
+        }
+    }
+}
+
+#[test]
 fn the_scenes_own_degrees_and_steps_do_not_matter_and_the_choice_repeats() {
     let one = chosen(&scene("", "t_end = 0.5"), 1e-5);
     let other = chosen(&scene("", "t_end = 0.5\ndegree = 0\ndt = 0.4\nrestart_dt = 0.3\ngrowth = 2"), 1e-5);

@@ -43,7 +43,7 @@ pub struct Arguments {
 
 /// What `bench --format json` prints beside the verdict.
 #[derive(serde::Serialize)]
-struct Object<'a> {
+struct Tables<'a> {
     tables: &'a [Table],
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         None => "nothing is written without --out".to_owned(),
     };
     let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
-    arguments.flags.print(Verdict::Pass, &Object { tables: &page.tables }, &words)?;
+    arguments.flags.print(Verdict::Pass, &Tables { tables: &page.tables }, &words)?;
     Ok(Ended::Well)
 }
 

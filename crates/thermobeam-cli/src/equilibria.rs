@@ -37,19 +37,19 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let stable = states.iter().filter(|state| state.stable).count();
     let sentence = format!("{}, {stable} of them stable", counted(states.len()));
     let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
-    flags.show("equilibria", Verdict::Pass, &Object::new(&scene, &states), &words)?;
+    flags.show("equilibria", Verdict::Pass, &Listed::new(&scene, &states), &words)?;
     Ok(Ended::Well)
 }
 
 #[derive(Debug, Serialize)]
-struct Object {
-    equilibria: Vec<State>,
+struct Listed {
+    equilibria: Vec<ListedState>,
     /// Whether these are all: below beta = -0.9996 unstable states accumulate, and only some of them are listed.
     complete: bool,
 }
 
 #[derive(Debug, Serialize)]
-struct State {
+struct ListedState {
     contact: &'static str,
     n_value: f64,
     u_tip: f64,
@@ -60,9 +60,9 @@ struct State {
     unstable_directions: Option<usize>,
 }
 
-impl Object {
+impl Listed {
     fn new(scene: &Scene, states: &[Equilibrium]) -> Self {
-        let state = |state: &Equilibrium| State {
+        let state = |state: &Equilibrium| ListedState {
             contact: name(state.contact),
             n_value: state.n_value,
             u_tip: state.u_tip,

@@ -97,13 +97,13 @@ fn to_folder(
     let verdict = if failed == 0 { Verdict::Pass } else { Verdict::Fail };
     let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
     let words = flags.words(verdict, &sentence, || summary(arguments, sweep, [cases, begun, failed], took, &results));
-    flags.print(verdict, &Object { sweep: &sweep.name, cases, failed, results }, &words)?;
+    flags.print(verdict, &SweepObject { sweep: &sweep.name, cases, failed, results }, &words)?;
     Ok(failed)
 }
 
 /// What `sweep --out DIR --format json` prints beside the verdict.
 #[derive(serde::Serialize)]
-struct Object<'a> {
+struct SweepObject<'a> {
     sweep: &'a str,
     cases: usize,
     failed: usize,

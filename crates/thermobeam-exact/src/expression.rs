@@ -22,7 +22,6 @@ use std::fmt;
 
 use num_dual::Dual2_64;
 
-use crate::function::samples;
 pub use error::{ExpressionError, ExpressionProblem, NotFinite};
 use syntax::Node;
 
@@ -121,6 +120,14 @@ impl Expression {
         }
         Ok(())
     }
+}
+
+/// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
+const SAMPLES: u32 = 2520;
+
+/// Evenly spaced points of [0, end], both ends among them.
+pub(crate) fn samples(end: f64) -> impl Iterator<Item = f64> {
+    (0..=SAMPLES).map(move |i| end * (f64::from(i) / f64::from(SAMPLES)))
 }
 
 impl fmt::Display for Expression {

@@ -4,10 +4,7 @@ use std::fmt::Debug;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::expression::Expression;
-
-/// Samples of [`Function::size`]: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
-const SAMPLES: u32 = 2520;
+use crate::expression::{Expression, samples};
 
 /// A function of one variable with its first two derivatives.
 pub trait Function: Debug + Send + Sync {
@@ -37,11 +34,6 @@ pub trait Function: Debug + Send + Sync {
         const ROUNDINGS: f64 = 8.0;
         ROUNDINGS * f64::EPSILON * self.size(end)
     }
-}
-
-/// Evenly spaced points of [0, end], both ends among them.
-pub(crate) fn samples(end: f64) -> impl Iterator<Item = f64> {
-    (0..=SAMPLES).map(move |i| end * (f64::from(i) / f64::from(SAMPLES)))
 }
 
 impl Function for Expression {

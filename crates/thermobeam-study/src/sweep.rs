@@ -54,7 +54,7 @@ pub use run::{InOrder, Line, run};
 pub use share::Share;
 
 use design::Design;
-use reader::Template;
+use reader::Overlay;
 
 /// Largest number of cases of a sweep.
 pub const MOST_CASES: usize = limits::SWEEP_CASES;
@@ -65,7 +65,7 @@ pub struct Sweep {
     /// The file's name without folder and extension.
     pub name: String,
     base: Base,
-    template: Template,
+    template: Overlay,
     keys: Vec<Key>,
     design: Design,
     fingerprint: u64,

@@ -9,8 +9,8 @@ use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
 use crate::scheme::Scheme;
 use crate::simulation::{Problem, Stepping, is_heated, prepare};
-use crate::solve::newton::Case;
-use crate::solve::stepper::{Batch, newton};
+use crate::solve::newton::newton;
+use crate::solve::stepper::{Batch, Case};
 use crate::solve::{Level, Settings, StepReport, Work};
 
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.

@@ -6,8 +6,8 @@ use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;
 use crate::solve::fixed_point::FixedPoint;
-use crate::solve::newton::Case;
-use crate::solve::stepper::{Stepper, newton};
+use crate::solve::newton::newton;
+use crate::solve::stepper::{Case, Stepper};
 use crate::solve::{Level, Settings, Solver, StepReport, Work};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is

@@ -7,7 +7,7 @@ use serde::Serialize;
 use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
 use thermobeam_study::predict::estimate::{Budget, estimate};
 use thermobeam_study::predict::{Cost, MOST_WORK, MOST_WORK_KEPT, Unreachable, Work};
-use thermobeam_study::scene::{Method, Scene};
+use thermobeam_study::scene::Scene;
 
 use super::Arguments;
 use super::summary::Line;
@@ -111,7 +111,7 @@ impl Planned {
 
     pub(super) fn object(&self) -> Object<'_> {
         let Choice { scene, parts: [space_error, time_error], run, needed, .. } = &self.choice;
-        let is_dg = matches!(scene.method, Method::Dg(_));
+        let is_dg = scene.method.dg().is_some();
         Object {
             quantity: self.quantity.name(),
             target_error: self.target,
@@ -154,7 +154,7 @@ impl Planned {
             line("time", format!("{time:.3e}"), &format!("{parts_by}, in time")),
             line("scheme", scene.method.name().to_owned(), why),
         ];
-        if let Method::Dg(stepping) = scene.method {
+        if let Some(stepping) = scene.method.dg() {
             let nodes: Vec<String> = scene.mesh.nodes().iter().map(|x| format!("{x:.4}")).collect();
             lines.push(line("growth", format!("{:.4}", stepping.growth), "of the steps after a contact event"));
             let between = format!("between x = {}", nodes.join(", "));

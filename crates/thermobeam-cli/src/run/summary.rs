@@ -11,7 +11,7 @@ use thermobeam_study::run::motion::Sample;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::run::tally::{EnergySummary, Extremes};
-use thermobeam_study::scene::{Method, Scene};
+use thermobeam_study::scene::Scene;
 
 /// A line of the summary: name, value, meaning.
 pub(super) type Line = (&'static str, String, String);
@@ -69,19 +69,7 @@ fn section(text: &mut String, title: &str, lines: Vec<Line>) {
 }
 
 fn headline(scene: &Scene, run: &Run) -> String {
-    let (elements, t_end) = (counted(scene.mesh.elements(), "element"), scene.t_end);
-    let discretised = match &scene.method {
-        Method::OneStep(by) => {
-            let (steps, solver) = (counted(scene.steps(), "step"), by.settings.solver.name());
-            format!("{elements}, {steps} of dt = {:?} to t = {t_end:?}\n{}, {solver}", by.dt, by.scheme.name)
-        }
-        Method::Dg(by) => {
-            let (p, q) = (scene.degree, by.degree);
-            let steps = format!("steps from {:.3e} to {:?}, to t = {t_end:?}", by.restart_dt, by.dt);
-            format!("{elements} of degree {p}, dG({q}) in time, {steps}\n{}", scene.method.solver())
-        }
-    };
-    let mut text = format!("{}: {discretised}, tolerance {:?}\n", scene.name, scene.method.tolerance());
+    let mut text = format!("{}: {}, tolerance {:?}\n", scene.name, scene.discretised(), scene.method.tolerance());
     if let Some(failure) = &run.failure {
         let _ = writeln!(text, "\nFAILED after {}, at t = {}: {failure}", counted(run.steps, "step"), run.last.t);
     }

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
 
-use convergence_study::run::time_limit::Patience;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::dg::{self, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
+use crate::run::dg::DgMotion;
+use crate::run::motion::Motion;
 use crate::run::simulate;
 use crate::scene::Scene;
 
@@ -158,23 +158,15 @@ impl Curves {
 /// The scene is refused, a step fails, or a limit of time or work is reached.
 pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
     let stepping = scene.dg_stepping();
-    let mut simulation = dg::Simulation::new(scene.dg_problem(), stepping).map_err(Reason::of_run)?;
-    let unknowns = 3 * simulation.space().blocks() * (stepping.degree + 1);
-    let mut patience = Patience::new(unknowns / 3);
-    let mut curves = Curves::new(rows, simulation.tip_range());
-    let mut level = simulation.level().clone();
-    let mut wall = Duration::ZERO;
+    let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
+    let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
+    let mut curves = Curves::new(rows, motion.extremes());
+    let mut level = motion.simulation().level().clone();
     let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
     let early = stepping.restart_dt / (stepping.growth - 1.0);
     let stride = (scene.t_end / stepping.dt / MOST_LONG_STEPS).ceil().max(1.0) as usize;
-    loop {
-        patience.check(simulation.work().steps, || simulation.t()).map_err(Reason::of_run)?;
-        let started = Instant::now();
-        let step = simulation.step(scene.t_end).map_err(Reason::of_run)?;
-        wall += started.elapsed();
-        if step.is_none() {
-            break;
-        }
+    while motion.step(scene.t_end).map_err(Reason::of_run)?.is_some() {
+        let simulation = motion.simulation();
         let done = simulation.work().solves;
         work.add((unknowns * (done - solves)) as f64)?;
         solves = done;
@@ -182,7 +174,7 @@ pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut W
         curves.include(simulation.tip_range());
         if let Some(at) = at {
             while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
-                rows.of_dg(&simulation, t, &mut level, &mut curves.values);
+                rows.of_dg(simulation, t, &mut level, &mut curves.values);
                 passed += 1;
             }
             continue;
@@ -192,12 +184,12 @@ pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut W
         if is_long && !long.is_multiple_of(stride) {
             continue;
         }
-        for instance in instances(&simulation, early) {
-            rows.of_dg(&simulation, instance.t, &mut level, &mut curves.values);
+        for instance in instances(simulation, early) {
+            rows.of_dg(simulation, instance.t, &mut level, &mut curves.values);
             curves.times.push(instance);
         }
     }
-    curves.cost = Cost { work: (unknowns * solves) as f64, seconds: wall.as_secs_f64(), runs: 1 };
+    curves.cost = Cost { work: (unknowns * solves) as f64, seconds: motion.wall().as_secs_f64(), runs: 1 };
     work.ran(&curves.cost);
     Ok(curves)
 }

@@ -46,6 +46,11 @@ impl DgMotion {
             wall: Duration::ZERO,
         })
     }
+
+    /// The simulation.
+    pub(crate) fn simulation(&self) -> &dg::Simulation {
+        &self.simulation
+    }
 }
 
 impl Motion for DgMotion {

@@ -8,7 +8,7 @@ use super::error::RunError;
 use super::motion::{Sample, Solves};
 use super::simulate::Run;
 use super::tally::{EnergySummary, Extremes, Iterations};
-use crate::scene::{Method, Scene};
+use crate::scene::Scene;
 
 /// The object that `run --format json` prints.
 #[derive(Debug, Serialize)]
@@ -33,7 +33,7 @@ pub struct Object<'a> {
     contact_steps: usize,
     degree: usize,
     #[serde(flatten)]
-    lengths: Option<Lengths>,
+    lengths: Option<StepsOfDg>,
     work: Solves,
     #[serde(skip_serializing_if = "Option::is_none")]
     events: Option<Vec<Event>>,
@@ -43,7 +43,7 @@ pub struct Object<'a> {
 
 /// Steps of dG.
 #[derive(Debug, Serialize)]
-struct Lengths {
+struct StepsOfDg {
     time_degree: usize,
     restart_dt: f64,
     growth: f64,
@@ -63,13 +63,13 @@ struct Failure {
     t: f64,
     message: String,
     #[serde(flatten)]
-    numbers: Numbers,
+    numbers: FailureNumbers,
 }
 
 /// The numbers of a failure, by its kind.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-enum Numbers {
+enum FailureNumbers {
     Iteration { iterations: usize, increment: f64, contraction: f64 },
     NonFinite { iterations: usize, increment: f64 },
     Indefinite { node: usize, pivot: f64, n_value: f64 },
@@ -95,12 +95,8 @@ impl<'a> Object<'a> {
     /// The same without the time on the clock: the same run gives the same bytes.
     pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
         let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
-        let lengths = match scene.method {
-            Method::OneStep(_) => None,
-            Method::Dg(dg::Stepping { degree, restart_dt, growth, .. }) => {
-                Some(Lengths { time_degree: degree, restart_dt, growth })
-            }
-        };
+        let lengths =
+            |by: dg::Stepping| StepsOfDg { time_degree: by.degree, restart_dt: by.restart_dt, growth: by.growth };
         Self {
             scene: &scene.name,
             elements: scene.mesh.elements(),
@@ -117,7 +113,7 @@ impl<'a> Object<'a> {
             heated: run.is_heated,
             contact_steps: run.contact_steps,
             degree: scene.degree,
-            lengths,
+            lengths: scene.method.dg().map(lengths),
             work: run.work,
             events: run.contact.as_ref().map(|contact| contact.events.iter().map(event).collect()),
             failure: run.failure.as_ref().map(failure),
@@ -128,35 +124,37 @@ impl<'a> Object<'a> {
 fn failure(ended: &RunError) -> Failure {
     let of = |kind, step, t, message: String, numbers| Failure { kind, step, t, message, numbers };
     match ended {
-        RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), Numbers::None {}),
+        RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
         RunError::Step(StepError { step, t, failure, .. }) => {
             let (kind, numbers) = kind(failure);
             of(kind, *step, *t, failure.to_string(), numbers)
         }
         RunError::TimeUp(up) => {
-            let numbers = Numbers::Limit { limit_seconds: up.limit.as_secs_f64() };
+            let numbers = FailureNumbers::Limit { limit_seconds: up.limit.as_secs_f64() };
             of("time-limit", up.step, up.t, up.to_string(), numbers)
         }
-        RunError::Unsound { step, t, unsound, .. } => of("unsound", *step, *t, unsound.to_string(), Numbers::None {}),
+        RunError::Unsound { step, t, unsound, .. } => {
+            of("unsound", *step, *t, unsound.to_string(), FailureNumbers::None {})
+        }
     }
 }
 
-fn kind(failure: &StepFailure) -> (&'static str, Numbers) {
+fn kind(failure: &StepFailure) -> (&'static str, FailureNumbers) {
     match *failure {
         StepFailure::Diverged { iterations, increment, contraction, .. } => {
-            ("diverged", Numbers::Iteration { iterations, increment, contraction })
+            ("diverged", FailureNumbers::Iteration { iterations, increment, contraction })
         }
         StepFailure::IterationLimit { iterations, increment, contraction } => {
-            ("iteration-limit", Numbers::Iteration { iterations, increment, contraction })
+            ("iteration-limit", FailureNumbers::Iteration { iterations, increment, contraction })
         }
         StepFailure::NonFinite { iterations, increment } => {
-            ("non-finite", Numbers::NonFinite { iterations, increment })
+            ("non-finite", FailureNumbers::NonFinite { iterations, increment })
         }
         StepFailure::Indefinite { node, pivot, n_value } => {
-            ("indefinite", Numbers::Indefinite { node, pivot, n_value })
+            ("indefinite", FailureNumbers::Indefinite { node, pivot, n_value })
         }
-        StepFailure::EventsTooClose { .. } => ("events-too-close", Numbers::None {}),
-        StepFailure::WrongContact { .. } => ("wrong-contact", Numbers::None {}),
-        StepFailure::EventNotFound { .. } => ("event-not-found", Numbers::None {}),
+        StepFailure::EventsTooClose { .. } => ("events-too-close", FailureNumbers::None {}),
+        StepFailure::WrongContact { .. } => ("wrong-contact", FailureNumbers::None {}),
+        StepFailure::EventNotFound { .. } => ("event-not-found", FailureNumbers::None {}),
     }
 }

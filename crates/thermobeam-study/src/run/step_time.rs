@@ -27,7 +27,7 @@ const LANES: usize = 4;
 
 /// What is timed.
 #[derive(Clone)]
-struct Setting {
+struct Timed {
     problem: Problem,
     stepping: Stepping,
     /// Whether four equal cases run in lanes.
@@ -46,7 +46,7 @@ struct StepTime {
     factorizations: usize,
 }
 
-impl Setting {
+impl Timed {
     fn new(scene: &Scene, mesh: Mesh) -> Result<Self, SetupError> {
         let problem = simulate::problem(&Scene { mesh, ..scene.clone() });
         Ok(Self { problem, stepping: scene.one_step()?, in_lanes: false, balanced: false })
@@ -100,10 +100,10 @@ impl Setting {
 }
 
 /// What changes a setting.
-type Change = fn(&mut Setting);
+type Alteration = fn(&mut Timed);
 
 /// The ways to solve a step, and what a scene saves by what it does not have.
-const WAYS: [(&str, Change); 10] = [
+const WAYS: [(&str, Alteration); 10] = [
     ("Newton, extrapolated start", |_| ()),
     ("Newton from the level before", |s| {
         s.stepping.settings = Settings { start: Start::Previous, ..s.stepping.settings }
@@ -123,7 +123,7 @@ const WAYS: [(&str, Change); 10] = [
     }),
 ];
 
-fn cold(setting: &mut Setting) {
+fn cold(setting: &mut Timed) {
     setting.problem.beam.a = 0.0;
     setting.problem.initial.theta.fill(0.0);
 }
@@ -133,9 +133,9 @@ fn cold(setting: &mut Setting) {
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up on that mesh.
 pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
-    let whole = Setting::new(scene, Mesh::uniform(elements)?)?;
+    let whole = Timed::new(scene, Mesh::uniform(elements)?)?;
     let mut against = f64::NAN;
-    let mut line = |(name, change): (&str, Change)| {
+    let mut line = |(name, change): (&str, Alteration)| {
         let mut setting = whole.clone();
         change(&mut setting);
         let time = setting.time()?;
@@ -164,8 +164,8 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
 /// [`SetupError`] where the scene cannot be set up.
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
     let line = |&n: &usize| {
-        let alone = Setting::new(scene, Mesh::uniform(n)?)?;
-        let lanes = Setting { in_lanes: true, ..alone.clone() }.time()?;
+        let alone = Timed::new(scene, Mesh::uniform(n)?)?;
+        let lanes = Timed { in_lanes: true, ..alone.clone() }.time()?;
         let time = alone.time()?;
         Ok(vec![
             n.to_string(),

@@ -53,6 +53,14 @@ impl Method {
         }
     }
 
+    /// The steps of dG; `None` of a one-step scheme.
+    pub fn dg(&self) -> Option<dg::Stepping> {
+        match self {
+            Self::OneStep(_) => None,
+            Self::Dg(stepping) => Some(*stepping),
+        }
+    }
+
     /// Bound on the last increment of a step's iteration.
     pub fn tolerance(&self) -> f64 {
         match self {
@@ -89,7 +97,7 @@ impl Method {
     pub(super) fn degree(&self, root: &Section<'_>, mesh: &Mesh) -> Result<usize, InputError> {
         let section = root.section("mesh")?;
         let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
-        let Self::Dg(stepping) = self else {
+        let Some(stepping) = self.dg() else {
             let refused = get("degree").filter(|field| field.count(1..=1).is_err());
             let allowed = "1, or time.scheme = \"dg\" for elements of higher degree";
             return refused.map_or(Ok(1), |field| Err(field.refuse(field.as_written(), allowed)));
@@ -195,10 +203,8 @@ mod tests {
 
     fn read(text: &str) -> Result<(Scene, dg::Stepping), String> {
         let scene = Scene::parse(text, "s.toml").map_err(|error| error.to_string())?;
-        match scene.method {
-            Method::Dg(stepping) => Ok((scene, stepping)),
-            Method::OneStep(_) => Err(format!("a scene by {}", scene.method.name())),
-        }
+        let stepping = scene.method.dg().ok_or_else(|| format!("a scene by {}", scene.method.name()))?;
+        Ok((scene, stepping))
     }
 
     #[test]

@@ -55,6 +55,7 @@ use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
 use convergence_study::input::{self, Field, InputError, Section};
+use convergence_study::text::number::counted;
 
 /// The tables of a scene.
 pub(crate) const TABLES: [&str; 5] = ["beam", "obstacles", "initial", "mesh", "time"];
@@ -180,9 +181,23 @@ impl Scene {
 
     /// The steps of dG; of a scene by a one-step scheme those of a scene that leaves all keys out.
     pub fn dg_stepping(&self) -> dg::Stepping {
-        match self.method {
-            Method::Dg(stepping) => stepping,
-            Method::OneStep(_) => method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end),
+        let default = || method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end);
+        self.method.dg().unwrap_or_else(default)
+    }
+
+    /// Mesh, steps, scheme and solver in two lines.
+    pub fn discretised(&self) -> String {
+        let (elements, t_end) = (counted(self.mesh.elements(), "element"), self.t_end);
+        match &self.method {
+            Method::OneStep(by) => {
+                let (steps, solver) = (counted(self.steps(), "step"), by.settings.solver.name());
+                format!("{elements}, {steps} of dt = {:?} to t = {t_end:?}\n{}, {solver}", by.dt, by.scheme.name)
+            }
+            Method::Dg(by) => {
+                let (p, q) = (self.degree, by.degree);
+                let steps = format!("steps from {:.3e} to {:?}, to t = {t_end:?}", by.restart_dt, by.dt);
+                format!("{elements} of degree {p}, dG({q}) in time, {steps}\n{}", self.method.solver())
+            }
         }
     }
 

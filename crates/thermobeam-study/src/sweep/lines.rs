@@ -26,7 +26,7 @@ pub(super) struct Place {
 
 /// The part of a line that is read.
 #[derive(Deserialize)]
-struct Head<'a> {
+struct LineHead<'a> {
     case: usize,
     status: &'a str,
 }
@@ -85,7 +85,7 @@ pub(super) fn places(
         }
         let damaged =
             |reason: String| SweepError::Damaged { file: path.to_owned(), line: Some(places.len() + 1), reason };
-        let head: Head<'_> =
+        let head: LineHead<'_> =
             serde_json::from_slice(&line).map_err(|error| damaged(format!("not a line of results: {error}")))?;
         if head.case >= cases {
             return Err(damaged(format!("expected a case below {cases}, the number of cases, found {}", head.case)));

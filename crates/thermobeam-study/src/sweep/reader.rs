@@ -12,9 +12,9 @@ use convergence_study::store::content_hash;
 
 /// What every case has in common: TOML in which `{key}` stands for the case's value.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Template(String);
+pub(super) struct Overlay(String);
 
-impl Template {
+impl Overlay {
     /// The values that replace those of the base scene.
     pub(super) fn overlay(&self, case: &SweepCase<'_>) -> String {
         let mut text = self.0.clone();
@@ -51,7 +51,7 @@ pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -
     let set = set(root)?;
     let varied = varied(root)?;
     check_placeholders(&set, &varied)?;
-    let template = Template(set.iter().map(|(name, text, _)| format!("{name} = {text}\n")).collect());
+    let template = Overlay(set.iter().map(|(name, text, _)| format!("{name} = {text}\n")).collect());
     let samples = samples(root)?;
     probe(&base, &template, &set, &varied, samples.is_some())?;
     let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
@@ -159,7 +159,7 @@ fn check_placeholders(set: &[(String, String, Field<'_>)], varied: &[VariedKey<'
 }
 
 /// The dt and t_end of all cases, where one of them varies alone.
-fn common_steps(base: &Base, template: &Template, varied: &[VariedKey<'_>]) -> Option<(f64, f64)> {
+fn common_steps(base: &Base, template: &Overlay, varied: &[VariedKey<'_>]) -> Option<(f64, f64)> {
     let fixed: Vec<&VariedKey<'_>> = varied.iter().filter(|varied| !is_step(varied.key)).collect();
     steps(&attempt(base, template, &fixed, None).ok()?)
 }
@@ -176,7 +176,7 @@ fn is_step(key: Key) -> bool {
 /// The scene with the first values of all keys but one.
 fn attempt(
     base: &Base,
-    template: &Template,
+    template: &Overlay,
     varied: &[&VariedKey<'_>],
     probed: Option<(usize, f64)>,
 ) -> Result<Scene, InputError> {
@@ -193,7 +193,7 @@ fn attempt(
 /// Where dt and t_end both vary, each case checks whether dt divides t_end; drawn ones are rounded so that it does.
 fn probe(
     base: &Base,
-    template: &Template,
+    template: &Overlay,
     set: &[(String, String, Field<'_>)],
     varied: &[VariedKey<'_>],
     is_drawn: bool,

@@ -100,7 +100,7 @@ fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
 
 /// Cases that run side by side: at most [`LANES`], and their scenes agree; or one that runs alone.
 #[derive(Default)]
-struct Group {
+struct SideBySide {
     together: Option<Together>,
     indices: Vec<usize>,
     scenes: Vec<Scene>,
@@ -109,16 +109,16 @@ struct Group {
 }
 
 /// Groups cases; a scene that can only run alone forms a group of its own, and so does a case without a scene.
-fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
-    let mut groups: Vec<Group> = vec![];
+fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<SideBySide> {
+    let mut groups: Vec<SideBySide> = vec![];
     for &index in indices {
         let read = caught(|| scene(sweep, index)).unwrap_or_else(|| Err(Line::panicked(sweep, index)));
         let together = read.as_ref().ok().and_then(Together::of);
-        let fits = |group: &&mut Group| group.indices.len() < LANES && group.together == together;
+        let fits = |group: &&mut SideBySide| group.indices.len() < LANES && group.together == together;
         let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
             Some(group) => group,
             None => {
-                groups.push(Group { together, ..Group::default() });
+                groups.push(SideBySide { together, ..SideBySide::default() });
                 groups.last_mut().unwrap_or_else(|| unreachable!("one was pushed"))
             }
         };
@@ -132,8 +132,8 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<Group> {
 }
 
 /// The lines of a group: its cases side by side, or one after the other where that fails.
-fn lines(sweep: &Sweep, group: &Group, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
-    let Group { indices, scenes, failed, .. } = group;
+fn lines(sweep: &Sweep, group: &SideBySide, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
+    let SideBySide { indices, scenes, failed, .. } = group;
     if let Some(line) = failed {
         return sink(line.clone());
     }

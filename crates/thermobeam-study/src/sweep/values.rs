@@ -7,7 +7,7 @@ use convergence_study::input::{Field, InputError};
 
 /// How values are spread between two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Scale {
+enum Spread {
     Linear,
     Log,
 }
@@ -16,19 +16,19 @@ enum Scale {
 struct Range {
     from: f64,
     to: f64,
-    scale: Scale,
+    scale: Spread,
 }
 
 impl Range {
     fn read(field: &Field<'_>, key: Key, others: &[&str]) -> Result<Self, InputError> {
         let section = field.section()?;
         section.allow(&[&["from", "to", "scale"], others].concat())?;
-        let scales = [("linear", Scale::Linear), ("log", Scale::Log)];
-        let scale = section.get("scale").map_or(Ok(Scale::Linear), |field| field.choice(&scales))?;
+        let scales = [("linear", Spread::Linear), ("log", Spread::Log)];
+        let scale = section.get("scale").map_or(Ok(Spread::Linear), |field| field.choice(&scales))?;
         let end = |name: &str| {
             let field = section.require(name, "a number")?;
             let value = number(&field, key)?;
-            if scale == Scale::Log && value <= 0.0 {
+            if scale == Spread::Log && value <= 0.0 {
                 return Err(field.refuse_as_written("a number > 0 on a logarithmic scale"));
             }
             Ok((field, value))
@@ -44,8 +44,8 @@ impl Range {
     /// The value at `share` of the way, 0 to 1.
     fn at(&self, share: f64, key: Key) -> f64 {
         let value = match self.scale {
-            Scale::Linear => self.from + (self.to - self.from) * share,
-            Scale::Log => self.from * (self.to / self.from).powf(share),
+            Spread::Linear => self.from + (self.to - self.from) * share,
+            Spread::Log => self.from * (self.to / self.from).powf(share),
         };
         if key.is_whole { value.round() } else { rounded(value) }
     }

@@ -25,13 +25,13 @@ pub(super) struct Losses {
 }
 
 /// What an energy is made of besides a level.
-pub(super) struct Scene<'a> {
+pub(super) struct Measured<'a> {
     pub(super) space: &'a Space,
     pub(super) beam: &'a Beam,
     pub(super) obstacles: Option<&'a Obstacles>,
 }
 
-impl Scene<'_> {
+impl Measured<'_> {
     /// The energy of a level, term by term.
     pub(super) fn energy(&self, level: &Level) -> Energy {
         let (space, beam) = (self.space, self.beam);

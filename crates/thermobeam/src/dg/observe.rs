@@ -1,6 +1,6 @@
 //! What a simulation shows: fields anywhere in the last step, the energy, and the balance.
 
-use super::energy::Scene;
+use super::energy::Measured;
 use super::simulation::Simulation;
 use super::{Field, Level};
 use crate::energy::{Balance, Energy};
@@ -69,7 +69,7 @@ impl Simulation {
         self.scene().balance(&self.old, &self.level, self.last_phase, losses)
     }
 
-    fn scene(&self) -> Scene<'_> {
-        Scene { space: &self.space, beam: &self.beam, obstacles: self.obstacles.as_ref() }
+    fn scene(&self) -> Measured<'_> {
+        Measured { space: &self.space, beam: &self.beam, obstacles: self.obstacles.as_ref() }
     }
 }

@@ -86,7 +86,7 @@ struct Slot<const S: usize> {
 }
 
 /// The polynomials of one step.
-struct Motion<const S: usize> {
+struct Polynomials<const S: usize> {
     /// v, w, θ~.
     x: Vec<Block<S>>,
     /// u and φ, among others.
@@ -94,10 +94,10 @@ struct Motion<const S: usize> {
 }
 
 /// [`Stages`] for q = S - 1.
-pub(super) struct Stepper<const S: usize> {
+pub(super) struct DgStepper<const S: usize> {
     forms: TimeForms<S>,
-    trial: Motion<S>,
-    accepted: Motion<S>,
+    trial: Polynomials<S>,
+    accepted: Polynomials<S>,
     residual: Vec<Block<S>>,
     weights: Vec<[f64; 3]>,
     slots: Vec<Slot<S>>,
@@ -108,11 +108,11 @@ pub(super) struct Stepper<const S: usize> {
     clock: usize,
 }
 
-impl<const S: usize> Stepper<S> {
+impl<const S: usize> DgStepper<S> {
     /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more; `loaded` where there will be loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
-        let motion = || Motion { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
+        let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
         let factor = Factor::new(space);
         let affordable = (FACTOR_BYTES / factor.bytes()).max(2);
         let slot = || Slot { h: 0.0, n_value: 0.0, used: 0, factor: factor.clone() };
@@ -145,6 +145,16 @@ impl<const S: usize> Stepper<S> {
         };
         self.slots[index].used = self.clock;
         Ok(index)
+    }
+
+    /// The residual of the equations into `residual`; returns the mean axial force.
+    fn defect(&mut self, task: &Task<'_>) -> f64 {
+        let equations = task.equations(&self.forms, self.forcing.as_ref());
+        equations.displace(&self.trial.x, &mut self.trial.terms);
+        let axial = equations.axial_force(&self.trial.terms);
+        let force = equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
+        self.forces = [force, axial.low[0][0]];
+        self.forces[1]
     }
 
     fn factorize(&mut self, index: usize, task: &Task<'_>, n_value: f64) -> Result<(), StepFailure> {
@@ -204,7 +214,7 @@ fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] 
     sum
 }
 
-impl<const S: usize> Stages for Stepper<S> {
+impl<const S: usize> Stages for DgStepper<S> {
     fn guess_constant(&mut self, level: &Level) {
         for (x, rates) in self.trial.x.iter_mut().zip(&level.rates) {
             *x = [[0.0; S]; 3];
@@ -240,12 +250,7 @@ impl<const S: usize> Stages for Stepper<S> {
         let (mut previous, mut contraction) = (f64::INFINITY, f64::NAN);
         let mut replaced = false;
         for iteration in 1..=task.max_iterations {
-            let equations = task.equations(&self.forms, self.forcing.as_ref());
-            equations.displace(&self.trial.x, &mut self.trial.terms);
-            let axial = equations.axial_force(&self.trial.terms);
-            let force = equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
-            let n_value = axial.low[0][0];
-            self.forces = [force, n_value];
+            let n_value = self.defect(task);
             if !n_value.is_finite() {
                 return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
             }
@@ -367,11 +372,11 @@ fn polynomial<const S: usize>(path: &Path<S>) -> Polynomial {
 /// The stepper of degree q in time.
 pub(super) fn stepper(q: usize, space: &Space, lengths: usize, loaded: bool) -> Box<dyn Stages> {
     match q {
-        0 => Box::new(Stepper::<1>::new(space, lengths, loaded)),
-        1 => Box::new(Stepper::<2>::new(space, lengths, loaded)),
-        2 => Box::new(Stepper::<3>::new(space, lengths, loaded)),
-        3 => Box::new(Stepper::<4>::new(space, lengths, loaded)),
-        4 => Box::new(Stepper::<5>::new(space, lengths, loaded)),
-        _ => Box::new(Stepper::<6>::new(space, lengths, loaded)),
+        0 => Box::new(DgStepper::<1>::new(space, lengths, loaded)),
+        1 => Box::new(DgStepper::<2>::new(space, lengths, loaded)),
+        2 => Box::new(DgStepper::<3>::new(space, lengths, loaded)),
+        3 => Box::new(DgStepper::<4>::new(space, lengths, loaded)),
+        4 => Box::new(DgStepper::<5>::new(space, lengths, loaded)),
+        _ => Box::new(DgStepper::<6>::new(space, lengths, loaded)),
     }
 }

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::parameters::Beam;
     use crate::scheme::EULER_CRANK_NICOLSON;
-    use crate::solve::newton::Case;
+    use crate::solve::stepper::Case;
     use crate::solve::{Level, Settings};
 
     const DT: f64 = 0.5;

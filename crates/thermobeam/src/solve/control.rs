@@ -2,7 +2,7 @@
 
 use crate::contact::Tip;
 use crate::norms::slope_squared;
-use crate::solve::newton::Case;
+use crate::solve::stepper::Case;
 use crate::solve::{Level, Work};
 
 /// The state of one case.

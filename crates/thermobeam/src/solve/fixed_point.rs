@@ -16,7 +16,7 @@ use crate::error::StepFailure;
 use crate::norms::TheoremSquares;
 use crate::norms::slope_squared;
 use crate::scheme::{ContactRule, Scheme};
-use crate::solve::newton::Case;
+use crate::solve::stepper::Case;
 use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;

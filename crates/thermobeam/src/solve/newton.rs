@@ -20,10 +20,9 @@
 use crate::block_tridiagonal::Factor;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;
 use crate::solve::control::{Control, Progress};
-use crate::solve::stepper::Stepper;
+use crate::solve::stepper::{Batch, Case, Stepper};
 use crate::solve::sweeps::{Backward, Element, Forward, Scalars, Sums};
 use crate::solve::{Level, Settings, Start, StepReport, Work};
 
@@ -34,14 +33,22 @@ const RENEWAL: f64 = 0.1;
 /// Largest contraction bound q for which passes with the kept factorisation go on.
 const CONTRACTION: f64 = 0.25;
 
-/// One case of a batch: the data that may differ from lane to lane.
-#[derive(Debug, Clone)]
-pub(crate) struct Case {
-    pub(crate) beam: Beam,
-    pub(crate) obstacles: Option<Obstacles>,
-    pub(crate) dt: f64,
-    /// Length of each element.
-    pub(crate) lengths: Vec<f64>,
+/// Newton's method for one case per lane, with or without the temperature.
+///
+/// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
+/// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
+pub(crate) fn newton<T: Lane + 'static>(
+    cases: Vec<Case>,
+    scheme: Scheme,
+    settings: Settings,
+    levels: &[&Level],
+    heated: bool,
+) -> Box<dyn Batch<T>> {
+    if heated {
+        Box::new(Newton::<T, 3>::new(cases, scheme, settings, levels))
+    } else {
+        Box::new(Newton::<T, 2>::new(cases, scheme, settings, levels))
+    }
 }
 
 /// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the temperature.

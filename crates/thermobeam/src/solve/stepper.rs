@@ -3,9 +3,18 @@
 use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::scheme::Scheme;
-use crate::solve::newton::{Case, Newton};
-use crate::solve::{Level, Settings, StepReport, Work};
+use crate::parameters::{Beam, Obstacles};
+use crate::solve::{Level, StepReport, Work};
+
+/// One case of a batch: the data that may differ from lane to lane.
+#[derive(Debug, Clone)]
+pub(crate) struct Case {
+    pub(crate) beam: Beam,
+    pub(crate) obstacles: Option<Obstacles>,
+    pub(crate) dt: f64,
+    /// Length of each element.
+    pub(crate) lengths: Vec<f64>,
+}
 
 /// A solver of the steps of one case (`T = f64`) or of several cases in lanes.
 pub(crate) trait Stepper<T: Lane>: Send + Sync {
@@ -39,22 +48,4 @@ pub(crate) trait Batch<T: Lane>: Stepper<T> {
 
     /// The work for case k so far: as much as it would take alone.
     fn work_of(&self, k: usize) -> Work;
-}
-
-/// Newton's method for one case per lane, with or without the temperature.
-///
-/// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
-/// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
-pub(crate) fn newton<T: Lane + 'static>(
-    cases: Vec<Case>,
-    scheme: Scheme,
-    settings: Settings,
-    levels: &[&Level],
-    heated: bool,
-) -> Box<dyn Batch<T>> {
-    if heated {
-        Box::new(Newton::<T, 3>::new(cases, scheme, settings, levels))
-    } else {
-        Box::new(Newton::<T, 2>::new(cases, scheme, settings, levels))
-    }
 }

@@ -40,7 +40,7 @@ fn recording_changes_nothing_but_the_record() {
     let tips = history.rows.iter().map(|row| row.sample.u_tip);
     assert_eq!(tips.clone().fold(f64::INFINITY, f64::min), plain.extremes.u_tip_min);
     assert_eq!(tips.fold(f64::NEG_INFINITY, f64::max), plain.extremes.u_tip_max);
-    let worst = history.rows.iter().map(|row| row.dissipation.residual.abs()).fold(0.0, f64::max);
+    let worst = history.rows.iter().map(|row| row.balance.residual.abs()).fold(0.0, f64::max);
     assert_eq!(worst, plain.energy.largest_balance_residual);
     assert_eq!(history.rows.iter().filter(|row| row.sample.contact_force != 0.0).count(), plain.contact_steps);
 }
@@ -79,7 +79,7 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
     assert_eq!(history.rows.last().unwrap().sample, run.last);
     assert_eq!(history.frames.times.last(), Some(&run.last.t));
     assert!(history.frames.times.len() <= 442);
-    let lost: f64 = history.rows.iter().map(|row| row.dissipation.change).sum();
+    let lost: f64 = history.rows.iter().map(|row| row.balance.change).sum();
     assert!((lost - (run.energy.last - run.energy.initial)).abs() < 1e-12);
 }
 
@@ -160,10 +160,10 @@ fn every_bit_of_the_history_can_be_read_back() {
     assert_eq!(names[8..], ["energy_change", "viscous", "thermal", "inertial", "contact_gap", "residual"]);
     for (line, row) in lines.zip(&history.rows) {
         let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
-        let (s, d) = (row.sample, row.dissipation);
+        let (s, d) = (row.sample, row.balance);
         assert_eq!(values[..4], [s.t, s.u_tip, s.phi_tip, s.u_t_tip]);
         assert_eq!(values[4..8], [s.phi_t_tip, s.theta_mid, s.contact_force, s.energy]);
-        assert_eq!(values[8..], [d.change, d.viscous, d.thermal, d.inertial, d.contact_gap, d.residual]);
+        assert_eq!(values[8..], [d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual]);
         assert!(values.iter().all(|value| value.is_finite()));
     }
 }
@@ -272,6 +272,6 @@ fn the_first_experiment_by_dg_comes_out_to_seven_digits_with_its_events() {
     let history = drawn.history.as_ref().unwrap();
     assert_eq!((history.frames.times.len(), history.frames.u.len(), history.rows.len()), (441, 441, 4001));
     assert_eq!((plain.first, plain.last, plain.history), (drawn.first, drawn.last, None));
-    let lost: f64 = history.rows.iter().map(|row| row.dissipation.change).sum();
+    let lost: f64 = history.rows.iter().map(|row| row.balance.change).sum();
     assert!((lost - (energy.last - energy.initial)).abs() < 1e-12);
 }

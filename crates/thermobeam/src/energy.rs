@@ -14,6 +14,8 @@
 //!
 //! A wrong step may still lose energy, but its balance does not close to round-off.
 
+use std::ops::AddAssign;
+
 mod rounding;
 pub(crate) mod sums;
 
@@ -82,7 +84,7 @@ pub(crate) struct Tip {
 
 /// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of the other terms, and round-off
 /// for an exactly solved step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Balance {
     /// E^n - E^{n-1}, computed from the differences of the fields, without cancellation.
     pub change: f64,
@@ -99,6 +101,18 @@ pub struct Balance {
     pub load: f64,
     /// The sum of the other terms.
     pub residual: f64,
+}
+
+impl AddAssign for Balance {
+    fn add_assign(&mut self, other: Self) {
+        self.change += other.change;
+        self.viscous += other.viscous;
+        self.thermal += other.thermal;
+        self.inertial += other.inertial;
+        self.contact += other.contact;
+        self.load += other.load;
+        self.residual += other.residual;
+    }
 }
 
 impl Balance {

@@ -11,41 +11,13 @@ use super::motion::{Motion, Report, Sample, Watch};
 /// Frames at most: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;
 
-/// Terms of the energy's balance, added up over the steps that ended since the row before: they add up to `residual`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Dissipation {
-    /// Change of E.
-    pub change: f64,
-    /// What viscosity takes.
-    pub viscous: f64,
-    /// What heat conduction takes.
-    pub thermal: f64,
-    /// What the scheme's inertia takes, beyond physics.
-    pub inertial: f64,
-    /// What the scheme's contact takes, beyond physics.
-    pub contact_gap: f64,
-    /// The sum of the five: round-off.
-    pub residual: f64,
-}
-
-impl Dissipation {
-    fn add(&mut self, balance: &Balance) {
-        self.change += balance.change;
-        self.viscous += balance.viscous;
-        self.thermal += balance.thermal;
-        self.inertial += balance.inertial;
-        self.contact_gap += balance.contact;
-        self.residual += balance.residual;
-    }
-}
-
 /// A row of the history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// The state.
     pub sample: Sample,
-    /// What happened to the energy on the way to it; zeros at the start, and where no pictures are wanted.
-    pub dissipation: Dissipation,
+    /// The terms of the energy's balance, added up over the steps that ended since the row before; zeros at the start, and where no pictures are wanted.
+    pub balance: Balance,
 }
 
 /// u(x, t), thinned to what a picture can show.
@@ -69,19 +41,19 @@ pub struct RunHistory {
     t_end: f64,
     /// Parts of the time at whose ends there are rows.
     parts: usize,
-    since_row: Dissipation,
+    since_row: Balance,
 }
 
 impl RunHistory {
     /// * `parts`: how many rows follow the first, about; `None` for what suits the method, and frames.
     pub(super) fn new(motion: &dyn Motion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
-        let rows = vec![Row { sample: first, dissipation: Dissipation::default() }];
+        let rows = vec![Row { sample: first, balance: Balance::default() }];
         let mut frames = Frames::default();
         if parts.is_none() {
             frames = Frames { points: motion.points(), times: vec![first.t], u: vec![motion.shape(first.t)] };
         }
         let parts = parts.unwrap_or_else(|| motion.rows());
-        Self { rows, frames, t_end, parts, since_row: Dissipation::default() }
+        Self { rows, frames, t_end, parts, since_row: Balance::default() }
     }
 
     /// Adds the last level, unless it is there already.
@@ -95,7 +67,7 @@ impl RunHistory {
     }
 
     fn push_row(&mut self, sample: Sample) {
-        self.rows.push(Row { sample, dissipation: std::mem::take(&mut self.since_row) });
+        self.rows.push(Row { sample, balance: std::mem::take(&mut self.since_row) });
     }
 
     fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
@@ -119,9 +91,9 @@ impl RunHistory {
             "t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy,\
              energy_change,viscous,thermal,inertial,contact_gap,residual\n",
         );
-        for Row { sample: s, dissipation: d } in &self.rows {
+        for Row { sample: s, balance: d } in &self.rows {
             let sample = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.contact_force, s.energy];
-            let terms = [d.change, d.viscous, d.thermal, d.inertial, d.contact_gap, d.residual];
+            let terms = [d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual];
             for (k, value) in sample.iter().chain(&terms).enumerate() {
                 let comma = if k == 0 { "" } else { "," };
                 // Debug, unlike Display, writes 1e-14 as such. Writing to a string cannot fail.
@@ -152,7 +124,7 @@ impl Watch for RunHistory {
     fn see(&mut self, motion: &mut dyn Motion, _: &Report) -> Result<ControlFlow<()>, RunError> {
         let is_drawn = !self.frames.times.is_empty();
         if is_drawn {
-            self.since_row.add(&motion.balance());
+            self.since_row += motion.balance();
         }
         let mut times = vec![];
         motion.parts(self.t_end, self.parts, &mut |t| times.push(t));

@@ -47,8 +47,8 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let dt: Vec<f64> = scenes.iter().map(Scene::dt).collect();
     let mut driver = EnsembleDriver::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
     let mut level = Level::new(common.elements + 1);
-    let lane = |(k, scene)| OneOfThem::new(k, scene, driver.ensemble(), &mut level);
-    let mut lanes: Vec<OneOfThem<'_>> = scenes.iter().enumerate().map(lane).collect();
+    let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
+    let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
     driver.run(common.steps, |ensemble, balances| {
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
@@ -61,7 +61,7 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
 }
 
 /// One of the scenes.
-struct OneOfThem<'s> {
+struct LaneRun<'s> {
     k: usize,
     scene: &'s Scene,
     first: Sample,
@@ -70,7 +70,7 @@ struct OneOfThem<'s> {
     ended: Option<Run>,
 }
 
-impl<'s> OneOfThem<'s> {
+impl<'s> LaneRun<'s> {
     fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
         let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
         Self { k, scene, first, tally: Tally::new(&first), ended: None }

@@ -25,7 +25,7 @@ fn run(folder: &Path) -> Result<Finished, VerificationError> {
     let header = Header::new("heat-equation", "with dt = h²/4, explicit Euler is of second order in h");
     let study = levels([8, 16, 32, 64, 128], errors).described(header).claim("mean square", 2.0).claim("maximum", 2.0);
     let found = study.run();
-    report(&Project::new("heat-equation", "cargo run --example heat_equation"), &[found.clone()], folder)?;
+    report(&Project::new("heat-equation", "cargo run --example heat_equation"), std::slice::from_ref(&found), folder)?;
     Ok(found)
 }
 

@@ -1,6 +1,6 @@
 //! Values over two parameters as coloured cells: with iso lines, or with marks and boundary curves on top.
 
-use super::canvas::{Anchor, Layer};
+use super::canvas::{Anchor, Layer, Pen};
 use super::colour::ColourScale;
 use super::heat::{edges, hatch, in_order, paint};
 use super::legend::{Entry, Swatch};
@@ -264,11 +264,10 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
             let data = (!rim).then_some(series.points.as_slice());
             sheet.canvas.group(&readable::series(&series.label, data), |canvas| {
                 if is_sparse(series) {
-                    let at = positions.iter().flatten().filter(|_| !rim);
-                    canvas.draw(Layer::default(), |pen| {
-                        at.for_each(|&at| look.marker.draw(pen, at, colour, Marks::Open))
-                    });
-                    return;
+                    // Open markers have their own rim.
+                    let at = || positions.iter().flatten().filter(|_| !rim);
+                    let mark = |pen: &Pen<'_>, at| look.marker.draw(pen, at, colour, Marks::Open);
+                    return canvas.draw(Layer::default(), |pen| at().for_each(|at| mark(pen, *at)));
                 }
                 canvas.draw(layer, |pen| {
                     for line in positions.split(Option::is_none) {

@@ -287,7 +287,7 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
             spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
-        Err(reason) => broken("list its cases", &reason),
+        Err(reason) => broken("list its cases", reason),
     };
     spent.busy += started.elapsed();
     // Whatever the study makes of it: a failed case cannot pass.

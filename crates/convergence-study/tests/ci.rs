@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use convergence_study::cli::program;
-use convergence_study::project::Project;
+use convergence_study::program::PROJECT;
 use yaml_rust2::{Yaml, YamlLoader};
 
 fn text(name: &str) -> String {
@@ -44,8 +44,7 @@ fn command_lines(script: &str) -> Vec<Vec<String>> {
 
 #[track_caller]
 fn is_understood(words: &[String]) {
-    let project = Project::new("convergence-study", "convergence-study");
-    let line = program(&project);
+    let line = program(&PROJECT);
     // A comment behind the command.
     let words = words.iter().take_while(|word| !word.starts_with('#'));
     if let Err(error) = line.try_get_matches_from(words.clone()) {

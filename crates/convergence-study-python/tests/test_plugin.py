@@ -43,6 +43,15 @@ def test_fail_and_inconclusive_fail_unless_that_is_allowed(project):
     assert '"test_orders' not in page and 'type="inconclusive"' in (project.path / "out/junit.xml").read_text()
 
 
+def test_every_call_has_an_id_of_its_own(project):
+    tests = "\n@pytest.mark.parametrize('a', ['+', '-'])\ndef test_two(convergence, a):\n"
+    call = "    convergence.assert_order(H, [h**2 for h in H], order=2)\n"
+    add(project, "\nimport pytest\n" + tests + call + call)
+    assert project.runpytest_subprocess("--convergence-bless").ret == 0
+    ids = json.loads((project.path / "tests/convergence.json").read_text())["studies"]
+    assert sorted(ids)[2:] == ["test-orders-test-two---", "test-orders-test-two----2", "test-orders-test-two----3", "test-orders-test-two----4"]
+
+
 def test_numbers_are_guarded_once_they_are_blessed(project):
     baseline = project.path / "tests/convergence.json"
     assert project.runpytest_subprocess().ret == 0 and not baseline.exists()

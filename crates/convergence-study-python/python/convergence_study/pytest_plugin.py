@@ -7,6 +7,9 @@
 Numbers and claims are guarded where there is `tests/convergence.json`, which `--convergence-bless` writes.
 """
 
+import itertools
+import re
+
 import pytest
 
 from ._native import finish, of_table, study
@@ -40,12 +43,15 @@ class Convergence:
         return self._judged(study(solve, n, order, budget, tolerance, self._id()), allow_inconclusive)
 
     def _id(self):
-        taken = sum(1 for known, _, _ in self._studies if known == self._name)
-        return self._name if taken == 0 else f"{self._name}-{taken + 1}"
+        # Names of files, by which baseline and report tell studies apart.
+        name = re.sub("[^a-z0-9.]", "-", self._name.lower()).lstrip("-.")[:90]
+        taken = {found.id for found, _ in self._studies}
+        names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
+        return next(free for free in names if free not in taken)
 
     def _judged(self, found, allow_inconclusive):
         __tracebackhide__ = True
-        self._studies.append((self._name, found, allow_inconclusive))
+        self._studies.append((found, allow_inconclusive))
         if not (allow_inconclusive and found.verdict == "inconclusive"):
             found.assert_passes()
         return found
@@ -64,11 +70,10 @@ def pytest_sessionfinish(session):
     # A worker of pytest-xdist sees some of the tests only.
     if not config.convergence_studies or hasattr(config, "workerinput"):
         return
-    studies = [(found, allowed) for _, found, allowed in config.convergence_studies]
     option, baseline = config.getoption, config.rootpath / "tests" / "convergence.json"
     bless, reason, report = (option(f"--convergence-{name}") for name in ("bless", "reason", "report"))
     try:
-        config.convergence_lines, is_well = finish(studies, baseline, bless, reason, report)
+        config.convergence_lines, is_well = finish(config.convergence_studies, baseline, bless, reason, report)
     except (OSError, ValueError) as error:
         config.convergence_lines, is_well = [str(error)], False
     if not is_well and session.exitstatus == 0:

@@ -131,7 +131,7 @@ pub(crate) fn frame<'py>(py: Python<'py>, columns: &[(String, Vec<f64>)]) -> PyR
     }
 }
 
-/// The errors of one or several columns, judged.
+/// The errors of one or several columns, judged, and whether they are those of a data frame.
 fn judged(
     h: &Bound<'_, PyAny>,
     errors: Option<&Bound<'_, PyAny>>,
@@ -201,12 +201,12 @@ pub(crate) fn judge<'py>(
     order: Option<&Bound<'py, PyAny>>,
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (mut found, is_frame) = judged(h, errors, order, tolerance)?;
-    if let (false, Some(one)) = (is_frame, found.pop_if(|_| !is_frame)) {
-        return Ok(Bound::new(py, one)?.into_any());
-    }
+    let (found, is_frame) = judged(h, errors, order, tolerance)?;
     let by_name = PyDict::new(py);
     for judgement in found {
+        if !is_frame {
+            return Ok(Bound::new(py, judgement)?.into_any());
+        }
         by_name.set_item(judgement.name.clone(), Bound::new(py, judgement)?)?;
     }
     Ok(by_name.into_any())

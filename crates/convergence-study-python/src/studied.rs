@@ -180,12 +180,8 @@ fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
 fn solved(solve: &Bound<'_, PyAny>, n: usize, seconds: &mut Vec<f64>) -> PyResult<NamedErrors> {
     let is_shown = stderr().is_terminal();
     if is_shown {
-        let _ = write!(
-            stderr(),
-            "\r\x1b[2Kn = {n}: level {}, {:.1} s so far",
-            seconds.len() + 1,
-            seconds.iter().sum::<f64>()
-        );
+        let so_far = seconds.iter().fold(0.0, |sum, seconds| sum + seconds);
+        let _ = write!(stderr(), "\r\x1b[2Kn = {n}: level {}, {so_far:.1} s so far", seconds.len() + 1);
     }
     let started = Instant::now();
     let returned = solve.call1((n,));

@@ -96,7 +96,7 @@ pub fn diagnose(
     })
 }
 
-/// Whether the words of a setting are those, alone or in brackets: `ID alone (whole scenes)`.
+/// Whether the words of a setting are those, alone or in brackets: `ID alone (SETTING)`.
 pub fn names(words: &str, what: &str) -> bool {
     words == what || words.strip_suffix(')').is_some_and(|words| words.ends_with(&format!("({what}")))
 }

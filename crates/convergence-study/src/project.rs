@@ -61,8 +61,8 @@ pub struct Front {
     pub verified: &'static str,
     /// The file name of the figure that shows it.
     pub plot: &'static str,
-    /// Statements, each with the study whose numbers answer it.
-    pub statements: &'static [(&'static str, &'static str)],
+    /// Statements, each with the study whose numbers answer it, and the name of the rate that does; nothing for its key numbers.
+    pub statements: &'static [(&'static str, &'static str, &'static str)],
 }
 
 /// Files to begin with, commented, that run as they are.

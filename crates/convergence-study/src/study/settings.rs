@@ -34,7 +34,13 @@ pub fn of_file(header: &Header, item: &str) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let told = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [study(header), pair("field", &field(item)), pair("kind", &header.kind)];
-    let of_file = header.settings.iter().filter(|(path, _)| told(path)).map(|(path, value)| pair(path, value));
+    // Of a list, such as the words of a command, each entry is a setting of its own.
+    let entries = |(path, value): &Setting| {
+        let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
+        let entry = |(k, entry): (usize, &str)| (format!("{path}[{k}]"), format!("{path} {}", entry.trim_matches('"')));
+        entries.map(entry).collect::<Vec<_>>()
+    };
+    let of_file = header.settings.iter().filter(|(path, _)| told(path)).flat_map(entries);
     own.into_iter().chain(of_file).collect()
 }
 

@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::{Convergence, ErrorSeries, convergence};
+use convergence_study::project::{Front, Project};
 use convergence_study::report::{Findings, SeeAlso};
 use convergence_study::run::Finished;
 use convergence_study::store::record::Record;
@@ -112,6 +113,40 @@ fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
         let badges: Vec<_> = document.descendants().filter_map(|node| node.attribute("class")).collect();
         assert_eq!(badges.iter().filter(|class| **class == "badge fail").count(), 4);
     });
+}
+
+#[test]
+fn of_many_studies_that_fail_three_are_unfolded() {
+    let studies = finished((0..5).map(|k| study(&format!("s{k}"), Does::Stay)).collect());
+    parsed(&page_of(&studies), |document| {
+        let open: Vec<bool> = with_class(document, "study").map(|study| study.has_attribute("open")).collect();
+        assert_eq!(open, [true, true, true, false, false]);
+    });
+}
+
+#[test]
+fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record() {
+    let front = Front {
+        verified: "Errors fall.",
+        plot: "a-errors.svg",
+        statements: &[("First order", "a", "velocity"), ("All checks", "a", ""), ("Elsewhere", "gone", "")],
+    };
+    let project = Project { front, ..PROJECT };
+    let page = |does: Does, verdict: Verdict| {
+        let studies = finished(vec![study("a", does)]);
+        let record = Record::new("quick", "verify", verdict, None, studies);
+        Findings { project: &project, record: &record, see_also: None, provenance: None }.readme()
+    };
+    let passing = page(Does::Converge, Verdict::Pass);
+    let place = |text: &str| passing.find(text).unwrap_or_else(|| panic!("{text} in {passing}"));
+    assert!(
+        place("Errors fall.") < place("](figures/a-errors.svg)") && place("| First order") < place("## All studies")
+    );
+    assert!(
+        passing.contains("| rate 1.0000 ± 0.00005, claimed 1 ± 0.1 |") && !passing.contains("Elsewhere"),
+        "{passing}"
+    );
+    assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
 }
 
 #[test]

@@ -283,7 +283,10 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
                 Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
             });
             failed_cases.extend(failed);
-            work.extend(done.iter().map(|done| (cases[done.case].label.clone(), done.work)));
+            // Cases end in any order, and their work is listed in the order of the cases.
+            let mut done: Vec<&Done> = done.iter().collect();
+            done.sort_by_key(|done| done.case);
+            work.extend(done.into_iter().map(|done| (cases[done.case].label.clone(), done.work)));
             spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }

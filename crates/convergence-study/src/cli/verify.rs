@@ -139,11 +139,16 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     }
     let took = if *quiet { String::new() } else { format!(" in {:.1} s", took.as_secs_f64()) };
     let clearest = found.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
+    // A study that fails has said why: its numbers have moved for the same reason.
+    let failed =
+        |id: &str| found.finished.iter().any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass);
+    let is_said = |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
+    let changes: Vec<Change> = found.changes.iter().filter(is_said).cloned().collect();
     let parts = [
         format!("{verdict}{took}: {sentence}\n"),
         found.diagnosis.as_ref().map(text_of_diagnosis).unwrap_or_default(),
         text_of_failures(&found.finished, clearest),
-        moved_lines(&found.changes, *verbose) + &blessed(project, found, request),
+        moved_lines(&changes, *verbose) + &blessed(project, found, request),
         table,
     ];
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();

@@ -83,7 +83,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let rows: Vec<Vec<String>> = all.iter().map(|one| row(one.regression, &one.found)).collect();
     let named = all.iter().filter(|one| is_named(one.regression, &one.found)).count();
     let table = Table { title: String::new(), head: HEAD.map(str::to_owned).to_vec(), rows };
-    let sentence = format!("{named} of {count} mistakes are noticed by the study named for them");
+    let rest = if all.len() < count { format!(", {} more are not recorded", count - all.len()) } else { String::new() };
+    let sentence = format!("{named} of {} mistakes are noticed by the study named for them{rest}", all.len());
     let scores = judged::page(&all, passing);
     output::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
     if arguments.write {

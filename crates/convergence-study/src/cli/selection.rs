@@ -20,7 +20,7 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
 /// * `list`: the command that lists all studies, for messages.
 ///
 /// # Errors
-/// A pattern that cannot be read, and anything asked for that there is not: a name misspelled must not pass.
+/// A pattern that cannot be read, or one that matches nothing: a misspelt name must not pass.
 pub fn select(all: &[&Header], tier: Tier, asked: &[String], list: &str) -> Result<Vec<bool>, Unusable> {
     let in_tier = |header: &Header| header.tier <= tier;
     if asked.is_empty() {

@@ -58,7 +58,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &Results) -> Outcome {
     }
 }
 
-/// All differences to the reference; of those of which nothing is claimed, the legend says so.
+/// All differences to the reference; the legend marks those without a claim.
 fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: &Rates) -> Figure {
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();

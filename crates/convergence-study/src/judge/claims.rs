@@ -30,7 +30,10 @@ impl Claim {
     pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
         let rate = judge.judge(levels, self.order);
         let rate = if self.at_least { at_least(rate) } else { rate };
-        self.constant.map_or(rate.clone(), |between| with_constant(levels, rate, between))
+        match self.constant {
+            Some(between) => with_constant(levels, rate, between),
+            None => rate,
+        }
     }
 }
 

@@ -182,8 +182,8 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, More), InputErr
         return Err(field.refuse_as_written("one of order, factor and exact"));
     }
     if let [_, _, Some(field)] = &claims {
-        if section.get("tolerance").is_some() {
-            return Err(section.refuse("tolerance", "tolerance beside exact", "exact alone"));
+        if let Some(key) = ["tolerance", "constant"].into_iter().find(|key| section.get(key).is_some()) {
+            return Err(section.refuse(key, format!("{key} beside exact"), "exact alone"));
         }
         // There is no rate that a tolerance could be about.
         return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), More { exact: Some(field.positive()?), ..More::default() }));

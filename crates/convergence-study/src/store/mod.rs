@@ -79,6 +79,21 @@ pub(crate) fn parsed<T: DeserializeOwned>(
     }
 }
 
+/// What a JSON file holds; nothing where it is not there.
+///
+/// * `expected`: what to do about a file that cannot be parsed.
+pub(crate) fn read_if_there<T: DeserializeOwned + Default>(
+    path: &Path,
+    expected: &'static str,
+) -> Result<T, StoreError> {
+    let path = path.to_owned();
+    match regular::read_to_string(&path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(T::default()),
+        Err(error) => Err(StoreError::File { path, error }),
+        Ok(text) => serde_json::from_str(&text).map_err(|error| StoreError::Malformed { path, error, expected }),
+    }
+}
+
 /// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.
 ///
 /// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.

@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
-use crate::store::{StoreError, atomic, regular};
+use crate::store::{StoreError, atomic, read_if_there};
 use crate::study::Header;
 
 /// How many times the blessed work of a case is allowed.
@@ -29,15 +29,7 @@ impl Works {
     /// # Errors
     /// [`StoreError`] where it cannot be read.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let path = path.to_owned();
-        match regular::read_to_string(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(StoreError::File { path, error }),
-            Ok(text) => serde_json::from_str(&text).map_err(|error| {
-                let expected = "restore it, or remove it and run `verify --bless`";
-                StoreError::Malformed { path, error, expected }
-            }),
-        }
+        read_if_there(path, "restore it, or remove it and run `verify --bless`")
     }
 
     /// Writes the file.

@@ -93,6 +93,8 @@ pub(crate) fn other_claims_than_an_order_are_judged() {
         let (found, out, err) = study("order = 2.0", claim);
         assert!(found == Some(2) && err.contains(says) && err.contains("s.toml:"), "{claim}\n{out}{err}");
     }
+    let (found, _, err) = study("order = 2.0\ntolerance = 0.05", "exact = 0.07\nconstant = [1.0, 2.0]");
+    assert!(found == Some(2) && err.contains("constant beside exact") && err.contains("s.toml:"), "{err}");
     let (found, _, err) = study("order = 2.0", "factor = 5\ntolerance = 0.1\n[[expect]]\nerror = \"H1\"\norder = 1.0");
     assert!(found == Some(2) && err.contains("one of the two in all of a study"), "{err}");
 }

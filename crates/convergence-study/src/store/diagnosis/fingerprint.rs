@@ -1,14 +1,13 @@
 //! What a mistake does to a run: which items fail and which fields move, and in which direction. Runs are alike where these are.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
-use crate::store::{StoreError, regular};
+use crate::store::{StoreError, read_if_there};
 use crate::study::settings::field;
 
 /// Logarithm of the ratio that counts as much as a failure.
@@ -89,16 +88,7 @@ impl Fingerprints {
     /// # Errors
     /// [`StoreError`] where it cannot be read.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let path = path.to_owned();
-        match regular::read_to_string(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(StoreError::File { path, error }),
-            Ok(text) => serde_json::from_str(&text).map_err(|error| StoreError::Malformed {
-                path,
-                error,
-                expected: "remove it: `dev regressions --write` makes it anew",
-            }),
-        }
+        read_if_there(path, "remove it: `dev regressions --write` makes it anew")
     }
 
     /// The two most alike, if they are alike enough.

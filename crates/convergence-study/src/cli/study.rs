@@ -106,7 +106,7 @@ fn text(finished: &Finished) -> String {
         visible(&header.claim),
         visible(&summary(outcome))
     );
-    for table in tables(finished) {
+    for table in tables(finished, false) {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         text += &format!("\n{}\n{}", visible(&table.title), screen::table(&head, &table.rows));
     }

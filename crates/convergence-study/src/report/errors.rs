@@ -16,9 +16,15 @@ struct Column {
 }
 
 /// As many tables as it takes for none to be cut: a row for each level, and for each error its rates where it was judged.
-pub(super) fn tables(outcome: &Outcome) -> Vec<Table> {
+///
+/// * `judged`: only errors whose rate was judged, unless none was.
+pub(super) fn tables(outcome: &Outcome, judged: bool) -> Vec<Table> {
     let levels = &outcome.levels;
-    let names = distinct(levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name)));
+    let mut names = distinct(levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name)));
+    let is_judged = |name: &&String| outcome.rates.iter().any(|(known, _)| known == *name);
+    if judged && names.iter().any(is_judged) {
+        names.retain(is_judged);
+    }
     let parameters = Parameters::of(levels);
     let mut tables: Vec<Vec<Column>> = vec![];
     for name in names {

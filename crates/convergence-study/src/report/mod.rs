@@ -108,8 +108,9 @@ impl Findings<'_> {
     fn readme_with(&self, rates: Option<&Figure>) -> String {
         let link = |id: &str| self.linked(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
-        page +=
-            &format!("Written by `{}`, which repeats it. Orders are theory, rates are observed.", self.record.command);
+        let one = if self.record.changes.is_some() { "; a name after it repeats one study" } else { "" };
+        page += &format!("Written by `{}`, which repeats it{one}. ", self.record.command);
+        page += "Orders are theory, rates are observed.";
         if let Some(SeeAlso { title, readme, .. }) = self.see_also {
             page += &format!(" See also [{}]({readme}).", text(title));
         }
@@ -122,7 +123,9 @@ impl Findings<'_> {
         page += &front::front(self, &link).0;
         page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
-        page.extend(self.record.studies.iter().map(|finished| section::section(finished, &self.again(finished))));
+        let mut seen = vec![];
+        let section = |finished| section::section(finished, &self.again(finished), &mut seen);
+        page.extend(self.record.studies.iter().map(section));
         page
     }
 

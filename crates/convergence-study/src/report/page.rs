@@ -136,7 +136,7 @@ fn study(finished: &Finished, again: &str, open: bool) -> String {
         outcome.verdict.name(),
         badge(outcome.verdict),
         phrase(&header.claim),
-        html(&section::body(finished, again, true), &outcome.figures),
+        html(&section::body(finished, again), &outcome.figures),
         id = escape(&header.id),
     )
 }

@@ -2,7 +2,7 @@
 
 use super::html::phrase;
 use super::markdown::{cell, table, text};
-use super::tables::tables;
+use super::tables::{CHECKS, tables};
 use super::words::summary;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
@@ -11,22 +11,56 @@ use crate::study::outcome::{Figure, Table};
 /// A longer table is folded: what it shows has been said in a sentence, a rate or a figure before.
 const MOST_ROWS: usize = 12;
 
-/// Claim, verdict in words, tables, figures, and how to run it again.
+/// So many tables of a study that passes are shown: rates, checks, errors, and one of its own.
+const MOST_TABLES: usize = 4;
+
+/// So many figures of a study that passes are shown; the others are linked.
+const MOST_FIGURES: usize = 3;
+
+/// The section of a study in the Markdown report: in short where it passes.
 ///
 /// * `again`: the command that runs it again.
-pub(super) fn section(finished: &Finished, again: &str) -> String {
-    let header = &finished.header;
-    format!("\n## {}\n\n> {}\n\n{}", header.id, text(&header.claim), body(finished, again, false))
+/// * `seen`: captions of figures further up: a twin of such a figure is linked, not shown.
+pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'f str>) -> String {
+    let Finished { header, outcome, .. } = finished;
+    let head = format!("\n## {}\n\n> {}\n\n", header.id, text(&header.claim));
+    if outcome.verdict != Verdict::Pass {
+        return head + &body(finished, again);
+    }
+    let mut parts = vec![format!("pass: {}\n", text(&summary(outcome)))];
+    let mut elsewhere: Vec<String> = vec![];
+    for table in &tables(finished, true) {
+        let Table { title, rows, .. } = table;
+        match &rows[..] {
+            [row] if title == CHECKS => parts.push(format!("**{CHECKS}**: {} ({})\n", text(&row[0]), text(&row[2]))),
+            rows if rows.len() > MOST_ROWS || parts.len() > MOST_TABLES => {
+                elsewhere.push(text(title));
+            }
+            _ => parts.push(format!("**{}**\n\n{}", text(title), markdown(table))),
+        }
+    }
+    elsewhere.dedup();
+    if !elsewhere.is_empty() {
+        parts.push(format!("On the page, and in [results.json](results.json): {}\n", elsewhere.join("; ")));
+    }
+    let is_twin = |figure: &Figure| outcome.figures.len() == 1 && seen.contains(&figure.caption.as_str());
+    let (shown, linked): (Vec<_>, Vec<_>) =
+        outcome.figures.iter().enumerate().partition(|(k, figure)| *k < MOST_FIGURES && !is_twin(figure));
+    parts.extend(shown.into_iter().map(|(_, shown)| figure(shown)));
+    if !linked.is_empty() {
+        let link = |(_, Figure { file, .. }): &(usize, &Figure)| format!("[{file}](figures/{file})");
+        parts.push(format!("Figures: {}\n", linked.iter().map(link).collect::<Vec<_>>().join(", ")));
+    }
+    seen.extend(outcome.figures.iter().map(|figure| figure.caption.as_str()));
+    head + &parts.join("\n")
 }
 
-/// All of a section but heading and claim.
-///
-/// * `whole`: long tables of a study that passes are in it, too; else it says where they are.
-pub(super) fn body(finished: &Finished, again: &str, whole: bool) -> String {
+/// All of a section but heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
+pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished { header, outcome, .. } = finished;
     let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&summary(outcome)))];
     let passes = outcome.verdict == Verdict::Pass;
-    parts.extend(tables(finished).iter().map(|table| titled(table, passes, whole || !passes)));
+    parts.extend(tables(finished, false).iter().map(|table| titled(table, passes)));
     parts.extend(outcome.figures.iter().map(figure));
     let (tier, kind) = (header.tier.name(), &header.kind);
     parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
@@ -44,13 +78,10 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
 }
 
 /// A table under its title; a long one is folded, but open in a study that does not pass.
-fn titled(table: &Table, passes: bool, whole: bool) -> String {
+fn titled(table: &Table, passes: bool) -> String {
     let (Table { title, rows, .. }, lines) = (table, markdown(table));
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
-    }
-    if !whole {
-        return format!("**{}**: {} rows, in [results.json](results.json) and on the page\n", text(title), rows.len());
     }
     folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
 }

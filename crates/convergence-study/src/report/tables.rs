@@ -6,9 +6,14 @@ use crate::run::{FailedCase, Finished};
 use crate::study::outcome::{Check, Outcome, Table};
 use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text};
 
+/// Title of the table of checks.
+pub(super) const CHECKS: &str = "Checks";
+
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
-pub fn tables(Finished { outcome, failed_cases, .. }: &Finished) -> Vec<Table> {
-    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors::tables(outcome));
+///
+/// * `judged`: leave out errors whose rate was not judged.
+pub fn tables(Finished { outcome, failed_cases, .. }: &Finished, judged: bool) -> Vec<Table> {
+    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors::tables(outcome, judged));
     let own = outcome.tables.iter().cloned();
     let all = common.chain(own).chain([failures(failed_cases)]);
     all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
@@ -56,7 +61,7 @@ fn levels(rate: &RateVerdict) -> String {
 
 fn checks(checks: &[Check]) -> Table {
     let row = |check: &Check| [check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
-    table("Checks", ["claim", "verdict", "evidence"], checks.iter().map(row))
+    table(CHECKS, ["claim", "verdict", "evidence"], checks.iter().map(row))
 }
 
 fn failures(failed: &[FailedCase]) -> Table {

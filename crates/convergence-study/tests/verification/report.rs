@@ -139,10 +139,13 @@ fn the_same_outcomes_give_the_same_bytes() {
 fn a_reason_is_given_where_a_rate_does_not_hold() {
     let studies = finished(vec![study("good", Does::Converge), study("bad", Does::Stay)]);
     let heads: Vec<bool> =
-        studies.iter().map(|finished| tables(finished)[0].head.contains(&"reason".to_owned())).collect();
+        studies.iter().map(|finished| tables(finished, false)[0].head.contains(&"reason".to_owned())).collect();
     assert_eq!(heads, [false, true]);
-    assert_eq!(tables(&studies[1])[0].rows[0].last().unwrap(), "the error does not fall on the finest refinement");
-    let rates = &tables(&studies[0])[0];
+    assert_eq!(
+        tables(&studies[1], false)[0].rows[0].last().unwrap(),
+        "the error does not fall on the finest refinement"
+    );
+    let rates = &tables(&studies[0], false)[0];
     assert_eq!(rates.head.len(), rates.rows[0].len());
     assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.0000"]);
     assert_eq!(rates.rows[0][5], "1-5 of 5");
@@ -273,7 +276,7 @@ fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finish
 }
 
 fn errors_of(finished: &Finished) -> Vec<Table> {
-    tables(finished).into_iter().filter(|table| table.title.starts_with("Errors")).collect()
+    tables(finished, false).into_iter().filter(|table| table.title.starts_with("Errors")).collect()
 }
 
 #[test]

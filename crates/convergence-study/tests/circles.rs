@@ -7,18 +7,15 @@ use std::fs;
 use std::path::Path;
 
 /// Circles that are still there, by crate: each is to be mended, and none is to be added.
-const CIRCLES: [(&str, &[&[&str]]); 2] = [
-    (
-        "convergence-study",
-        &[
-            &["input/error_table/pairs", "input/error_table/text"],
-            &["input/field", "input/section", "input/settings"],
-            &["judge/richardson/estimate", "judge/richardson/gci"],
-            &["judge/verdict/outcome", "judge/verdict/reading", "judge/verdict/reason"],
-        ],
-    ),
-    ("thermobeam-study", &[&["kinds/controls/sensitivity", "kinds/controls/untested", "kinds/convergence"]]),
-];
+const CIRCLES: [(&str, &[&[&str]]); 1] = [(
+    "convergence-study",
+    &[
+        &["input/error_table/pairs", "input/error_table/text"],
+        &["input/field", "input/section", "input/settings"],
+        &["judge/richardson/estimate", "judge/richardson/gci"],
+        &["judge/verdict/outcome", "judge/verdict/reading", "judge/verdict/reason"],
+    ],
+)];
 
 /// The modules of other crates from bottom to top, where they are ordered: each may use itself and those before it. This crate's are in
 /// `layering.rs`.
@@ -68,13 +65,12 @@ const ORDERS: [(&str, &[&str]); 3] = [
 ];
 
 /// Uses against these orders that are still there: crate, file, file used.
-const ARROWS_UP: [(&str, &str, &str); 6] = [
+const ARROWS_UP: [(&str, &str, &str); 5] = [
     ("thermobeam", "solve/balance", "energy"),
     ("thermobeam", "solve/balance", "energy/sums"),
     ("thermobeam", "solve/stepper", "energy"),
     ("thermobeam-exact", "expression", "function"),
     ("thermobeam-exact", "factors", "solution"),
-    ("thermobeam-study", "run/family", "error/design"),
 ];
 
 /// A module by its path inside the crate; empty for the root.

@@ -1,13 +1,13 @@
 //! Functions of one variable with two derivatives: what the factors of an exact solution may be.
 
-use std::fmt::Debug;
+use std::fmt::{self, Debug, Formatter};
 use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::expression::{Expression, samples};
 
 /// A function of one variable with its first two derivatives.
-pub trait Function: Debug + Send + Sync {
+pub trait Function: Send + Sync {
     /// Value, first and second derivative.
     fn derivatives(&self, at: f64) -> [f64; 3];
 
@@ -36,6 +36,12 @@ pub trait Function: Debug + Send + Sync {
     }
 }
 
+impl<F: Fn(f64) -> [f64; 3] + Send + Sync> Function for F {
+    fn derivatives(&self, at: f64) -> [f64; 3] {
+        self(at)
+    }
+}
+
 impl Function for Expression {
     fn derivatives(&self, at: f64) -> [f64; 3] {
         self.derivatives(at)
@@ -50,24 +56,22 @@ impl Function for Expression {
 /// A function that several products may share.
 ///
 /// ```
-/// use thermobeam_exact::function::{Factor, Function};
+/// use thermobeam_exact::function::Factor;
 ///
-/// #[derive(Debug)]
-/// struct Cubic;
-///
-/// impl Function for Cubic {
-///     fn derivatives(&self, x: f64) -> [f64; 3] {
-///         [x.powi(3), 3.0 * x.powi(2), 6.0 * x]
-///     }
-/// }
-///
-/// assert_eq!(Factor::new(Cubic).eval(2.0), 8.0);
+/// let cubic = Factor::new(|x: f64| [x.powi(3), 3.0 * x.powi(2), 6.0 * x]);
+/// assert_eq!(cubic.eval(2.0), 8.0);
 /// ```
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Factor(Arc<dyn Function>);
 
+impl Debug for Factor {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("Factor")
+    }
+}
+
 impl Factor {
-    /// The factor that is this function.
+    /// The factor that is this function; a closure gives value, first and second derivative.
     pub fn new(function: impl Function + 'static) -> Self {
         Self(Arc::new(function))
     }

@@ -21,3 +21,10 @@ pub struct Manufactured {
     /// Physical temperature; the sum is θ_A at x = 0 and 0 at x = 1.
     pub theta: Vec<Product>,
 }
+
+impl Manufactured {
+    /// u(1, t).
+    pub fn tip(&self, t: f64) -> f64 {
+        self.u.iter().map(|product| product.x.eval(1.0) * product.t.eval(t)).sum()
+    }
+}

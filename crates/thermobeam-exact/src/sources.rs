@@ -21,6 +21,7 @@ use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
+use thermobeam::simulation::Initial;
 
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
 const PANELS: usize = 256;
@@ -205,6 +206,36 @@ impl Nodal {
     pub fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
         let of = |products: &[Product]| products.iter().map(|product| nodal(product, mesh)).collect();
         Self { u: of(&exact.u), phi: of(&exact.phi), theta: of(&exact.theta) }
+    }
+
+    /// The initial data (3.6); the temperature is made to meet the solver's own θ_A.
+    ///
+    /// * `mesh`: that of these products; `factors`: their factors at t = 0.
+    /// * `exact_theta_a`: θ_A of the exact solution; `theta_a`: the solver's own.
+    pub fn initial(&self, mesh: &Mesh, factors: &Factors, exact_theta_a: f64, theta_a: f64) -> Initial {
+        let sum = |products: &[Vec<f64>], factors: &[f64]| {
+            let mut values = vec![0.0; mesh.nodes().len()];
+            for (product, factor) in products.iter().zip(factors) {
+                for (value, x) in values.iter_mut().zip(product) {
+                    *value += factor * x;
+                }
+            }
+            values
+        };
+        let mut theta = sum(&self.theta, &factors.theta.value);
+        for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
+            *theta += (theta_a - exact_theta_a) * (1.0 - x);
+        }
+        let last = theta.len() - 1;
+        // Checked up to round-off when the study was read.
+        (theta[0], theta[last]) = (theta_a, 0.0);
+        Initial {
+            u: sum(&self.u, &factors.u.value),
+            u_t: sum(&self.u, &factors.u.rate),
+            phi: sum(&self.phi, &factors.phi.value),
+            phi_t: sum(&self.phi, &factors.phi.rate),
+            theta,
+        }
     }
 }
 

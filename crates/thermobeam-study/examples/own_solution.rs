@@ -14,6 +14,7 @@ use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::Refine;
+use thermobeam_study::scene::Coefficients;
 
 const TOML: &str = r#"
     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
@@ -43,13 +44,13 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         scheme: EULER_CRANK_NICOLSON,
         settings: Settings { tolerance: 1e-13, ..Settings::default() },
     };
+    let theory = Coefficients { beam: Beam::default(), obstacles: None };
     Ok(Convergence {
         header: Header::new("my-own", "Second order to the interpolant"),
-        beam: Beam::default(),
-        obstacles: None,
+        theory,
+        solver: theory,
         exact,
         refine,
-        control: None,
         expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
     })
 }

@@ -5,9 +5,8 @@ use std::path::Path;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here};
-use thermobeam_study::error::design::{Defect, Disagreement};
 use thermobeam_study::exact::norm::{Norm, Norms};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::convergence::{Convergence, Defect, Prepared};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
@@ -18,8 +17,7 @@ fn convergence(name: &str) -> Convergence {
 }
 
 fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
-    let (beam, obstacles) = study.solver_coefficients();
-    study.prepared(elements).unwrap().run(steps, Disagreement { beam, obstacles, defect }).unwrap()
+    Prepared::new(study, elements).unwrap().run(steps, study.solver, defect).unwrap()
 }
 
 /// Norms of the table, in its order; errors to the digits given.
@@ -85,7 +83,7 @@ fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     study.refine.elements = vec![64, 128, 256, 512];
     assert_eq!(run_one(&study).outcome.verdict, Verdict::Pass);
     let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap() + "\n[control]\nzeta = 0.10001\n";
-    study.control = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().control;
+    study.solver = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().solver;
     let outcome = run_one(&study).outcome;
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.summary.contains("superclose"), "{}", outcome.summary);

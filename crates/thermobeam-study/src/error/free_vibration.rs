@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use crate::exact::function::{Factor, Function};
+use crate::exact::function::Factor;
 use crate::exact::solution::{Manufactured, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, ParameterError};
@@ -16,115 +16,36 @@ pub fn beam(zeta: f64) -> Beam {
     Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 }
 }
 
-/// U of a mode; its second derivative by the mode's equation `U'' = Φ' - ω² U`.
-#[derive(Debug)]
-struct Displacement(Mode);
-
-impl Function for Displacement {
-    fn derivatives(&self, x: f64) -> [f64; 3] {
-        let Self(mode) = self;
-        let u = mode.u(x);
-        [u, mode.u_x(x), mode.phi_x(x) - mode.omega().powi(2) * u]
-    }
-
-    fn eval(&self, x: f64) -> f64 {
-        self.0.u(x)
-    }
-}
-
-/// Φ of a mode; its second derivative by the mode's equation `Φ'' = Φ - U' - ω² Φ`.
-#[derive(Debug)]
-struct Rotation(Mode);
-
-impl Function for Rotation {
-    fn derivatives(&self, x: f64) -> [f64; 3] {
-        let Self(mode) = self;
-        let phi = mode.phi(x);
-        [phi, mode.phi_x(x), phi - mode.u_x(x) - mode.omega().powi(2) * phi]
-    }
-
-    fn eval(&self, x: f64) -> f64 {
-        self.0.phi(x)
-    }
-}
-
-/// T of a damped mode; its second derivative by `T'' = -ω² (T + ζ T')`.
-#[derive(Debug)]
-struct Damped {
-    factor: TimeFactor,
-    omega: f64,
-    zeta: f64,
-}
-
-impl Function for Damped {
-    fn derivatives(&self, t: f64) -> [f64; 3] {
-        let (value, slope) = (self.factor.value(t), self.factor.slope(t));
-        [value, slope, -self.omega.powi(2) * (value + self.zeta * slope)]
-    }
-}
-
-/// `sin κx`.
-#[derive(Debug)]
-struct Sine(f64);
-
-impl Function for Sine {
-    fn derivatives(&self, x: f64) -> [f64; 3] {
-        let Self(kappa) = *self;
-        let (sine, cosine) = (kappa * x).sin_cos();
-        [sine, kappa * cosine, -kappa * kappa * sine]
-    }
-}
-
-/// `start e^{-rate t}`.
-#[derive(Debug)]
-struct Decay {
-    start: f64,
-    rate: f64,
-}
-
-impl Function for Decay {
-    fn derivatives(&self, t: f64) -> [f64; 3] {
-        let value = self.start * (-self.rate * t).exp();
-        [value, -self.rate * value, self.rate * self.rate * value]
-    }
-}
-
 /// The P1 function with the given values at the nodes of a mesh; its second derivative is 0 on each element.
-#[derive(Debug)]
-pub(crate) struct PiecewiseLinear {
-    nodes: Vec<f64>,
-    values: Vec<f64>,
-}
-
-impl PiecewiseLinear {
-    /// * `values`: one for each node.
-    pub(crate) fn new(mesh: &Mesh, values: Vec<f64>) -> Self {
-        Self { nodes: mesh.nodes().to_vec(), values }
-    }
-}
-
-impl Function for PiecewiseLinear {
-    fn derivatives(&self, x: f64) -> [f64; 3] {
-        let Self { nodes, values } = self;
+pub(crate) fn piecewise_linear(mesh: &Mesh, values: Vec<f64>) -> Factor {
+    let nodes = mesh.nodes().to_vec();
+    Factor::new(move |x: f64| {
         let left = nodes.partition_point(|node| *node <= x).clamp(1, nodes.len() - 1) - 1;
         let length = nodes[left + 1] - nodes[left];
         let fraction = (x - nodes[left]) / length;
         let value = (1.0 - fraction) * values[left] + fraction * values[left + 1];
         [value, (values[left + 1] - values[left]) / length, 0.0]
-    }
+    })
 }
 
-/// T of a mode of frequency ω with T(0) and T'(0).
+/// T of a mode of frequency ω with T(0) and T'(0); its second derivative by `T'' = -ω² (T + ζ T')`.
 ///
 /// # Errors
 /// [`ParameterError`] for ω or ζ that is negative or not finite.
 pub(crate) fn damped(omega: f64, zeta: f64, start: [f64; 2]) -> Result<Factor, ParameterError> {
-    Ok(Factor::new(Damped { factor: TimeFactor::new(omega, zeta, start[0], start[1])?, omega, zeta }))
+    let factor = TimeFactor::new(omega, zeta, start[0], start[1])?;
+    Ok(Factor::new(move |t: f64| {
+        let (value, slope) = (factor.value(t), factor.slope(t));
+        [value, slope, -omega.powi(2) * (value + zeta * slope)]
+    }))
 }
 
-/// A temperature that decays like e^{-rate t}.
+/// A temperature that decays: `start e^{-rate t}`.
 pub(crate) fn decay(rate: f64, start: f64) -> Factor {
-    Factor::new(Decay { start, rate })
+    Factor::new(move |t: f64| {
+        let value = start * (-rate * t).exp();
+        [value, -rate * value, rate * rate * value]
+    })
 }
 
 /// Adds a mode by its index from 0, with its tip displacement and velocity at t = 0.
@@ -138,16 +59,23 @@ pub(crate) fn add_mode(
     start: [f64; 2],
 ) -> Result<(), ParameterError> {
     let mode = Mode::new(index);
-    let t = damped(mode.omega(), zeta, start)?;
-    exact.u.push(Product { x: Factor::new(Displacement(mode)), t: t.clone() });
-    exact.phi.push(Product { x: Factor::new(Rotation(mode)), t });
+    let (t, square) = (damped(mode.omega(), zeta, start)?, mode.omega().powi(2));
+    // Second derivatives by the mode's equations `U'' = Φ' - ω² U` and `Φ'' = Φ - U' - ω² Φ`.
+    let of_u = move |x: f64| [mode.u(x), mode.u_x(x), mode.phi_x(x) - square * mode.u(x)];
+    let of_phi = move |x: f64| [mode.phi(x), mode.phi_x(x), mode.phi(x) - mode.u_x(x) - square * mode.phi(x)];
+    exact.u.push(Product { x: Factor::new(of_u), t: t.clone() });
+    exact.phi.push(Product { x: Factor::new(of_phi), t });
     Ok(())
 }
 
 /// Adds the temperature `amplitude sin kπx e^{-κ²t}`, κ = kπ.
 pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64) {
     let kappa = k as f64 * PI;
-    exact.theta.push(Product { x: Factor::new(Sine(kappa)), t: decay(kappa * kappa, amplitude) });
+    let sine = move |x: f64| {
+        let (sine, cosine) = (kappa * x).sin_cos();
+        [sine, kappa * cosine, -kappa * kappa * sine]
+    };
+    exact.theta.push(Product { x: Factor::new(sine), t: decay(kappa * kappa, amplitude) });
 }
 
 /// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t = 0, released at rest.
@@ -166,13 +94,13 @@ mod tests {
 
     /// Derivatives against central differences, far from round-off.
     #[track_caller]
-    fn check(function: &dyn Function, at: f64, size: f64) {
+    fn check(function: &Factor, at: f64, size: f64) {
         const H: f64 = 1e-4;
         let [left, middle, right] = [at - H, at, at + H].map(|x| function.eval(x));
         let [value, first, second] = function.derivatives(at);
-        assert_eq!(value, middle, "{function:?}");
-        assert!((first - (right - left) / (2.0 * H)).abs() < 1e-6 * size, "{function:?}: {first}");
-        assert!((second - (right - 2.0 * middle + left) / (H * H)).abs() < 1e-4 * size, "{function:?}: {second}");
+        assert_eq!(value, middle, "{at}");
+        assert!((first - (right - left) / (2.0 * H)).abs() < 1e-6 * size, "{at}: {first}");
+        assert!((second - (right - 2.0 * middle + left) / (H * H)).abs() < 1e-4 * size, "{at}: {second}");
     }
 
     #[test]
@@ -185,8 +113,8 @@ mod tests {
                 .iter()
                 .chain(&exact.phi[..2])
                 .chain(&exact.theta)
-                .for_each(|product| check(&*product.x, x, 1e3));
-            exact.u.iter().chain(&exact.theta).for_each(|product| check(&*product.t, x, 1e3));
+                .for_each(|product| check(&product.x, x, 1e3));
+            exact.u.iter().chain(&exact.theta).for_each(|product| check(&product.t, x, 1e3));
         }
     }
 
@@ -194,7 +122,7 @@ mod tests {
     fn a_piecewise_linear_function_has_its_values_at_the_nodes_to_the_last_bit() {
         let mesh = Mesh::from_nodes(vec![0.0, 0.3, 0.7, 1.0]).expect("a mesh");
         let values = vec![0.1, -1.0 / 3.0, 2.0, 0.7];
-        let function = PiecewiseLinear::new(&mesh, values.clone());
+        let function = piecewise_linear(&mesh, values.clone());
         for (x, value) in mesh.nodes().iter().zip(values) {
             assert_eq!(function.eval(*x), value);
         }

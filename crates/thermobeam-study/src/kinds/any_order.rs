@@ -34,9 +34,10 @@ use convergence_study::text::number::counted;
 use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};
 
 use super::prelude::*;
-use super::tables::{Control, control, manufactured, mapped_mesh, mesh_map};
+use super::tables::{control, manufactured, mapped_mesh, mesh_map};
 use crate::error::free_vibration;
 use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
+use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -110,13 +111,13 @@ struct RunsOfDegree {
 #[derive(Clone)]
 pub struct AnyOrder {
     header: Header,
-    beam: Beam,
-    obstacles: Option<Obstacles>,
+    /// Coefficients from which the loads are derived.
+    pub(super) theory: Coefficients,
+    /// The solver's own; where they differ, the study must fail.
+    pub(super) solver: Coefficients,
     exact: Manufactured,
     /// Whether loads keep the exact solution in place; a free vibration needs none.
     loaded: bool,
-    /// The solver's own coefficients, where they differ: then the study must fail.
-    control: Option<Control>,
     map: Option<Expression>,
     t_end: f64,
     over: Over,
@@ -137,23 +138,23 @@ impl FromFile for AnyOrder {
             Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
         })?;
         let t_end = run.positive("t_end")?;
-        let (beam, obstacles, exact) = match &vibration {
+        let (theory, exact) = match &vibration {
             Some(section) => free(section)?,
             None => {
-                let beam = tables::beam(root)?;
-                (beam, tables::obstacles(root)?, manufactured(root, &beam, t_end)?)
+                let theory = Coefficients::read(root)?;
+                (theory, manufactured(root, &theory.beam, t_end)?)
             }
         };
         let one = |item: &Field<'_>| series(&run, over, &item.section()?);
         let series = root.list("series", "at least one table [[series]]", one, |list| !list.is_empty())?;
         let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
-        let (control, map) = (control(root, beam, obstacles)?, mesh_map(&run, &elements, None)?);
-        Ok(AnyOrder { header, beam, obstacles, exact, loaded: vibration.is_none(), control, map, t_end, over, series })
+        let (solver, map) = (control(root, theory)?, mesh_map(&run, &elements, None)?);
+        Ok(AnyOrder { header, theory, solver, exact, loaded: vibration.is_none(), map, t_end, over, series })
     }
 }
 
 /// Free vibrations: the beam whose modes are exact, and the modes, each released from a tip displacement of 0.1.
-fn free(section: &Section<'_>) -> Result<(Beam, Option<Obstacles>, Manufactured), InputError> {
+fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
     section.allow(&["zeta", "modes"])?;
     let zeta = section.positive("zeta")?;
@@ -161,7 +162,8 @@ fn free(section: &Section<'_>) -> Result<(Beam, Option<Obstacles>, Manufactured)
     let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
     let modes = section.list("modes", &allowed, mode, |modes| !modes.is_empty())?;
     let refused = |_| section.refuse("modes", "modes without a motion", allowed);
-    Ok((free_vibration::beam(zeta), None, free_vibration::vibration(&modes, zeta).map_err(refused)?))
+    let theory = Coefficients { beam: free_vibration::beam(zeta), obstacles: None };
+    Ok((theory, free_vibration::vibration(&modes, zeta).map_err(refused)?))
 }
 
 /// A table `[[series]]`, and what the runs of all series have in common.
@@ -226,7 +228,7 @@ impl Kind for AnyOrder {
     fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
         let mut simulation = self.simulation(*resolution)?;
         // The temperature that the solver means: what it computes is lifted by its own.
-        let theta_a = self.solver_coefficients().0.theta_a;
+        let theta_a = self.solver.beam.theta_a;
         let mut level = simulation.level().clone();
         let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
         let mut patience = Patience::new(simulation.space().blocks() * (resolution.time_degree + 1));
@@ -277,21 +279,6 @@ impl Kind for AnyOrder {
 type OneRun = Ran<Resolution, Errors>;
 
 impl AnyOrder {
-    /// The coefficients from which the loads are derived.
-    pub(super) fn coefficients(&self) -> (Beam, Option<Obstacles>) {
-        (self.beam, self.obstacles)
-    }
-
-    /// The same study with other coefficients in the solver, or with none.
-    pub(super) fn with_control(&self, control: Option<Control>) -> Self {
-        Self { control, ..self.clone() }
-    }
-
-    /// The coefficients that the solver works with: those of the control, or else those of the loads.
-    fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
-        self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
-    }
-
     fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
         mapped_mesh(elements, self.map.as_ref(), None)
     }
@@ -300,9 +287,9 @@ impl AnyOrder {
         let Resolution { degree, elements, time_degree, steps } = resolution;
         let dt = self.t_end / steps as f64;
         let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
-        let (beam, obstacles) = self.solver_coefficients();
+        let (Coefficients { beam, obstacles }, theory) = (self.solver, &self.theory);
         // A wrong temperature of the clamped end is one from the start: the initial data meet it, or no step would be done.
-        let shift = beam.theta_a - self.beam.theta_a;
+        let shift = beam.theta_a - theory.beam.theta_a;
         let exact = any_order::initial(&self.exact);
         let theta = exact.theta;
         let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
@@ -311,7 +298,7 @@ impl AnyOrder {
             return Ok(Simulation::new(problem, stepping)?);
         }
         let load = |space: &Space| -> Box<dyn Load> {
-            Box::new(ManufacturedLoad::new(&self.exact, &self.beam, self.obstacles, space))
+            Box::new(ManufacturedLoad::new(&self.exact, &theory.beam, theory.obstacles, space))
         };
         Ok(Simulation::with_load(problem, stepping, load)?)
     }

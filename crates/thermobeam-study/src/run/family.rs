@@ -5,7 +5,6 @@
 //! advanced from outside, so that several can go side by side and be compared at the times they share. It counts its cost
 //! as it goes: [`Spent`].
 
-use crate::error::design;
 use crate::exact::any_order::{self, ManufacturedLoad};
 use crate::exact::factors::Factors;
 use crate::exact::solution::Manufactured;
@@ -143,8 +142,8 @@ impl Family {
             Start::Exact(exact) => {
                 let mut factors = Factors::default();
                 factors.at(exact, 0.0);
-                let nodal = Nodal::of(exact, &mesh);
-                let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.beam.theta_a);
+                let theta_a = self.beam.theta_a;
+                let initial = Nodal::of(exact, &mesh).initial(&mesh, &factors, theta_a, theta_a);
                 (initial, self.loaded.then(|| Sources::strong(exact, &self.beam, &mesh)))
             }
         };

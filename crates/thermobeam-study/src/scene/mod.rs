@@ -50,6 +50,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::simulation::Stepping;
 
 pub use method::{DG, Method};
+pub use tables::Coefficients;
 
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
@@ -126,8 +127,7 @@ impl Scene {
 
     /// The scene of the tables in a section, which may hold other keys besides.
     pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
-        let beam = tables::beam(root)?;
-        let obstacles = tables::obstacles(root)?;
+        let Coefficients { beam, obstacles } = Coefficients::read(root)?;
         let is_dg = method::is_dg(root)?;
         let expected = if is_dg { "a table with scheme and t_end" } else { "a table with dt and t_end" };
         let time = root.require("time", expected)?.section()?;

@@ -1,7 +1,7 @@
 //! What scenes and study files have in common: the tables `[beam]` and `[obstacles]`, the mesh, the stepping keys.
 
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles, ParameterError};
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{self, Scheme};
 use thermobeam::solve::{Settings, Solver};
 
@@ -14,62 +14,73 @@ pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];
 /// The keys of `[obstacles]`.
 pub(crate) const OBSTACLE_KEYS: [&str; 3] = ["epsilon", "g1", "g2"];
 
-/// The coefficient of that name; it must be one of [`BEAM_KEYS`].
-pub(crate) fn beam_coefficient<'b>(beam: &'b mut Beam, key: &str) -> Option<&'b mut f64> {
-    match key {
-        "zeta" => Some(&mut beam.zeta),
-        "a" => Some(&mut beam.a),
-        "rho" => Some(&mut beam.rho),
-        "beta" => Some(&mut beam.beta),
-        "theta_a" => Some(&mut beam.theta_a),
-        _ => None,
-    }
+/// The coefficients of (1.1) and (1.3), which files and negative controls know by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// Of the beam.
+    pub beam: Beam,
+    /// Of the obstacles, if there are any.
+    pub obstacles: Option<Obstacles>,
 }
 
-/// The coefficient of that name; it must be one of [`OBSTACLE_KEYS`].
-pub(crate) fn obstacle_coefficient<'o>(obstacles: &'o mut Obstacles, key: &str) -> Option<&'o mut f64> {
-    match key {
-        "epsilon" => Some(&mut obstacles.epsilon),
-        "g1" => Some(&mut obstacles.g1),
-        "g2" => Some(&mut obstacles.g2),
-        _ => None,
+impl Coefficients {
+    /// All names, those of the obstacles last.
+    pub(crate) fn names() -> impl Iterator<Item = &'static str> + Clone {
+        BEAM_KEYS.into_iter().chain(OBSTACLE_KEYS)
     }
-}
 
-/// The table `[beam]`, each key with its default.
-pub(crate) fn beam(root: &Section<'_>) -> Result<Beam, InputError> {
-    let mut beam = Beam::default();
-    if let Some(section) = root.section("beam")? {
-        section.allow(&BEAM_KEYS)?;
-        for key in BEAM_KEYS {
-            if let (Some(field), Some(value)) = (section.get(key), beam_coefficient(&mut beam, key)) {
-                *value = field.number()?;
+    /// The coefficient of that name; `None` where it would be that of obstacles and there are none.
+    pub(crate) fn get_mut(&mut self, name: &str) -> Option<&mut f64> {
+        let (beam, obstacles) = (&mut self.beam, self.obstacles.as_mut());
+        match name {
+            "zeta" => Some(&mut beam.zeta),
+            "a" => Some(&mut beam.a),
+            "rho" => Some(&mut beam.rho),
+            "beta" => Some(&mut beam.beta),
+            "theta_a" => Some(&mut beam.theta_a),
+            "epsilon" => obstacles.map(|obstacles| &mut obstacles.epsilon),
+            "g1" => obstacles.map(|obstacles| &mut obstacles.g1),
+            "g2" => obstacles.map(|obstacles| &mut obstacles.g2),
+            _ => None,
+        }
+    }
+
+    /// The same with one of them off by a relative amount; `None` where there is none of that name, or it is zero.
+    pub(crate) fn off(mut self, name: &str, relative: f64) -> Option<Self> {
+        let coefficient = self.get_mut(name).filter(|coefficient| **coefficient != 0.0)?;
+        *coefficient *= 1.0 + relative;
+        Some(self)
+    }
+
+    /// The names of those that differ.
+    pub(crate) fn differing(mut self, mut other: Self) -> impl Iterator<Item = &'static str> {
+        Self::names().filter(move |name| self.get_mut(name) != other.get_mut(name))
+    }
+
+    /// The tables `[beam]` and `[obstacles]`, each key with its default; no table, no obstacles.
+    pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
+        let obstacles = root.get("obstacles").map(|_| Obstacles::default());
+        let mut read = Self { beam: Beam::default(), obstacles };
+        for (table, keys) in [("beam", &BEAM_KEYS[..]), ("obstacles", &OBSTACLE_KEYS)] {
+            let Some(section) = root.section(table)? else { continue };
+            section.allow(keys)?;
+            for key in keys {
+                if let (Some(field), Some(value)) = (section.get(key), read.get_mut(key)) {
+                    *value = field.number()?;
+                }
             }
+            read.check(&section)?;
         }
-        beam.validate().map_err(|error| out_of_range(&section, &error))?;
+        Ok(read)
     }
-    Ok(beam)
-}
 
-/// The table `[obstacles]`, each key with its default; no table, no obstacles.
-pub(crate) fn obstacles(root: &Section<'_>) -> Result<Option<Obstacles>, InputError> {
-    let Some(section) = root.section("obstacles")? else { return Ok(None) };
-    section.allow(&OBSTACLE_KEYS)?;
-    let mut obstacles = Obstacles::default();
-    for key in OBSTACLE_KEYS {
-        if let (Some(field), Some(value)) = (section.get(key), obstacle_coefficient(&mut obstacles, key)) {
-            *value = field.number()?;
-        }
-    }
-    obstacles.validate().map_err(|error| out_of_range(&section, &error))?;
-    Ok(Some(obstacles))
-}
-
-/// A coefficient that the solver refuses, as a complaint about its key.
-pub(crate) fn out_of_range(section: &Section<'_>, error: &ParameterError) -> InputError {
-    match section.get(error.name) {
-        Some(field) => field.refuse_as_written(error.allowed),
-        None => section.refuse(error.name, format!("{:?}", error.found), error.allowed),
+    /// Refuses what the solver would, with the key of `section`.
+    pub(crate) fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
+        let obstacles = self.obstacles.map_or(Ok(()), |obstacles| obstacles.validate());
+        self.beam.validate().and(obstacles).map_err(|error| match section.get(error.name) {
+            Some(field) => field.refuse_as_written(error.allowed),
+            None => section.refuse(error.name, format!("{:?}", error.found), error.allowed),
+        })
     }
 }
 

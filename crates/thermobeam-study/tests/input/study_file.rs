@@ -1,10 +1,11 @@
-use convergence_study::study::{Axis, FromFile as _, Header, Tier};
+use convergence_study::study::{Axis, FromFile as _, Header, Kind as _, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::Perturbation;
+use thermobeam_study::scene::Coefficients;
 
 use crate::says;
 
@@ -70,8 +71,8 @@ fn the_contracts_example_is_a_study() {
         "#]);
     assert_eq!((spec.header.id.as_str(), spec.header.tier), ("theorem-3.4-space", Tier::Quick));
     assert_eq!(spec.header.claim, "Theorem 3.4: first order in h");
-    assert_eq!(spec.beam, Beam { beta: 0.5, ..Beam::default() });
-    assert_eq!(spec.obstacles, Some(Obstacles { epsilon: 0.01, ..Obstacles::default() }));
+    assert_eq!(spec.theory.beam, Beam { beta: 0.5, ..Beam::default() });
+    assert_eq!(spec.theory.obstacles, Some(Obstacles { epsilon: 0.01, ..Obstacles::default() }));
     assert_eq!([spec.exact.u.len(), spec.exact.phi.len(), spec.exact.theta.len()], [1, 2, 1]);
     assert_eq!(spec.exact.u[0].t.eval(0.5), 1.5_f64.cos() + 0.2 * 0.5);
     assert_eq!(spec.refine.cases(), [(8, 20), (16, 20), (32, 20), (64, 20)]);
@@ -80,11 +81,9 @@ fn the_contracts_example_is_a_study() {
         spec.refine.settings,
         Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 9, ..Settings::default() }
     );
-    let control = spec.control.as_ref().expect("a control");
-    assert_eq!(control.changed, ["zeta", "g2"]);
-    let (beam, obstacles) = spec.solver_coefficients();
-    assert_eq!(beam, Beam { zeta: 0.101, ..spec.beam });
-    assert_eq!(obstacles.map(|o| (o.epsilon, o.g2)), Some((0.01, 0.2)));
+    assert!(spec.details()[0].1.contains("differs from the sources in zeta, g2:"));
+    assert_eq!(spec.solver.beam, Beam { zeta: 0.101, ..spec.theory.beam });
+    assert_eq!(spec.solver.obstacles.map(|o| (o.epsilon, o.g2)), Some((0.01, 0.2)));
     let expected: Vec<_> = spec.expect.iter().map(|e| (e.0, e.1.order, e.1.tolerance)).collect();
     assert_eq!(expected, [(Norm::Theorem34, 1.0, 0.05), (Norm::Superclose, 2.0, 0.1)]);
 }
@@ -92,7 +91,7 @@ fn the_contracts_example_is_a_study() {
 #[test]
 fn without_a_control_the_solver_has_the_coefficients_of_the_sources() {
     let spec = spec(&[STUDY, "[beam]\nzeta = 0.3\n", EXACT, REFINE, EXPECT]);
-    assert_eq!(spec.solver_coefficients(), (Beam { zeta: 0.3, ..Beam::default() }, None));
+    assert_eq!(spec.solver, Coefficients { beam: Beam { zeta: 0.3, ..Beam::default() }, obstacles: None });
     assert_eq!((spec.refine.scheme, spec.refine.settings), (EULER_CRANK_NICOLSON, Settings::default()));
 }
 

@@ -12,10 +12,10 @@
 
 use convergence_study::study::run_cases_here;
 
-use super::{Fault, Matrix, below_one, coefficients, perturbed};
+use super::{Fault, Matrix, below_one};
 use crate::kinds::any_order::AnyOrder;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Control;
+use crate::scene::Coefficients;
 
 /// Relative change of an error that the baseline tolerates.
 const TOLERANCE: f64 = 1e-3;
@@ -45,12 +45,11 @@ impl FromFile for AnyOrderControls {
         let allowed = "a list of at least one study file of kind any-order beside this one";
         let read = |file: &Field<'_>| AnyOrder::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
-        let names: Vec<(&str, &'static str)> = coefficients().map(|name| (name, name)).collect();
+        let names: Vec<(&str, &'static str)> = Coefficients::names().map(|name| (name, name)).collect();
         let allowed = "a list of at least one coefficient";
         let listed = section.list("coefficients", allowed, |item| item.choice(&names), |list| !list.is_empty())?;
         for study in &studies {
-            let (beam, obstacles) = study.coefficients();
-            if let Some(absent) = listed.iter().find(|key| perturbed(beam, obstacles, key, relative).is_none()) {
+            if let Some(absent) = listed.iter().find(|key| study.theory.off(key, relative).is_none()) {
                 let found = format!("{absent}, which {} does not have or has zero", study.header().id);
                 return Err(section.refuse("coefficients", found, "coefficients that every study has"));
             }
@@ -84,15 +83,13 @@ impl Kind for AnyOrderControls {
 
     fn run(&self, &(study, fault): &(usize, Fault)) -> Result<Judged, CaseFailure> {
         let study = &self.studies[study];
-        let planted = match fault {
-            Fault::Coefficient(key) => {
-                let (beam, obstacles) = study.coefficients();
-                let absent = || CaseFailure { reason: "the coefficient is absent".to_owned() };
-                let (beam, obstacles) = perturbed(beam, obstacles, key, self.relative).ok_or_else(absent)?;
-                study.with_control(Some(Control { beam, obstacles, changed: vec![key] }))
-            }
-            _ => study.with_control(None),
+        let solver = match fault {
+            Fault::Coefficient(key) => study.theory.off(key, self.relative),
+            _ => Some(study.theory),
         };
+        let absent = || CaseFailure { reason: "the coefficient is absent".to_owned() };
+        let mut planted = study.clone();
+        planted.solver = solver.ok_or_else(absent)?;
         let ran = run_cases_here(&planted);
         // A fault that breaks a run down is detected; only the honest runs have to end.
         if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {

@@ -1,7 +1,7 @@
 //! The matrix (fault x study): which study detects which fault.
 //!
 //! Each coefficient of the solver in turn is off from the one that the sources were derived with, by a relative amount; each
-//! [`Defect`](crate::error::design::Defect) in turn is planted in the sources. Without a fault every study must pass, or its
+//! [`Defect`](crate::kinds::convergence::Defect) in turn is planted in the sources. Without a fault every study must pass, or its
 //! failures would say nothing.
 //!
 //! ```toml
@@ -11,8 +11,9 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
-use super::{BROKEN, Fault, Matrix, below_one, named_studies, verdicts};
-use crate::kinds::convergence::Convergence;
+use super::{Fault, Matrix, below_one, named_studies};
+use crate::kinds::convergence::design::verdicts;
+use crate::kinds::convergence::{Convergence, Prepared};
 use crate::kinds::prelude::*;
 
 /// A study of planted faults.
@@ -65,15 +66,15 @@ impl Kind for Controls {
 
     fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<Planted>, CaseFailure> {
         let spec = &self.studies[study];
-        let mut prepared = spec.prepared(elements)?;
+        let mut prepared = Prepared::new(spec, elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
-            let Some(disagreement) = fault.plant(spec, self.relative) else { continue };
+            let Some((solver, defect)) = fault.plant(spec, self.relative) else { continue };
             // A fault that breaks a run down is detected; only the honest run has to end.
-            let errors = match prepared.run(steps, disagreement) {
+            let errors = match prepared.run(steps, solver, defect) {
                 Ok(errors) => errors,
                 Err(failure) if fault == Fault::None => return Err(failure),
-                Err(_) => BROKEN,
+                Err(_) => Norms::NAN,
             };
             found.push(Planted { fault, errors });
         }
@@ -109,7 +110,7 @@ impl Controls {
         fault.plant(spec, self.relative)?;
         let level = |ran: &Ran<LevelOf, Vec<Planted>>| {
             let planted = ran.ok().and_then(|found| found.iter().find(|planted| planted.fault == fault));
-            (ran.case.data.1, planted.map_or(BROKEN, |planted| planted.errors))
+            (ran.case.data.1, planted.map_or(Norms::NAN, |planted| planted.errors))
         };
         let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.0 == study).map(level).collect();
         Some(Verdict::worst(verdicts(spec, &levels)))

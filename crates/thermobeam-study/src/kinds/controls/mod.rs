@@ -11,16 +11,12 @@
 pub mod any_order;
 pub mod matrix;
 pub mod sensitivity;
-mod untested;
 
-use convergence_study::judge::verdict::{Level, judge};
 use convergence_study::study::Study;
 
-use super::convergence::Convergence;
+use super::convergence::{Convergence, Defect};
 use super::prelude::*;
-use crate::error::design::{Defect, Disagreement};
-
-pub(in crate::kinds) use untested::untested;
+use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -49,9 +45,6 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
     }
 }
 
-/// What a run that broke down has measured: NaN, on which every study fails.
-const BROKEN: Norms = Norms::NAN;
-
 /// What is wrong in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault {
@@ -63,15 +56,10 @@ pub enum Fault {
     Defect(Defect),
 }
 
-/// The names of all coefficients, those of the obstacles last.
-fn coefficients() -> impl Iterator<Item = &'static str> + Clone {
-    tables::BEAM_KEYS.iter().chain(&tables::OBSTACLE_KEYS).copied()
-}
-
 impl Fault {
     fn all() -> Vec<Self> {
         let defects = Defect::ALL.map(Fault::Defect);
-        [Fault::None].into_iter().chain(coefficients().map(Fault::Coefficient)).chain(defects).collect()
+        [Fault::None].into_iter().chain(Coefficients::names().map(Fault::Coefficient)).chain(defects).collect()
     }
 
     fn name(self) -> &'static str {
@@ -82,36 +70,16 @@ impl Fault {
         }
     }
 
-    /// What solver and sources disagree in; `None` where the study does not have the coefficient, or has it zero.
+    /// The solver's coefficients and the defect of the sources; `None` where the study does not have the coefficient, or has it zero.
     ///
     /// * `relative`: relative error of a coefficient.
-    fn plant(self, spec: &Convergence, relative: f64) -> Option<Disagreement> {
-        let honest = Disagreement { beam: spec.beam, obstacles: spec.obstacles, defect: None };
+    fn plant(self, study: &Convergence, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
         match self {
-            Fault::None => Some(honest),
-            Fault::Defect(defect) => Some(Disagreement { defect: Some(defect), ..honest }),
-            Fault::Coefficient(key) => {
-                let (beam, obstacles) = perturbed(spec.beam, spec.obstacles, key, relative)?;
-                Some(Disagreement { beam, obstacles, defect: None })
-            }
+            Fault::None => Some((study.theory, None)),
+            Fault::Defect(defect) => Some((study.theory, Some(defect))),
+            Fault::Coefficient(key) => Some((study.theory.off(key, relative)?, None)),
         }
     }
-}
-
-/// The coefficients with one of them off by a relative amount; `None` where it is not there, or zero.
-fn perturbed(
-    mut beam: Beam,
-    mut obstacles: Option<Obstacles>,
-    key: &'static str,
-    relative: f64,
-) -> Option<(Beam, Option<Obstacles>)> {
-    let of_obstacles = obstacles.as_mut().and_then(|obstacles| tables::obstacle_coefficient(obstacles, key));
-    let coefficient = tables::beam_coefficient(&mut beam, key).or(of_obstacles)?;
-    if *coefficient == 0.0 {
-        return None;
-    }
-    *coefficient *= 1.0 + relative;
-    Some((beam, obstacles))
 }
 
 /// A relative error.
@@ -129,19 +97,6 @@ fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence
         studies.iter_mut().filter(|_| !levels.is_empty()).for_each(|spec| spec.refine.elements.clone_from(&levels));
     }
     Ok(studies)
-}
-
-/// The verdicts of a study on the errors of its levels, one for each norm that it judges.
-///
-/// * `levels`: elements, steps and errors of each level, coarse to fine.
-fn verdicts<'a>(spec: &'a Convergence, levels: &'a [((usize, usize), Norms)]) -> impl Iterator<Item = Verdict> + 'a {
-    spec.expect.iter().map(move |&(norm, claim)| {
-        let level = |((elements, steps), errors): &((usize, usize), Norms)| Level {
-            step: spec.step(*elements, *steps),
-            error: errors[norm],
-        };
-        judge(&levels.iter().map(level).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
-    })
 }
 
 /// What each study says under each fault, and how the matrix of verdicts is judged.

@@ -8,10 +8,11 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::{BROKEN, Fault, below_one, coefficients, named_studies, verdicts};
-use crate::error::design::Prepared;
+use super::{below_one, named_studies};
 use crate::kinds::convergence::Convergence;
+use crate::kinds::convergence::design::Detector;
 use crate::kinds::prelude::*;
+use crate::scene::Coefficients;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
 const BISECTIONS: usize = 9;
@@ -52,17 +53,28 @@ impl Kind for Sensitivity {
             spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
         };
         let of_study = |(study, spec): (usize, &Convergence)| {
-            let can_be_planted = |key: &&'static str| Fault::Coefficient(key).plant(spec, self.at_most).is_some();
+            let can_be_planted = |key: &&'static str| spec.theory.off(key, self.at_most).is_some();
             let label = |key: &str| format!("{key} in {}", spec.header.id);
             let case = |key| Case { label: label(key), cost: cost(spec), data: (study, key) };
-            coefficients().filter(can_be_planted).map(case).collect::<Vec<_>>()
+            Coefficients::names().filter(can_be_planted).map(case).collect::<Vec<_>>()
         };
         self.studies.iter().enumerate().flat_map(of_study).collect()
     }
 
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
-        let mut detector = Detector::new(&self.studies[study])?;
-        Ok(detector.smallest(key, self.range))
+        let study = &self.studies[study];
+        let mut detector = Detector::new(study)?;
+        let mut detects = |relative| study.theory.off(key, relative).is_some_and(|off| detector.detects(off));
+        let [least, most] = self.range;
+        if detects(least) || !detects(most) {
+            return Ok(None);
+        }
+        let [mut missed, mut detected] = self.range.map(f64::log10);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (missed + detected);
+            if detects(10f64.powf(middle)) { detected = middle } else { missed = middle }
+        }
+        Ok(Some(10f64.powf(detected)))
     }
 
     fn judge(&self, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Outcome {
@@ -70,7 +82,7 @@ impl Kind for Sensitivity {
             |smallest: &Option<f64>| readings::not_finite(&[Reading::new("the smallest error", *smallest)]);
         let mut checks = vec![completion(ran, not_finite)];
         let (mut rows, mut quantities) = (vec![], vec![]);
-        for key in coefficients() {
+        for key in Coefficients::names() {
             let cells: Vec<(f64, String)> = (0..self.studies.len()).map(|study| cell(study, key, ran)).collect();
             let best = cells.iter().map(|(smallest, _)| *smallest).fold(f64::INFINITY, smaller_or_nan);
             let claim = format!("{key} off by {:e} is detected", self.at_most);
@@ -105,47 +117,4 @@ fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]
 
 fn smaller_or_nan(a: f64, b: f64) -> f64 {
     -max_or_nan(-a, -b)
-}
-
-/// The levels of one study, prepared once for all runs.
-pub(super) struct Detector<'a> {
-    spec: &'a Convergence,
-    prepared: Vec<(Prepared<'a>, usize, usize)>,
-}
-
-impl<'a> Detector<'a> {
-    pub(super) fn new(spec: &'a Convergence) -> Result<Self, CaseFailure> {
-        let prepare = |(n, steps)| Ok((spec.prepared(n)?, n, steps));
-        Ok(Self { spec, prepared: spec.refine.cases().into_iter().map(prepare).collect::<Result<_, CaseFailure>>()? })
-    }
-
-    /// Whether the study fails when the solver's coefficient is off by that much.
-    pub(super) fn detects(&mut self, key: &'static str, relative: f64) -> bool {
-        let spec = self.spec;
-        let levels = self.levels(Fault::Coefficient(key), relative);
-        levels.is_some_and(|levels| verdicts(spec, &levels).any(|verdict| verdict == Verdict::Fail))
-    }
-
-    /// Elements, steps and errors of every level with a fault; `None` where it cannot be planted.
-    pub(super) fn levels(&mut self, fault: Fault, relative: f64) -> Option<Vec<((usize, usize), Norms)>> {
-        let disagreement = fault.plant(self.spec, relative)?;
-        // A fault that breaks a run down is detected.
-        let level = |(prepared, n, steps): &mut (Prepared<'_>, usize, usize)| {
-            ((*n, *steps), prepared.run(*steps, disagreement).unwrap_or(BROKEN))
-        };
-        Some(self.prepared.iter_mut().map(level).collect())
-    }
-
-    /// The smallest relative error detected, by bisection of its logarithm; `None` where the range does not bracket it.
-    fn smallest(&mut self, key: &'static str, range: [f64; 2]) -> Option<f64> {
-        if self.detects(key, range[0]) || !self.detects(key, range[1]) {
-            return None;
-        }
-        let [mut missed, mut detected] = range.map(f64::log10);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (missed + detected);
-            if self.detects(key, 10f64.powf(middle)) { detected = middle } else { missed = middle }
-        }
-        Some(10f64.powf(detected))
-    }
 }

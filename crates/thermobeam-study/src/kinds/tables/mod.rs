@@ -6,6 +6,7 @@ mod manufactured;
 mod refine;
 
 use super::prelude::*;
+use crate::scene::Coefficients;
 
 pub use discretisation::Discretisation;
 pub(crate) use discretisation::{DISCRETISATION_KEYS, discretisations};
@@ -73,54 +74,29 @@ pub(crate) fn not_finite(errors: &Norms) -> Vec<String> {
     errors.iter().filter(|(_, error)| !error.is_finite()).map(|(norm, _)| norm.name().to_owned()).collect()
 }
 
-/// The solver's coefficients in a negative control.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Control {
-    /// The solver's coefficients.
-    pub beam: Beam,
-    /// The solver's obstacles.
-    pub obstacles: Option<Obstacles>,
-    /// The names of those that differ; at least one.
-    pub changed: Vec<&'static str>,
-}
-
-/// The table `[control]`: coefficients in which the solver differs from the sources, whose own are given.
-pub(crate) fn control(
-    root: &Section<'_>,
-    beam: Beam,
-    obstacles: Option<Obstacles>,
-) -> Result<Option<Control>, InputError> {
-    let Some(section) = root.section("control")? else { return Ok(None) };
-    let keys = [&tables::BEAM_KEYS[..], &tables::OBSTACLE_KEYS[..]].concat();
-    section.allow(&keys)?;
-    let mut control = Control { beam, obstacles, changed: Vec::new() };
-    for key in keys {
-        change(&section, key, &mut control)?;
+/// The table `[control]`: coefficients in which the solver differs from `theory`; without it the solver has the same.
+pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coefficients, InputError> {
+    let Some(section) = root.section("control")? else { return Ok(theory) };
+    let names: Vec<&str> = Coefficients::names().collect();
+    section.allow(&names)?;
+    let mut solver = theory;
+    for name in names {
+        let Some(field) = section.get(name) else { continue };
+        let value = field.number()?;
+        let Some(coefficient) = solver.get_mut(name) else {
+            let found = format!("{} without a table [obstacles]", field.as_written());
+            return Err(field.refuse(found, tables::BEAM_KEYS.join(", ")));
+        };
+        // A control that changes nothing can only pass where it has to fail.
+        if *coefficient == value {
+            let found = format!("{}, which is the value of the sources", field.as_written());
+            return Err(field.refuse(found, "another value"));
+        }
+        *coefficient = value;
     }
-    if control.changed.is_empty() {
+    if solver == theory {
         return Err(root.refuse("control", "an empty table", "a table that changes at least one coefficient"));
     }
-    control.beam.validate().map_err(|error| tables::out_of_range(&section, &error))?;
-    if let Some(obstacles) = control.obstacles {
-        obstacles.validate().map_err(|error| tables::out_of_range(&section, &error))?;
-    }
-    Ok(Some(control))
-}
-
-fn change(section: &Section<'_>, key: &'static str, control: &mut Control) -> Result<(), InputError> {
-    let Some(field) = section.get(key) else { return Ok(()) };
-    let value = field.number()?;
-    let of_obstacles = control.obstacles.as_mut().and_then(|obstacles| tables::obstacle_coefficient(obstacles, key));
-    let Some(coefficient) = tables::beam_coefficient(&mut control.beam, key).or(of_obstacles) else {
-        let found = format!("{} without a table [obstacles]", field.as_written());
-        return Err(field.refuse(found, tables::BEAM_KEYS.join(", ")));
-    };
-    // A control that changes nothing can only pass where it has to fail.
-    if *coefficient == value {
-        let found = format!("{}, which is the value of the sources", field.as_written());
-        return Err(field.refuse(found, "another value"));
-    }
-    *coefficient = value;
-    control.changed.push(key);
-    Ok(())
+    solver.check(&section)?;
+    Ok(solver)
 }

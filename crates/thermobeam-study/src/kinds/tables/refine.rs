@@ -73,6 +73,11 @@ impl Refine {
         (in_space * elements, in_time * steps)
     }
 
+    /// Whether the error of the other axis is removed from a study of this one.
+    pub(crate) fn isolates(&self, axis: Axis) -> bool {
+        self.isolate && self.axis == axis
+    }
+
     /// What identifies a run in words.
     pub fn label(elements: usize, steps: usize) -> String {
         format!("n = {elements}, {steps} steps")

@@ -2,21 +2,20 @@
 //!
 //! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] moves by itself, and a beam started
 //! from a sum of modes stays that sum for ever. Nothing is manufactured: no load keeps the solution in place, so an
-//! error in the scheme and the same error in the sources cannot cancel. The module `motion` tells how space and time errors
+//! error in the scheme and the same error in the sources cannot cancel. The module `modes` says how space and time errors
 //! are measured one without the other.
 
-mod mesh_modes;
-mod motion;
+mod modes;
 
 use thermobeam::vibration::Mode;
 
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
-use crate::error::design;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
 use crate::exact::sources::Nodal;
-use motion::Modes;
+use crate::scene::Coefficients;
+use modes::Modes;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -38,10 +37,10 @@ const CLOSED_FORM: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration {
     header: Header,
-    /// The beam whose modes are exact.
-    beam: Beam,
-    /// The beam that the solver is given: another one in a negative control.
-    solver: Beam,
+    /// The beam whose modes are exact; it has no obstacles.
+    theory: Coefficients,
+    /// What the solver is given: another beam in a negative control.
+    solver: Coefficients,
     /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the mode at t = 0.
     modes: Vec<(usize, [f64; 2])>,
     /// k of each temperature sin kπx, and its amplitude at t = 0.
@@ -58,8 +57,6 @@ pub struct Vibrated {
     /// In the design that isolates time: the largest distance from the scheme's own steps of the mesh's modes, relative to
     /// the size of the motion, both in the norm of Theorem 3.4.
     pub closed_form: Option<f64>,
-    /// (t, u(1, t)) of the reference at each time level.
-    pub exact_tip: Vec<(f64, f64)>,
     /// (t, u(1, t)) of the solver at each time level.
     pub tip: Vec<(f64, f64)>,
 }
@@ -67,18 +64,19 @@ pub struct Vibrated {
 impl FromFile for Vibration {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
-        let beam = linear_beam(root)?;
+        let theory = linear_beam(root)?;
         let refine = refine(root)?;
         bounded(root, &refine)?;
         let (modes, heat) = (modes(root, &refine)?, heat(root, &refine)?);
-        let solver = control(root, beam, None)?.map_or(beam, |control| control.beam);
-        Ok(Self { header, beam, solver, modes, heat, refine, expect: expectations(root)? })
+        let solver = control(root, theory)?;
+        Ok(Self { header, theory, solver, modes, heat, refine, expect: expectations(root)? })
     }
 }
 
 /// The beam, which must be one whose modes are exact.
-fn linear_beam(root: &Section<'_>) -> Result<Beam, InputError> {
-    let beam = tables::beam(root)?;
+fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
+    let theory = Coefficients::read(root)?;
+    let beam = theory.beam;
     for (key, value) in [("a", beam.a), ("rho", beam.rho), ("beta", beam.beta), ("theta_a", beam.theta_a)] {
         if value != 0.0 {
             let allowed = "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
@@ -86,7 +84,7 @@ fn linear_beam(root: &Section<'_>) -> Result<Beam, InputError> {
             return Err(section.refuse(key, format!("{value:?}"), allowed));
         }
     }
-    Ok(beam)
+    Ok(theory)
 }
 
 /// The tip is kept at every step, and the modes of a mesh are found by a dense method.
@@ -100,16 +98,12 @@ fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     for &level in &refine.steps {
         limits::steps_until(&steps, refine.t_end, refine.dt(level), limits::RECORDED_STEPS)?;
     }
-    if isolates(refine, Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
-}
-
-fn isolates(refine: &Refine, axis: Axis) -> bool {
-    refine.isolate && refine.axis == axis
+    if refine.isolates(Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
 }
 
 /// The indices that may be asked for: a study that starts from the modes of its mesh has `of_mesh` of them.
 fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
-    1..=if isolates(refine, Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
+    1..=if refine.isolates(Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
 }
 
 fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
@@ -158,46 +152,40 @@ impl Kind for Vibration {
         self.refine.cases().into_iter().map(case).collect()
     }
 
-    /// The solver beside the motion that it has to give.
+    /// Compares the solver with the motion that it has to give.
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
         let Refine { scheme, settings, .. } = self.refine;
         let (dt, mesh) = (self.refine.dt(steps), self.refine.mesh(elements)?);
-        let of_mesh = isolates(&self.refine, Axis::Time);
+        let of_mesh = self.refine.isolates(Axis::Time);
         let modes = if of_mesh { Modes::of_mesh(self, &mesh)? } else { Modes::of_beam(self)? };
-        let by_scheme = || modes.by(scheme, dt, steps);
-        let reference = if isolates(&self.refine, Axis::Space) { by_scheme() } else { modes.exactly(dt, steps) };
-        let closed = of_mesh.then(by_scheme);
-
+        let by = self.refine.isolates(Axis::Space).then_some(scheme);
+        let (mut reference, mut closed) = (modes.moved(by, dt), of_mesh.then(|| modes.moved(Some(scheme), dt)));
         let mut factors = Factors::default();
-        reference.at(0, &mut factors);
+        reference(0, &mut factors);
+        let Coefficients { beam, obstacles } = self.solver;
         let nodal = Nodal::of(&modes.exact, &mesh);
-        let initial = design::initial(&nodal, &self.beam, &mesh, &factors, self.solver.theta_a);
+        let initial = nodal.initial(&mesh, &factors, self.theory.beam.theta_a, beam.theta_a);
         let mut meter = ErrorMeter::new(&modes.exact, &mesh, of_mesh);
-        meter.lift(&mesh, self.solver.theta_a);
-        let tip_of = |factors: &Factors| -> f64 {
-            nodal.u.iter().zip(&factors.u.value).map(|(values, factor)| values[elements] * factor).sum()
-        };
-        let problem = Problem { beam: self.solver, obstacles: None, mesh: Mesh::clone(&mesh), initial };
+        meter.lift(&mesh, beam.theta_a);
+        let problem = Problem { beam, obstacles, mesh: Mesh::clone(&mesh), initial };
         let mut driver = Driver::new(problem, Stepping { scheme, settings, dt, loaded: false })?;
         let zero = Level::new(elements + 1);
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
-        let (mut exact_tip, mut tip) = (vec![(0.0, tip_of(&factors))], vec![(0.0, driver.level().u[elements])]);
+        let mut tip = vec![(0.0, driver.level().u[elements])];
         driver.run(steps, |step| {
             let n = step.simulation.step();
-            if let Some(closed) = &closed {
-                closed.at(n, &mut factors);
+            if let Some(closed) = &mut closed {
+                closed(n, &mut factors);
                 let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
                 deviation = max_or_nan(deviation, distance(step.new));
                 size = max_or_nan(size, distance(&zero));
             }
-            reference.at(n, &mut factors);
+            reference(n, &mut factors);
             errors = errors.max(&meter.measure(step.new, &factors));
-            let t = n as f64 * dt;
-            exact_tip.push((t, tip_of(&factors)));
-            tip.push((t, step.new.u[elements]));
+            tip.push((n as f64 * dt, step.new.u[elements]));
             ControlFlow::<()>::Continue(())
         })?;
-        Ok(Vibrated { errors, closed_form: closed.map(|_| deviation / size), exact_tip, tip })
+        Ok(Vibrated { errors, closed_form: closed.map(|_| deviation / size), tip })
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
@@ -206,7 +194,7 @@ impl Kind for Vibration {
             names.extend(readings::not_finite(&[Reading::new("closed form", found.closed_form)]));
             names
         })];
-        if isolates(&self.refine, Axis::Time) {
+        if self.refine.isolates(Axis::Time) {
             checks.push(closed_form(ran));
         }
         // Over dt where only time is refined, else over h.
@@ -241,7 +229,7 @@ impl Vibration {
     fn modes_table(&self) -> Table {
         let row = |&(index, start): &(usize, [f64; 2])| {
             let omega = Mode::new(index).omega();
-            let damping = 0.5 * self.beam.zeta * omega;
+            let damping = 0.5 * self.theory.beam.zeta * omega;
             vec![
                 (index + 1).to_string(),
                 format!("{omega:.11}"),
@@ -255,18 +243,17 @@ impl Vibration {
         Table::new("Modes superposed", head, self.modes.iter().map(row))
     }
 
-    /// The tip's displacement on the coarsest and the finest level beside the exact one.
+    /// The tip's displacement on the coarsest and the finest level, and the exact one.
     fn tip_figure(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Option<Figure> {
         let (first, last) = (ran.first()?, ran.last()?);
-        let (coarsest, finest) = (first.ok()?, last.ok()?);
+        let (coarsest, finest, modes) = (first.ok()?, last.ok()?, Modes::of_beam(self).ok()?);
+        let exact = finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))).collect();
         let curves =
-            [("exact", &finest.exact_tip), (&first.case.label, &coarsest.tip), (&last.case.label, &finest.tip)];
+            [("exact", exact), (&first.case.label, coarsest.tip.clone()), (&last.case.label, finest.tip.clone())];
         let svg = plots::history(&plots::History {
             title: Some("Tip of the vibrating beam".into()),
             y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
-            series: curves
-                .map(|(label, points)| plots::Series { label: label.to_owned(), points: points.clone() })
-                .into(),
+            series: curves.map(|(label, points)| plots::Series { label: label.to_owned(), points }).into(),
             ..plots::History::default()
         });
         let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";

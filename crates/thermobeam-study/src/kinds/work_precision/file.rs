@@ -110,8 +110,8 @@ fn problem(
             if let Some(field) = section.get("t_end") {
                 return Err(field.refuse("t_end beside solution", "no t_end: it is that of the solution"));
             }
-            let spec = Convergence::read(file.file(folder)?)?;
-            Ok((Family::of_solution(spec.exact, spec.beam, spec.obstacles, spec.refine.t_end), Yardstick::Exact))
+            let Convergence { exact, theory, refine, .. } = Convergence::read(file.file(folder)?)?;
+            Ok((Family::of_solution(exact, theory.beam, theory.obstacles, refine.t_end), Yardstick::Exact))
         }
         (None, Some(file), None) => {
             let scene = Scene { t_end: section.positive("t_end")?, ..Scene::read(file.file(folder)?)? };

@@ -29,15 +29,18 @@
 //! tolerance = 0.05
 //! ```
 
+pub(super) mod design;
+mod untested;
+
 use convergence_study::study::Untested;
 use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use convergence_study::study::until_decided::{self, Next};
 
-use super::controls::untested;
 use super::prelude::*;
-use super::tables::{Control, Refine, control, expectations, manufactured, norm_levels, not_finite, refine};
+use super::tables::{Refine, control, expectations, manufactured, norm_levels, not_finite, refine};
 use super::terms;
-use crate::error::design::{Disagreement, Prepared, Theory};
+use crate::scene::Coefficients;
+pub use design::{Defect, Prepared};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -62,15 +65,13 @@ pub struct Convergence {
     /// Id, claim and tier.
     pub header: Header,
     /// Coefficients from which the sources are derived.
-    pub beam: Beam,
-    /// Obstacles from which the boundary load is derived.
-    pub obstacles: Option<Obstacles>,
+    pub theory: Coefficients,
+    /// The solver's own; where they differ, the study must fail.
+    pub solver: Coefficients,
     /// The exact solution; it meets the essential boundary conditions.
     pub exact: Manufactured,
     /// What is refined and how.
     pub refine: Refine,
-    /// The solver's own coefficients, where they differ: then the study must fail.
-    pub control: Option<Control>,
     /// The orders expected; at least one, each norm once.
     pub expect: Vec<(Norm, Claim)>,
 }
@@ -84,11 +85,10 @@ impl FromFile for Convergence {
             return Err(study.refuse("kind", found, format!("\"{}\" for this reader", ROW.name)));
         }
         root.allow(&["study", "beam", "obstacles", "exact", "refine", "control", "expect"])?;
-        let beam = tables::beam(root)?;
-        let obstacles = tables::obstacles(root)?;
+        let theory = Coefficients::read(root)?;
         let refine = refine(root)?;
-        let exact = manufactured(root, &beam, refine.t_end)?;
-        let control = control(root, beam, obstacles)?;
+        let exact = manufactured(root, &theory.beam, refine.t_end)?;
+        let solver = control(root, theory)?;
         let expect = expectations(root)?;
         if refine.grid && expect.iter().any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance)) {
             return Err(root.refuse(
@@ -97,7 +97,7 @@ impl FromFile for Convergence {
                 "orders alone, for a grid has one in h and in dt",
             ));
         }
-        Ok(Self { header, beam, obstacles, exact, refine, control, expect })
+        Ok(Self { header, theory, solver, exact, refine, expect })
     }
 }
 
@@ -122,8 +122,7 @@ impl Kind for Convergence {
     }
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
-        let (beam, obstacles) = self.solver_coefficients();
-        self.prepared(elements)?.run(steps, Disagreement { beam, obstacles, defect: None })
+        Prepared::new(self, elements)?.run(steps, self.solver, None)
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
@@ -154,27 +153,11 @@ impl Kind for Convergence {
     }
 
     fn untested(&self) -> Vec<Untested> {
-        untested(self)
+        untested::untested(self)
     }
 }
 
 impl Convergence {
-    /// The coefficients that the solver works with: those of the control, or else those of the sources.
-    pub fn solver_coefficients(&self) -> (Beam, Option<Obstacles>) {
-        self.control.as_ref().map_or((self.beam, self.obstacles), |control| (control.beam, control.obstacles))
-    }
-
-    /// The runs on a mesh, prepared.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] where the study's map makes no mesh of so many elements.
-    pub fn prepared(&self, elements: usize) -> Result<Prepared<'_>, CaseFailure> {
-        let Refine { axis, isolate, t_end, scheme, settings, .. } = self.refine;
-        let (exact, beam, obstacles, isolated) = (&self.exact, self.beam, self.obstacles, isolate.then_some(axis));
-        let theory = Theory { exact, beam, obstacles, isolated, t_end, scheme, settings };
-        Ok(Prepared::new(theory, self.refine.mesh(elements)?))
-    }
-
     /// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.
     pub(crate) fn step(&self, elements: usize, steps: usize) -> f64 {
         match self.refine.axis {
@@ -252,10 +235,14 @@ impl Convergence {
             }
             (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
         };
-        let control = self.control.as_ref().map_or(String::new(), |control| {
-            let changed = control.changed.join(", ");
-            format!(" The solver differs from the sources in {changed}: a negative control, which must fail.")
-        });
+        let changed: Vec<&str> = self.solver.differing(self.theory).collect();
+        let control = match &changed[..] {
+            [] => String::new(),
+            _ => {
+                let changed = changed.join(", ");
+                format!(" The solver differs from the sources in {changed}: a negative control, which must fail.")
+            }
+        };
         format!("{what} {} levels; scheme {}.{control}", refine.cases().len(), refine.scheme.name)
     }
 }

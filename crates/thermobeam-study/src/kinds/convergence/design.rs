@@ -1,0 +1,184 @@
+//! The three designs of a convergence study: coupled, space isolated, time isolated.
+//!
+//! * **Coupled**: loads from the strong form at t_{n-½}, errors against the exact solution at t_n.
+//! * **Space isolated**: the exact solution is replaced by its own time sequence `U^n = Σ X_j T_j(t_n)` with the
+//!   velocities of the scheme, and the loads are the time-discrete operator applied to it, space still exact. The time
+//!   error is then exactly zero, whatever dt.
+//! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use the discrete matrices.
+//!   The space error is then exactly zero, whatever the mesh.
+//!
+//! Theory and solver differ by a [`Defect`] only in a negative control.
+
+use convergence_study::judge::verdict::{Level as Error, judge};
+use thermobeam::scheme::ContactRule;
+
+use super::Convergence;
+use crate::exact::errors::ErrorMeter;
+use crate::exact::factors::Factors;
+use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::kinds::prelude::*;
+use crate::scene::Coefficients;
+
+/// A mistake made on purpose in the sources, for negative controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Defect {
+    /// Values taken at t_n where the scheme has t_{n-½}.
+    SourceAtNewLevel,
+    /// The load σ(1, t) + g(u(1, t)) is dropped.
+    StressDropped,
+    /// The load φ_x(1, t) + ζ φ_xt(1, t) is dropped.
+    MomentDropped,
+    /// N(u^n) in place of the mean ½(N(u^n) + N(u^{n-1})).
+    ForceAtNewLevel,
+    /// Contact at t_{n-½} where the scheme has t_n.
+    ContactAtMiddle,
+}
+
+impl Defect {
+    /// All defects.
+    pub const ALL: [Defect; 5] = [
+        Defect::SourceAtNewLevel,
+        Defect::StressDropped,
+        Defect::MomentDropped,
+        Defect::ForceAtNewLevel,
+        Defect::ContactAtMiddle,
+    ];
+
+    /// What it does, in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Defect::SourceAtNewLevel => "source at t_n instead of the middle",
+            Defect::StressDropped => "boundary load of the stress dropped",
+            Defect::MomentDropped => "boundary load of the moment dropped",
+            Defect::ForceAtNewLevel => "N(u^n) instead of the mean of N",
+            Defect::ContactAtMiddle => "contact at the middle instead of t_n",
+        }
+    }
+}
+
+/// Space vectors and error meter of one mesh: what several runs on it share.
+pub struct Prepared<'a> {
+    study: &'a Convergence,
+    mesh: Mesh,
+    nodal: Nodal,
+    sources: Sources,
+    meter: ErrorMeter,
+}
+
+impl<'a> Prepared<'a> {
+    /// Computes the space vectors of the design.
+    ///
+    /// # Errors
+    /// [`MeshError`] where the study's map makes no mesh of so many elements.
+    pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
+        let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.mesh(elements)?);
+        let is_nodal = study.refine.isolates(Axis::Time);
+        let sources =
+            if is_nodal { Sources::discrete(exact, beam, &mesh) } else { Sources::strong(exact, beam, &mesh) };
+        let (meter, nodal) = (ErrorMeter::new(exact, &mesh, is_nodal), Nodal::of(exact, &mesh));
+        Ok(Self { study, mesh, nodal, sources, meter })
+    }
+
+    /// Runs so many steps and returns the errors, each the maximum over n = 1..N; NaN stays.
+    ///
+    /// * `solver`: the solver's coefficients; those of the study's theory in an honest run.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] with the solver's own words.
+    pub fn run(&mut self, steps: usize, solver: Coefficients, defect: Option<Defect>) -> Result<Norms, CaseFailure> {
+        let Convergence { exact, theory, refine, .. } = self.study;
+        let Coefficients { beam, obstacles } = solver;
+        let (mut old, dt) = (Factors::default(), refine.dt(steps));
+        old.at(exact, 0.0);
+        let initial = self.nodal.initial(&self.mesh, &old, theory.beam.theta_a, beam.theta_a);
+        let stepping = Stepping { scheme: refine.scheme, settings: refine.settings, dt, loaded: true };
+        let mut driver = Driver::new(Problem { beam, obstacles, mesh: self.mesh.clone(), initial }, stepping)?;
+        self.meter.lift(&self.mesh, beam.theta_a);
+        let loads = match defect {
+            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
+            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
+            _ => BoundaryLoads::Both,
+        };
+        let (mut new, mut source, mut worst) = (old.clone(), old.clone(), Norms::ZERO);
+        for n in 1..=steps {
+            new.at(exact, n as f64 * dt);
+            let (n_value, force) = if refine.isolates(Axis::Space) {
+                source.of_step(&old, &mut new, refine.scheme.inertia, dt);
+                self.of_step(&old, &new, &mut source, defect)
+            } else {
+                let middle = if defect == Some(Defect::SourceAtNewLevel) { n as f64 } else { n as f64 - 0.5 };
+                source.at(exact, middle * dt);
+                self.of_time(&source)
+            };
+            driver.advance(|_, load| self.sources.fill(&source, n_value, force, loads, load))?;
+            worst = worst.max(&self.meter.measure(driver.level(), &new));
+            std::mem::swap(&mut old, &mut new);
+        }
+        Ok(worst)
+    }
+
+    /// N and contact force of the exact solution at the time of its factors.
+    fn of_time(&self, source: &Factors) -> (f64, f64) {
+        let values = &source.u.value;
+        let force = self.study.theory.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
+        (self.sources.axial_force(values), force)
+    }
+
+    /// What the scheme makes of N and the contact force between two levels of the time sequence.
+    fn of_step(&self, old: &Factors, new: &Factors, source: &mut Factors, defect: Option<Defect>) -> (f64, f64) {
+        if defect == Some(Defect::SourceAtNewLevel) {
+            source.u.value.clone_from(&new.u.value);
+        }
+        let [old, new] = [old, new].map(|factors| &factors.u.value);
+        let (n_old, n_new) = (self.sources.axial_force(old), self.sources.axial_force(new));
+        let n_value = if defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
+        let (u_old, u) = (self.sources.tip(old), self.sources.tip(new));
+        let contact = |obstacles: Obstacles| match self.study.refine.scheme.contact {
+            _ if defect == Some(Defect::ContactAtMiddle) => obstacles.force(0.5 * (u + u_old)),
+            ContactRule::Implicit => obstacles.force(u),
+            ContactRule::DiscreteGradient => obstacles.discrete_gradient(u, u_old),
+        };
+        (n_value, self.study.theory.obstacles.map_or(0.0, contact))
+    }
+}
+
+/// Elements, steps and errors of a level.
+pub(in crate::kinds) type Measured = ((usize, usize), Norms);
+
+/// All levels of a study, prepared once for runs with many faults.
+pub(in crate::kinds) struct Detector<'a> {
+    study: &'a Convergence,
+    levels: Vec<(Prepared<'a>, (usize, usize))>,
+}
+
+impl<'a> Detector<'a> {
+    pub(in crate::kinds) fn new(study: &'a Convergence) -> Result<Self, MeshError> {
+        let prepare = |level: (usize, usize)| Ok((Prepared::new(study, level.0)?, level));
+        Ok(Self { study, levels: study.refine.cases().into_iter().map(prepare).collect::<Result<_, MeshError>>()? })
+    }
+
+    /// The errors of every level; NaN where a run breaks down, on which every study fails.
+    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<Measured> {
+        let measure = |(prepared, level): &mut (Prepared<'_>, (usize, usize))| {
+            (*level, prepared.run(level.1, solver, None).unwrap_or(Norms::NAN))
+        };
+        self.levels.iter_mut().map(measure).collect()
+    }
+
+    /// Whether the study fails with these coefficients in the solver.
+    pub(in crate::kinds) fn detects(&mut self, solver: Coefficients) -> bool {
+        let levels = self.measure(solver);
+        verdicts(self.study, &levels).any(|verdict| verdict == Verdict::Fail)
+    }
+}
+
+/// The verdicts of a study on errors over its levels, coarse to fine: one for each norm that it judges.
+pub(in crate::kinds) fn verdicts<'a>(
+    study: &'a Convergence,
+    levels: &'a [Measured],
+) -> impl Iterator<Item = Verdict> + 'a {
+    study.expect.iter().map(move |&(norm, claim)| {
+        let error = |&((n, steps), errors): &Measured| Error { step: study.step(n, steps), error: errors[norm] };
+        judge(&levels.iter().map(error).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
+    })
+}

@@ -1,0 +1,230 @@
+//! Modes superposed, of the beam or of a mesh, and how they move in time: exactly, or as a time scheme moves them.
+//!
+//! A mode of the beam, exact or of a mesh, satisfies `A(x; y) = ω² B(x; y)` for all test functions y in its space. Put
+//! `u = U q, φ = Φ q, û = U v, φ̂ = Φ v` into (3.7) with a = β = ρ = 0 and no obstacle: everything is a multiple of the
+//! mode, and a step becomes one scalar equation for the velocity V that carries it,
+//!
+//! ```text
+//! κ (V - v0) + ω² (q0 + dt V/2 + ζ V) = 0,      κ = inertia/dt,
+//! V = (κ v0 - ω² q0) / (κ + ω² (ζ + dt/2)),     q = q0 + dt V,     v = v0 + inertia (V - v0).
+//! ```
+//!
+//! So the time-discrete solution of a mode is known in closed form, in space exact or not, and either error of the
+//! whole scheme can be had by itself:
+//!
+//! * *space*: the scheme on a mesh against the exact mode moved by the scheme: the time error cancels exactly;
+//! * *time*: the scheme started from a mode of the mesh against that mode moved exactly at its own ω: the
+//!   space error is exactly zero;
+//! * neither: a mode of the mesh moved by the scheme is what the solver has to give, to round-off.
+//!
+//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, lives beside the beam without touching it for a = 0; Crank-Nicolson
+//! multiplies it by `(1 - κ² dt/2)/(1 + κ² dt/2)` a step.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
+use thermobeam::vibration::Mode;
+
+use super::Vibration;
+use crate::error::free_vibration::{self, piecewise_linear};
+use crate::exact::factors::Factors;
+use crate::kinds::prelude::*;
+
+/// Modes, each with the exact motion of its equation in time.
+///
+/// Products of u and of φ belong together: one of each for every vibration, in the same order.
+pub(super) struct Modes {
+    pub(super) exact: Manufactured,
+    /// ω² of each vibration, and its position and velocity at t = 0.
+    vibrations: Vec<(f64, [f64; 2])>,
+    /// κ² of each temperature, and its amplitude at t = 0.
+    temperatures: Vec<(f64, f64)>,
+    zeta: f64,
+}
+
+impl Modes {
+    fn none(zeta: f64) -> Self {
+        Self { exact: Manufactured::default(), vibrations: vec![], temperatures: vec![], zeta }
+    }
+
+    /// The exact modes.
+    pub(super) fn of_beam(study: &Vibration) -> Result<Self, CaseFailure> {
+        let mut modes = Self::none(study.theory.beam.zeta);
+        for &(index, start) in &study.modes {
+            free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
+            modes.vibrations.push((Mode::new(index).omega().powi(2), start));
+        }
+        for &(k, amplitude) in &study.heat {
+            free_vibration::add_temperature(&mut modes.exact, k, amplitude);
+            modes.temperatures.push(((k as f64 * PI).powi(2), amplitude));
+        }
+        Ok(modes)
+    }
+
+    /// The modes of the mesh itself, P1 functions that move by their own frequencies.
+    pub(super) fn of_mesh(study: &Vibration, mesh: &Mesh) -> Result<Self, CaseFailure> {
+        let none = || CaseFailure { reason: "the mesh has no modes".to_owned() };
+        let mut modes = Self::none(study.theory.beam.zeta);
+        let vibrations = vibrations(mesh).ok_or_else(none)?;
+        for &(index, start) in &study.modes {
+            let (square, [u, phi]) = vibrations.get(index).cloned().ok_or_else(none)?;
+            let t = free_vibration::damped(square.sqrt(), modes.zeta, start)?;
+            modes.exact.u.push(Product { x: piecewise_linear(mesh, u), t: t.clone() });
+            modes.exact.phi.push(Product { x: piecewise_linear(mesh, phi), t });
+            modes.vibrations.push((square, start));
+        }
+        let temperatures = if study.heat.is_empty() { Some(vec![]) } else { temperatures(mesh) };
+        let temperatures = temperatures.ok_or_else(none)?;
+        for &(k, amplitude) in &study.heat {
+            let (square, theta) = temperatures.get(k - 1).cloned().ok_or_else(none)?;
+            let t = free_vibration::decay(square, amplitude);
+            modes.exact.theta.push(Product { x: piecewise_linear(mesh, theta), t });
+            modes.temperatures.push((square, amplitude));
+        }
+        Ok(modes)
+    }
+
+    /// Sets the time factors to those at a time level: exactly, or by a time scheme, which is asked for one level after the other. All
+    /// schemes take the temperature by Crank-Nicolson.
+    pub(super) fn moved(&self, by: Option<Scheme>, dt: f64) -> impl FnMut(usize, &mut Factors) {
+        let (mut level, mut states): (usize, Vec<[f64; 2]>) = (0, self.vibrations.iter().map(|(_, at)| *at).collect());
+        move |n, factors| {
+            let Some(scheme) = by else { return factors.at(&self.exact, n as f64 * dt) };
+            for _ in level..n {
+                for (state, (square, _)) in states.iter_mut().zip(&self.vibrations) {
+                    *state = scheme_step(scheme, *square, self.zeta, dt, *state);
+                }
+            }
+            level = n;
+            for field in [&mut factors.u, &mut factors.phi] {
+                field.value.clear();
+                field.value.extend(states.iter().map(|[q, _]| q));
+                field.rate.clear();
+                field.rate.extend(states.iter().map(|[_, v]| v));
+            }
+            let temperature = |(square, start): &(f64, f64)| {
+                let half = 0.5 * dt * square;
+                start * ((1.0 - half) / (1.0 + half)).powi(n as i32)
+            };
+            factors.theta.value.clear();
+            factors.theta.value.extend(self.temperatures.iter().map(temperature));
+        }
+    }
+}
+
+/// Position and velocity of a vibration after a step by a scheme.
+fn scheme_step(scheme: Scheme, omega_squared: f64, zeta: f64, dt: f64, [q, v]: [f64; 2]) -> [f64; 2] {
+    let kappa = scheme.inertia / dt;
+    let carrying = (kappa * v - omega_squared * q) / (kappa + omega_squared * (zeta + 0.5 * dt));
+    [q + dt * carrying, v + scheme.inertia * (carrying - v)]
+}
+
+/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled to U(1) = 1 as the exact ones are.
+///
+/// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field. The method is dense and
+/// shares nothing with the solver's sweeps.
+fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
+    let n = mesh.elements();
+    let [mass, stiffness, coupling] =
+        [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| dense(&matrix).view((1, 1), (n, n)).into_owned());
+    let (mut a, mut b) = (DMatrix::zeros(2 * n, 2 * n), DMatrix::zeros(2 * n, 2 * n));
+    a.view_mut((0, 0), (n, n)).copy_from(&stiffness);
+    a.view_mut((n, n), (n, n)).copy_from(&(stiffness + &mass));
+    a.view_mut((0, n), (n, n)).copy_from(&-&coupling);
+    a.view_mut((n, 0), (n, n)).copy_from(&-coupling.transpose());
+    b.view_mut((0, 0), (n, n)).copy_from(&mass);
+    b.view_mut((n, n), (n, n)).copy_from(&mass);
+    let mode = |(square, x): (f64, DVector<f64>)| {
+        let field = |from: usize| std::iter::once(0.0).chain((from..from + n).map(|i| x[i] / x[n - 1])).collect();
+        (square, [field(0), field(n)])
+    };
+    Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
+}
+
+/// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first: κ² and nodal values, scaled to a largest value of 1.
+fn temperatures(mesh: &Mesh) -> Option<Vec<(f64, Vec<f64>)>> {
+    let n = mesh.elements();
+    let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| dense(&matrix).view((1, 1), (n - 1, n - 1)).into_owned());
+    let mode = |(square, x): (f64, DVector<f64>)| {
+        let larger = |largest: f64, value: &f64| if value.abs() > largest.abs() { *value } else { largest };
+        let largest = x.iter().fold(0.0, larger);
+        let inner = x.iter().map(|value| value / largest);
+        (square, std::iter::once(0.0).chain(inner).chain(std::iter::once(0.0)).collect())
+    };
+    Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
+}
+
+fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
+    let n = matrix.diagonal.len();
+    DMatrix::from_fn(n, n, |i, j| match j {
+        _ if j == i => matrix.diagonal[i],
+        _ if j + 1 == i => matrix.lower[i],
+        _ if j == i + 1 => matrix.upper[i],
+        _ => 0.0,
+    })
+}
+
+/// Eigenpairs of `A x = λ B x`, increasing, by Cholesky of B; `None` where B is not positive definite.
+fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
+    let factor = b.clone().cholesky()?.l();
+    let half = factor.solve_lower_triangular(a)?;
+    let standard = factor.solve_lower_triangular(&half.transpose())?;
+    let eigen = (0.5 * (&standard + standard.transpose())).symmetric_eigen();
+    let mut order: Vec<usize> = (0..a.nrows()).collect();
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let pair = |index: usize| {
+        let x = factor.transpose().solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
+        // Rayleigh's quotient: its error is the square of the eigenvector's.
+        Some(((a * &x).dot(&x) / (b * &x).dot(&x), x))
+    };
+    order.into_iter().map(pair).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use thermobeam::vibration::discrete_frequencies;
+
+    #[test]
+    fn the_schemes_paths_converge_at_their_order() {
+        let start = [0.5, -1.0];
+        let factor = free_vibration::damped(1.7_f64.sqrt(), 0.2, start).expect("a factor");
+        for scheme in SCHEMES {
+            let error = |steps: usize| {
+                let dt = 2.0 / steps as f64;
+                let [value, slope, _] = factor.derivatives(steps as f64 * dt);
+                let [q, v] = (0..steps).fold(start, |state, _| scheme_step(scheme, 1.7, 0.2, dt, state));
+                (value - q).hypot(slope - v)
+            };
+            let rate = (error(500) / error(1000)).log2();
+            assert!((rate - scheme.order).abs() < 0.01, "{}: {rate}", scheme.name);
+        }
+    }
+
+    #[test]
+    fn frequencies_are_those_of_the_bisection_on_any_mesh() {
+        for mesh in [Mesh::uniform(12), Mesh::mapped(9, |s| 0.4 * s + 0.6 * s * s)] {
+            let mesh = mesh.expect("a mesh");
+            let modes = vibrations(&mesh).expect("a positive mass");
+            let expected = discrete_frequencies(&mesh, 1, modes.len()).expect("all of them");
+            for ((square, _), expected) in modes.iter().zip(expected) {
+                assert!((square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0), "{expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn temperatures_on_a_uniform_mesh_are_sines() {
+        let n = 10;
+        let modes = temperatures(&Mesh::uniform(n).expect("a mesh")).expect("a positive mass");
+        for (k, (square, theta)) in modes.iter().enumerate() {
+            let angle = PI * (k + 1) as f64 / n as f64;
+            let exact = 6.0 * (n * n) as f64 * (1.0 - angle.cos()) / (2.0 + angle.cos());
+            assert!((square - exact).abs() < 1e-11 * exact, "{k}");
+            // No sign and no scale: the sine's ratio of neighbours.
+            let ratio = theta[2] / theta[1];
+            assert!((ratio - 2.0 * angle.cos()).abs() < 1e-10, "{k}: {ratio}");
+        }
+    }
+}

@@ -1,7 +1,5 @@
 //! `cargo xtask <command>`: the commands of `thermobeam`, and the tools for developing the project.
 
-mod drift;
-mod mutants;
 mod regressions;
 
 use std::process::ExitCode;
@@ -31,8 +29,6 @@ enum Command {
 
 #[derive(Debug, Subcommand)]
 enum Dev {
-    Drift(drift::Arguments),
-    Mutants(mutants::Arguments),
     Regressions(regressions::Arguments),
 }
 
@@ -41,8 +37,6 @@ fn main() -> ExitCode {
     let line = command_line::<Xtask>(&PROJECT, &groups);
     ended(line.clone(), |asked: Xtask| match asked.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
-        Command::Dev(Dev::Drift(arguments)) => drift::run(&arguments),
-        Command::Dev(Dev::Mutants(arguments)) => mutants::run(&arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
     })
 }

@@ -18,7 +18,7 @@ fn copied(from: &Path, to: &Path) {
 }
 
 #[test]
-#[ignore = "what `verify` does, without optimisation; for `cargo xtask dev mutants`"]
+#[ignore = "what `verify` does, without optimisation; for `cargo mutants`, see .cargo/mutants.toml"]
 fn the_quick_tier_passes_and_no_number_moves() {
     let root = tempfile::tempdir().expect("a folder");
     // Asked for now, and not when it was compiled: that may have been in a copy that is gone.

@@ -3,7 +3,6 @@
 
 #[path = "../../../crates/thermobeam-cli/tests/command/ended.rs"]
 mod ended;
-mod mutants;
 mod regressions;
 
 use std::os::unix::fs::PermissionsExt;

@@ -31,30 +31,24 @@
 mod case;
 mod design;
 mod error;
-mod join;
 mod journal;
-mod key;
 mod lines;
 mod reader;
 mod run;
 mod share;
-mod values;
 
 use std::path::Path;
 
 use crate::scene::{Scene, limits};
 use convergence_study::input::{self, InputError};
 
-pub use case::SweepCase;
+pub use case::{Key, SweepCase};
 pub use error::SweepError;
-pub use join::{Merged, merge};
-pub use journal::{Journal, Manifest, RESULTS};
-pub use key::Key;
+pub use journal::{Journal, Manifest, Merged, RESULTS, merge};
 pub use run::{InOrder, Line, run};
 pub use share::Share;
 
 use design::Design;
-use reader::Overlay;
 
 /// Largest number of cases of a sweep.
 pub const MOST_CASES: usize = limits::SWEEP_CASES;
@@ -65,7 +59,6 @@ pub struct Sweep {
     /// The file's name without folder and extension.
     pub name: String,
     base: Base,
-    template: Overlay,
     keys: Vec<Key>,
     design: Design,
     fingerprint: u64,
@@ -76,6 +69,22 @@ pub struct Sweep {
 struct Base {
     file: String,
     text: String,
+    /// What every case has in common: TOML in which `{key}` stands for the case's value.
+    set: String,
+}
+
+impl Base {
+    /// The scene with these values.
+    fn scene(&self, values: impl Iterator<Item = (Key, f64)>) -> Result<Scene, InputError> {
+        let mut overlay = self.set.clone();
+        for (key, value) in values {
+            let (path, written) = (key.path(), key.written(value));
+            // In brackets, so that a negative number keeps its sign under a power.
+            overlay = overlay.replace(&format!("{{{path}}}"), &format!("({written})"));
+            overlay.push_str(&format!("{path} = {written}\n"));
+        }
+        Scene::parse_overlaid(&self.text, &overlay, &self.file)
+    }
 }
 
 impl Sweep {
@@ -100,7 +109,7 @@ impl Sweep {
         &self.keys
     }
 
-    /// SweepCase number `index`, from 0.
+    /// Case number `index`, from 0.
     pub fn case(&self, index: usize) -> SweepCase<'_> {
         SweepCase::new(index, &self.keys, self.design.values(index, &self.keys))
     }
@@ -110,7 +119,7 @@ impl Sweep {
     /// # Errors
     /// [`InputError`] where the case's numbers are incompatible, such as a dt that does not divide t_end.
     pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
-        Scene::parse_overlaid(&self.base.text, &self.template.overlay(case), &self.base.file)
+        self.base.scene(case.parameters())
     }
 
     /// A hash of the sweep file and the base scene.

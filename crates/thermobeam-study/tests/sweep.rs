@@ -30,11 +30,22 @@ fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, L
     lines.into_inner().unwrap()
 }
 
+/// The line of a case that runs alone.
+fn alone(sweep: &Sweep, case: usize) -> Line {
+    let line = Mutex::new(None);
+    let kept = |found| {
+        assert!(line.lock().unwrap().replace(found).is_none(), "one case, one line");
+        Ok(())
+    };
+    sweep::run(sweep, &[case], 1, None, kept).unwrap();
+    line.into_inner().unwrap().unwrap()
+}
+
 #[test]
 fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = sweep(folder.path());
-    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, Line::compute(&sweep, case, None))).collect();
+    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, alone(&sweep, case))).collect();
     let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
     assert_eq!(
         (sweep.cases(), with("\"done\""), with("\"kind\":\"indefinite\""), with("time.dt: found")),
@@ -66,7 +77,7 @@ fn small(folder: &std::path::Path) -> (Sweep, Vec<String>) {
     let grid = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = [0.0, 1.0, 2.0]\ntime.t_end = [0.1]\n";
     std::fs::write(folder.join("sweep.toml"), grid).unwrap();
     let sweep = Sweep::read(folder.join("sweep.toml")).unwrap();
-    let lines = (0..sweep.cases()).map(|case| Line::compute(&sweep, case, None).json + "\n").collect();
+    let lines = (0..sweep.cases()).map(|case| alone(&sweep, case).json + "\n").collect();
     (sweep, lines)
 }
 
@@ -114,7 +125,7 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
     let text =
         std::fs::read_to_string(folder.path().join("sweep.toml")).unwrap().replace("[0.0, 1.0, 2.0]", "[0.0, 1.5]");
     std::fs::write(other.path().join("sweep.toml"), text).unwrap();
-    let foreign = Line::compute(&Sweep::read(other.path().join("sweep.toml")).unwrap(), 1, None).json + "\n";
+    let foreign = alone(&Sweep::read(other.path().join("sweep.toml")).unwrap(), 1).json + "\n";
     let half: Share = "1/2".parse().unwrap();
     let not_held = (0..3).find(|&case| !half.holds(sweep.case(case).hash())).unwrap();
     for (share, line, words) in [
@@ -147,7 +158,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     write("sweep.toml", ANY_ORDER[1]);
     // Of the cases with dt = 0.013, those with restart_dt = 0.015 have no scene; a sweep refuses only what no case can have.
     let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
-    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, Line::compute(&sweep, case, None))).collect();
+    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, alone(&sweep, case))).collect();
     let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
     assert_eq!((sweep.cases(), with("time.restart_dt: found 0.015")), (32, 8));
     assert_eq!(with("\"scheme\":\"dg\""), 24);

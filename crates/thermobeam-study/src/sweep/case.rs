@@ -1,9 +1,64 @@
-//! One case of a sweep: its number and the values of the keys that vary.
+//! The numbers of a scene that a sweep may vary, and a case: its number and their values.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use super::Key;
 use convergence_study::store::content_hash;
+
+/// A numeric key of a scene file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Key {
+    /// The table, such as `beam`.
+    pub table: &'static str,
+    /// The key in it, such as `beta`.
+    pub name: &'static str,
+    /// Whether its values are whole numbers.
+    pub is_whole: bool,
+}
+
+const fn key(table: &'static str, name: &'static str, is_whole: bool) -> Key {
+    Key { table, name, is_whole }
+}
+
+/// All of them, in the order in which a case lists them.
+pub(super) const KEYS: [Key; 17] = [
+    key("beam", "zeta", false),
+    key("beam", "a", false),
+    key("beam", "rho", false),
+    key("beam", "beta", false),
+    key("beam", "theta_a", false),
+    key("obstacles", "epsilon", false),
+    key("obstacles", "g1", false),
+    key("obstacles", "g2", false),
+    key("mesh", "elements", true),
+    key("mesh", "degree", true),
+    key("time", "dt", false),
+    key("time", "t_end", false),
+    key("time", "tolerance", false),
+    key("time", "max_iterations", true),
+    key("time", "degree", true),
+    key("time", "restart_dt", false),
+    key("time", "growth", false),
+];
+
+/// The tables that have numeric keys.
+pub(super) const TABLES: [&str; 4] = ["beam", "obstacles", "mesh", "time"];
+
+impl Key {
+    /// The dotted name, such as `beam.beta`.
+    pub fn path(self) -> String {
+        format!("{}.{}", self.table, self.name)
+    }
+
+    /// Whether it is the key of that table and name.
+    pub(super) fn is(self, table: &str, name: &str) -> bool {
+        self.table == table && self.name == name
+    }
+
+    /// A value as TOML, JSON and expressions write it; reading it back gives the same bits.
+    pub(super) fn written(self, value: f64) -> String {
+        if self.is_whole { format!("{value:.0}") } else { format!("{value:?}") }
+    }
+}
 
 /// A case; its JSON is that of its parameters, keys in the fixed order of a scene file.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,5 +103,19 @@ impl Serialize for SweepCase<'_> {
             }
         }
         map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::tables;
+
+    #[test]
+    fn every_coefficient_can_be_varied() {
+        let names = |table| KEYS.iter().filter(|key| key.table == table).map(|key| key.name).collect::<Vec<_>>();
+        assert_eq!(names("beam"), tables::BEAM_KEYS);
+        assert_eq!(names("obstacles"), tables::OBSTACLE_KEYS);
+        assert!(KEYS.iter().all(|key| TABLES.contains(&key.table)));
     }
 }

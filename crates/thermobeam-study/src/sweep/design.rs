@@ -1,15 +1,17 @@
-//! How values are combined into cases.
+//! The values of each key, as the sweep file writes them, and how they are combined into cases.
 
 use super::{Key, MOST_CASES};
+use crate::scene::limits::SWEEP_VALUES;
+use convergence_study::input::{Field, InputError};
 use convergence_study::judge::random::SplitMix;
 use convergence_study::store::content_hash;
 
-/// A grid, or samples drawn beforehand.
+/// The values of each key: those of a grid, or a number for each sample of a Latin hypercube.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Design {
-    /// The values of each key; every combination, the last key running fastest.
+    /// Every combination, the last key running fastest.
     Grid(Vec<Vec<f64>>),
-    /// The values of each key, one for each sample, and the base scene's dt and t_end where the one must divide the other.
+    /// Samples drawn beforehand, and the dt and t_end of all cases where the one must divide the other.
     Latin { samples: usize, values: Vec<Vec<f64>>, steps: Option<(f64, f64)> },
 }
 
@@ -17,10 +19,10 @@ impl Design {
     /// The number of cases; more than [`MOST_CASES`] where it would overflow.
     pub(super) fn cases(&self) -> usize {
         match self {
-            Self::Grid(values) => values
-                .iter()
-                .try_fold(1_usize, |product, values| product.checked_mul(values.len()))
-                .unwrap_or(MOST_CASES + 1),
+            Self::Grid(values) => {
+                let cases = values.iter().try_fold(1_usize, |product, values| product.checked_mul(values.len()));
+                cases.unwrap_or(MOST_CASES + 1)
+            }
             Self::Latin { samples, .. } => *samples,
         }
     }
@@ -28,11 +30,18 @@ impl Design {
     /// The values of case `index`, one for each key.
     pub(super) fn values(&self, index: usize, keys: &[Key]) -> Vec<f64> {
         match self {
-            Self::Grid(values) => combination(values, index),
+            Self::Grid(values) => {
+                let (mut rest, mut chosen) = (index, vec![0.0; values.len()]);
+                for (chosen, values) in chosen.iter_mut().zip(values).rev() {
+                    *chosen = values[rest % values.len()];
+                    rest /= values.len();
+                }
+                chosen
+            }
             Self::Latin { values, steps, .. } => {
                 let drawn = values.iter().map(|values| values[index]).collect();
                 match *steps {
-                    Some((dt, t_end)) => with_whole_steps(drawn, keys, dt, t_end),
+                    Some(steps) => with_whole_steps(drawn, keys, steps),
                     None => drawn,
                 }
             }
@@ -40,23 +49,8 @@ impl Design {
     }
 }
 
-fn combination(values: &[Vec<f64>], index: usize) -> Vec<f64> {
-    let mut rest = index;
-    let mut chosen: Vec<f64> = values
-        .iter()
-        .rev()
-        .map(|values| {
-            let value = values[rest % values.len()];
-            rest /= values.len();
-            value
-        })
-        .collect();
-    chosen.reverse();
-    chosen
-}
-
 /// Rounds a drawn dt, or t_end where it alone varies, so that dt divides t_end.
-fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], dt: f64, t_end: f64) -> Vec<f64> {
+fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) -> Vec<f64> {
     let place = |name| keys.iter().position(|key| key.is("time", name));
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
     match (place("dt"), place("t_end")) {
@@ -80,10 +74,104 @@ pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
     slices.into_iter().map(|slice| (slice as f64 + random.uniform()) / samples as f64).collect()
 }
 
+/// `{ from, to, scale }`.
+struct Range {
+    from: f64,
+    to: f64,
+    is_log: bool,
+}
+
+impl Range {
+    fn read(field: &Field<'_>, key: Key, others: &[&str]) -> Result<Self, InputError> {
+        let section = field.section()?;
+        section.allow(&[&["from", "to", "scale"], others].concat())?;
+        let is_log =
+            section.get("scale").map_or(Ok(false), |field| field.choice(&[("linear", false), ("log", true)]))?;
+        let end = |name: &str| {
+            let field = section.require(name, "a number")?;
+            let value = number(&field, key)?;
+            if is_log && value <= 0.0 {
+                return Err(field.refuse_as_written("a number > 0 on a logarithmic scale"));
+            }
+            Ok((field, value))
+        };
+        let (_, from) = end("from")?;
+        let (to_field, to) = end("to")?;
+        if to <= from {
+            return Err(to_field.refuse_as_written(format!("a number > {from:?}, which is from")));
+        }
+        Ok(Self { from, to, is_log })
+    }
+
+    /// The value at `share` of the way, 0 to 1.
+    fn at(&self, share: f64, key: Key) -> f64 {
+        let Self { from, to, is_log } = *self;
+        let value = if is_log { from * (to / from).powf(share) } else { from + (to - from) * share };
+        // To 9 digits, on which the mathematical libraries of all machines agree.
+        if key.is_whole { value.round() } else { format!("{value:.8e}").parse().unwrap_or(value) }
+    }
+}
+
+fn number(field: &Field<'_>, key: Key) -> Result<f64, InputError> {
+    if key.is_whole {
+        // Larger ones are refused by the scene; these are exact as f64.
+        return Ok(field.count(1..=1 << 53)? as f64);
+    }
+    // -0 and 0 are one value; the sum is 0 for both.
+    field.number().map(|value| value + 0.0)
+}
+
+/// A key that varies, its values, and where they are written.
+pub(super) struct VariedKey<'a> {
+    pub(super) key: Key,
+    pub(super) values: Vec<f64>,
+    /// Values that a scene must accept, and the fields to name if it does not.
+    pub(super) probes: Vec<(f64, Field<'a>)>,
+}
+
+/// A list, or `{ from, to, count, scale }`.
+pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, InputError> {
+    let allowed = "a list of at least one number, or { from, to, count }";
+    if field.is_list() {
+        let items = field.items(allowed)?;
+        let values = items.iter().map(|item| number(item, key)).collect::<Result<Vec<_>, _>>()?;
+        if values.is_empty() {
+            return Err(field.refuse_as_written(allowed));
+        }
+        let mut seen = std::collections::HashSet::new();
+        if let Some(twice) = values.iter().position(|value| !seen.insert(value.to_bits())) {
+            return Err(items[twice].refuse(format!("{} a second time", items[twice].as_written()), "each number once"));
+        }
+        return Ok(VariedKey { key, probes: values.iter().copied().zip(items).collect(), values });
+    }
+    if !field.is_table() {
+        return Err(field.refuse_as_written(allowed));
+    }
+    let range = Range::read(&field, key, &["count"])?;
+    let count = field.section()?.require("count", "a whole number >= 2")?;
+    let number = count.count(2..=SWEEP_VALUES)?;
+    let mut values: Vec<f64> = (0..number).map(|i| range.at(i as f64 / (number - 1) as f64, key)).collect();
+    values.dedup();
+    if values.len() < number {
+        return Err(count.refuse(format!("{number}, which repeats numbers"), format!("at most {}", values.len())));
+    }
+    Ok(VariedKey { key, probes: vec![(values[0], field.clone()), (values[number - 1], field)], values })
+}
+
+/// `{ from, to, scale }`, a Latin hypercube's share of it.
+pub(super) fn latin<'a>(field: Field<'a>, key: Key, samples: usize, seed: u64) -> Result<VariedKey<'a>, InputError> {
+    if !field.is_table() {
+        return Err(field.refuse_as_written("a range { from, to }"));
+    }
+    let range = Range::read(&field, key, &[])?;
+    let values = stratified(samples, seed, key).into_iter().map(|share| range.at(share, key)).collect();
+    Ok(VariedKey { key, values, probes: vec![(range.from, field.clone()), (range.to, field)] })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::key::KEYS;
+    use crate::sweep::case::KEYS;
 
     #[test]
     fn every_slice_holds_one_number() {

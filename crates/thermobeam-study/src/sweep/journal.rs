@@ -23,8 +23,11 @@ use convergence_study::store::writing;
 /// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";
 
+/// Numbers of missing cases that are listed.
+const LISTED: usize = 10;
+
 /// Lines in the order of completion.
-pub(super) const JOURNAL: &str = "journal.jsonl";
+const JOURNAL: &str = "journal.jsonl";
 
 /// Lines in the order of the cases: the result.
 pub const RESULTS: &str = "results.jsonl";
@@ -80,7 +83,7 @@ impl Manifest {
     }
 
     /// Reads the manifest of a folder that must have one.
-    pub(super) fn require(folder: &Path) -> Result<Self, SweepError> {
+    fn require(folder: &Path) -> Result<Self, SweepError> {
         let missing = || SweepError::Damaged {
             file: folder.to_owned(),
             line: None,
@@ -89,31 +92,23 @@ impl Manifest {
         Self::read(folder)?.ok_or_else(missing)
     }
 
-    /// Refuses the folder of another sweep.
-    pub(super) fn agrees_but_for_share(&self, expected: &Self, folder: &Path) -> Result<(), SweepError> {
+    /// Refuses the folder of another sweep, or of another share of it.
+    fn agrees(&self, expected: &Self, share: &str, folder: &Path) -> Result<(), SweepError> {
         let pairs = [
-            ("the sweep", &self.sweep, &expected.sweep),
+            ("the sweep", &*self.sweep, &*expected.sweep),
             ("the hash of sweep file and scene", &self.fingerprint, &expected.fingerprint),
             ("the program's version", &self.version, &expected.version),
+            ("the share", &self.share, share),
         ];
         match pairs.into_iter().find(|(_, found, expected)| found != expected) {
             None => Ok(()),
             Some((what, found, expected)) => Err(SweepError::Other {
                 folder: folder.to_owned(),
                 what,
-                found: found.clone(),
-                expected: expected.clone(),
+                found: found.to_owned(),
+                expected: expected.to_owned(),
             }),
         }
-    }
-
-    fn agrees(&self, expected: &Self, folder: &Path) -> Result<(), SweepError> {
-        self.agrees_but_for_share(expected, folder)?;
-        if self.share == expected.share {
-            return Ok(());
-        }
-        let (found, expected) = (self.share.clone(), expected.share.clone());
-        Err(SweepError::Other { folder: folder.to_owned(), what: "the share", found, expected })
     }
 }
 
@@ -126,8 +121,6 @@ pub struct Journal {
     /// Which cases are done.
     done: Vec<bool>,
     failed: usize,
-    /// Whether the results were complete when the folder was opened.
-    is_complete: bool,
 }
 
 impl Journal {
@@ -144,7 +137,7 @@ impl Journal {
             if !resume {
                 return Err(SweepError::Taken(folder.to_owned()));
             }
-            found.agrees(manifest, folder)?;
+            found.agrees(manifest, &manifest.share, folder)?;
         }
         atomic::prepare_folder(folder)?;
         let _writing = writing::begin();
@@ -169,36 +162,31 @@ impl Journal {
                 serde_json::to_string(manifest).map_err(std::io::Error::from)? + "\n",
             )?;
         }
-        let mut journal =
-            Self { path, results, file, done: vec![false; manifest.cases], failed: 0, is_complete: false };
+        let mut journal = Self { path, results, file, done: vec![false; manifest.cases], failed: 0 };
         journal.read_done(sweep, share)?;
         Ok(journal)
     }
 
     /// Reads which cases are done, and removes an incomplete last line.
     fn read_done(&mut self, sweep: &Sweep, share: Share) -> Result<(), SweepError> {
-        self.is_complete = self.results.exists();
-        let source = if self.is_complete { &self.results } else { &self.path };
+        let is_complete = self.results.exists();
+        let source = if is_complete { &self.results } else { &self.path };
         let is_of_the_share = |place: &Place, line: &[u8]| {
             let case = sweep.case(place.case);
-            let is_held = share.holds(case.hash());
             place.is_of(line, &case)?;
-            if is_held { Ok(()) } else { Err(format!("expected a case of the share {share}, found {}", place.case)) }
+            let of_another = || format!("expected a case of the share {share}, found {}", place.case);
+            if share.holds(case.hash()) { Ok(()) } else { Err(of_another()) }
         };
-        let (mut places, end) = lines::places(source, 0, self.done.len(), is_of_the_share)?;
-        lines::sort(&mut places, std::slice::from_ref(source))?;
+        let (places, end) = lines::places(std::slice::from_ref(source), self.done.len(), is_of_the_share)?;
         // A process killed after writing the results leaves a journal beside them, all of which they hold.
-        let keep = if self.is_complete { 0 } else { end };
-        self.file.set_len(keep).map_err(|error| atomic::naming(&self.path, &error))?;
-        self.count(&places);
+        self.file.set_len(if is_complete { 0 } else { end }).map_err(|error| atomic::naming(&self.path, &error))?;
+        places.iter().for_each(|place| self.count(place.case, place.passed));
         Ok(())
     }
 
-    fn count(&mut self, places: &[Place]) {
-        for place in places {
-            self.done[place.case] = true;
-            self.failed += usize::from(!place.passed);
-        }
+    fn count(&mut self, case: usize, passed: bool) {
+        self.done[case] = true;
+        self.failed += usize::from(!passed);
     }
 
     /// Whether a case is done.
@@ -219,8 +207,7 @@ impl Journal {
         let whole = format!("{}\n", line.json);
         let _writing = writing::begin();
         self.file.write_all(whole.as_bytes()).map_err(|error| atomic::naming(&self.path, &error))?;
-        self.done[line.case] = true;
-        self.failed += usize::from(!line.passed);
+        self.count(line.case, line.passed);
         Ok(())
     }
 
@@ -229,15 +216,63 @@ impl Journal {
     /// # Errors
     /// [`SweepError`]; the journal remains.
     pub fn finish(self) -> Result<PathBuf, SweepError> {
-        let files: Vec<PathBuf> =
-            [&self.results, &self.path].into_iter().filter(|file| file.exists()).cloned().collect();
-        let mut places = vec![];
-        for (index, file) in files.iter().enumerate() {
-            places.extend(lines::places(file, index, self.done.len(), |_, _| Ok(()))?.0);
-        }
-        lines::sort(&mut places, &files)?;
+        let both = [&self.results, &self.path].map(PathBuf::clone);
+        let files: Vec<PathBuf> = both.into_iter().filter(|file| file.exists()).collect();
+        let (places, _) = lines::places(&files, self.done.len(), |_, _| Ok(()))?;
         lines::copy(&places, &files, &self.results)?;
         std::fs::remove_file(&self.path).map_err(|error| atomic::naming(&self.path, &error))?;
         Ok(self.results)
     }
+}
+
+/// What [`merge`] has joined.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+pub struct Merged {
+    /// Cases of the sweep.
+    pub cases: usize,
+    /// Those of them that failed.
+    pub failed: usize,
+    /// The file with a line for each.
+    pub results: PathBuf,
+}
+
+/// Joins the shares in `folders` into the file that one run would have written, [`RESULTS`] in the folder `out`.
+///
+/// # Errors
+/// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
+/// is written then.
+pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
+    let manifests = folders.iter().map(|folder| Manifest::require(folder)).collect::<Result<Vec<_>, _>>()?;
+    let results = out.join(RESULTS);
+    let Some(first) = manifests.first() else { return Ok(Merged { cases: 0, failed: 0, results }) };
+    for (folder, manifest) in folders.iter().zip(&manifests) {
+        manifest.agrees(first, &manifest.share, folder)?;
+    }
+    let file = |folder: &PathBuf| {
+        let [results, journal] = [RESULTS, JOURNAL].map(|name| folder.join(name));
+        if results.exists() { results } else { journal }
+    };
+    let files: Vec<PathBuf> = folders.iter().map(file).collect();
+    let (found, _) = lines::places(&files, first.cases, |_, _| Ok(()))?;
+    let shares: Vec<&str> = manifests.iter().map(|manifest| manifest.share.as_str()).collect();
+    none_missing(&found, first.cases, &shares.join(", "))?;
+    atomic::prepare_folder(out)?;
+    lines::copy(&found, &files, &results)?;
+    Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count(), results })
+}
+
+/// Refuses sorted places without one for every case.
+fn none_missing(found: &[Place], cases: usize, shares: &str) -> Result<(), SweepError> {
+    if found.len() == cases {
+        return Ok(());
+    }
+    let mut present = found.iter().map(|place| place.case).peekable();
+    let missing: Vec<String> = (0..cases)
+        .filter(|case| present.next_if_eq(case).is_none())
+        .take(LISTED)
+        .map(|case| case.to_string())
+        .collect();
+    let count = cases - found.len();
+    let more = if count > missing.len() { format!(" and {} more", count - missing.len()) } else { String::new() };
+    Err(SweepError::Missing { count, cases, named: missing.join(", ") + &more, shares: shares.to_owned() })
 }

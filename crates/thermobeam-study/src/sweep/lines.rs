@@ -57,34 +57,56 @@ impl Place {
         let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
         let status = if self.passed { "done" } else { "failed" };
         let expected = format!("{{\"case\":{},\"status\":\"{status}\",\"parameters\":{parameters}", case.index);
-        let found = line.strip_prefix(expected.as_bytes()).and_then(|rest| rest.first());
-        if found == Some(&b',') {
-            Ok(())
-        } else {
-            Err(format!("expected a line that begins with {expected}, which is case {} of this sweep", case.index))
+        match line.strip_prefix(expected.as_bytes()) {
+            Some([b',', ..]) => Ok(()),
+            _ => {
+                Err(format!("expected a line that begins with {expected}, which is case {} of this sweep", case.index))
+            }
         }
     }
 }
 
-/// The places of all complete lines of a file, and the offset at which they end; an incomplete line may follow.
+/// The places of all complete lines of these files, in the order of their cases, and the offset at which those of the last file end;
+/// an incomplete line may follow.
 ///
 /// * `check`: what else a line has to meet, or what is wrong with it.
+///
+/// # Errors
+/// [`SweepError`]: a file that cannot be read, a line that is not as it was written, or a second one of a case.
 pub(super) fn places(
+    files: &[PathBuf],
+    cases: usize,
+    check: impl Fn(&Place, &[u8]) -> Result<(), String>,
+) -> Result<(Vec<Place>, u64), SweepError> {
+    let (mut places, mut end) = (vec![], 0);
+    for (index, file) in files.iter().enumerate() {
+        end = read(file, index, cases, &check, &mut places)?;
+    }
+    places.sort_by_key(|place| place.case);
+    if let Some(pair) = places.windows(2).find(|pair| pair[0].case == pair[1].case) {
+        let [first, second] = [pair[0], pair[1]].map(|place| files[place.file].clone());
+        return Err(SweepError::Duplicate { case: pair[0].case, first, second });
+    }
+    Ok((places, end))
+}
+
+/// Adds the places of a file; returns the offset at which its complete lines end.
+fn read(
     path: &Path,
     file: usize,
     cases: usize,
     check: impl Fn(&Place, &[u8]) -> Result<(), String>,
-) -> Result<(Vec<Place>, u64), SweepError> {
+    places: &mut Vec<Place>,
+) -> Result<u64, SweepError> {
     let mut reader = BufReader::new(File::open(path).map_err(|error| atomic::naming(path, &error))?);
-    let (mut places, mut offset, mut line) = (vec![], 0, vec![]);
-    loop {
+    let (mut offset, mut line) = (0, vec![]);
+    for number in 1.. {
         line.clear();
         let bytes = reader.read_until(b'\n', &mut line).map_err(|error| atomic::naming(path, &error))? as u64;
         if line.last() != Some(&b'\n') {
-            return Ok((places, offset));
+            break;
         }
-        let damaged =
-            |reason: String| SweepError::Damaged { file: path.to_owned(), line: Some(places.len() + 1), reason };
+        let damaged = |reason: String| SweepError::Damaged { file: path.to_owned(), line: Some(number), reason };
         let head: LineHead<'_> =
             serde_json::from_slice(&line).map_err(|error| damaged(format!("not a line of results: {error}")))?;
         if head.case >= cases {
@@ -95,21 +117,7 @@ pub(super) fn places(
         places.push(place);
         offset += bytes;
     }
-}
-
-/// Sorts by case.
-///
-/// # Errors
-/// [`SweepError::Duplicate`] where a case has two lines.
-pub(super) fn sort(places: &mut [Place], files: &[PathBuf]) -> Result<(), SweepError> {
-    places.sort_by_key(|place| place.case);
-    match places.windows(2).find(|pair| pair[0].case == pair[1].case) {
-        None => Ok(()),
-        Some(pair) => {
-            let [first, second] = [pair[0], pair[1]].map(|place| files[place.file].clone());
-            Err(SweepError::Duplicate { case: pair[0].case, first, second })
-        }
-    }
+    Ok(offset)
 }
 
 /// Writes the lines at `places` in that order.

@@ -45,20 +45,20 @@ struct Content<'a> {
 }
 
 impl Line {
-    /// Computes a case; a failure is a line too.
-    ///
-    /// * `limit`: the longest time it may take; the line says where it was stopped.
-    pub fn compute(sweep: &Sweep, index: usize, limit: Option<Duration>) -> Self {
-        let read = || scene(sweep, index).map_or_else(|line| line, |scene| simulate(sweep, index, &scene));
-        caught(|| time_limit::within(limit, read).0).unwrap_or_else(|| Self::panicked(sweep, index))
-    }
-
     fn panicked(sweep: &Sweep, index: usize) -> Self {
         Self::failed(&sweep.case(index), "the program panicked".to_owned())
     }
 
     fn failed(case: &SweepCase<'_>, reason: String) -> Self {
         Self::of(&Content { case: case.index, status: "failed", parameters: case, reason: Some(reason), result: None })
+    }
+
+    /// Of a run, or of the part of it that was done.
+    fn of_run(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Self {
+        let (case, reason) = (sweep.case(index), run.complaint());
+        let status = if reason.is_none() { "done" } else { "failed" };
+        let result = Some(Object::reproducible(scene, run));
+        Self::of(&Content { case: index, status, parameters: &case, reason, result })
     }
 
     fn of(content: &Content<'_>) -> Self {
@@ -76,82 +76,65 @@ fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
 /// The scene of a case, or the line of its failure.
 fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
-    sweep.scene(&case).map_err(|error| {
+    let read = caught(|| sweep.scene(&case)).ok_or_else(|| Line::panicked(sweep, index))?;
+    read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error.field.map(|field| format!("{field}: ")).unwrap_or_default();
         Line::failed(&case, format!("{field}{}", error.complaint))
     })
 }
 
+/// A case alone.
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
-    match Simulator::new(scene) {
-        Ok(simulator) => line(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_, _| ())),
+    let simulated = || match Simulator::new(scene) {
+        Ok(simulator) => Line::of_run(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_, _| ())),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
-    }
-}
-
-/// The line of a run, or of the part of it that was done.
-fn line(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Line {
-    let (case, reason) = (sweep.case(index), run.complaint());
-    let status = if reason.is_none() { "done" } else { "failed" };
-    let result = Some(Object::reproducible(scene, run));
-    Line::of(&Content { case: index, status, parameters: &case, reason, result })
+    };
+    caught(simulated).unwrap_or_else(|| Line::panicked(sweep, index))
 }
 
 /// Cases that run side by side: at most [`LANES`], and their scenes agree; or one that runs alone.
-#[derive(Default)]
-struct SideBySide {
+struct Group {
     together: Option<Together>,
-    indices: Vec<usize>,
+    cases: Vec<usize>,
     scenes: Vec<Scene>,
-    /// The line of a case without a scene.
-    failed: Option<Line>,
 }
 
-/// Groups cases; a scene that can only run alone forms a group of its own, and so does a case without a scene.
-fn groups(sweep: &Sweep, indices: &[usize]) -> Vec<SideBySide> {
-    let mut groups: Vec<SideBySide> = vec![];
+/// Groups cases, and gives the lines of those without a scene.
+fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
+    let (mut groups, mut failed): (Vec<Group>, Vec<Line>) = (vec![], vec![]);
     for &index in indices {
-        let read = caught(|| scene(sweep, index)).unwrap_or_else(|| Err(Line::panicked(sweep, index)));
-        let together = read.as_ref().ok().and_then(Together::of);
-        let fits = |group: &&mut SideBySide| group.indices.len() < LANES && group.together == together;
-        let group = match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
-            Some(group) => group,
-            None => {
-                groups.push(SideBySide { together, ..SideBySide::default() });
-                groups.last_mut().unwrap_or_else(|| unreachable!("one was pushed"))
+        match scene(sweep, index) {
+            Err(line) => failed.push(line),
+            Ok(scene) => {
+                let together = Together::of(&scene);
+                let fits = |group: &&mut Group| group.cases.len() < LANES && group.together == together;
+                match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
+                    Some(group) => {
+                        group.cases.push(index);
+                        group.scenes.push(scene);
+                    }
+                    None => groups.push(Group { together, cases: vec![index], scenes: vec![scene] }),
+                }
             }
-        };
-        group.indices.push(index);
-        match read {
-            Ok(scene) => group.scenes.push(scene),
-            Err(line) => group.failed = Some(line),
         }
     }
-    groups
+    (groups, failed)
 }
 
 /// The lines of a group: its cases side by side, or one after the other where that fails.
-fn lines(sweep: &Sweep, group: &SideBySide, mut sink: impl FnMut(Line) -> io::Result<()>) -> io::Result<()> {
-    let SideBySide { indices, scenes, failed, .. } = group;
-    if let Some(line) = failed {
-        return sink(line.clone());
-    }
+fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
+    let each = || cases.iter().copied().zip(scenes);
     let together = || {
         let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
-        let of = |((&index, scene), run)| line(sweep, index, scene, run);
-        Some(indices.iter().zip(scenes).zip(&runs).map(of).collect::<Vec<_>>())
+        Some(each().zip(&runs).map(|((index, scene), run)| Line::of_run(sweep, index, scene, run)).collect())
     };
-    if let Some(lines) = caught(together).flatten() {
-        return lines.into_iter().try_for_each(sink);
-    }
-    indices.iter().zip(scenes).try_for_each(|(&index, scene)| {
-        sink(caught(|| simulate(sweep, index, scene)).unwrap_or_else(|| Line::panicked(sweep, index)))
-    })
+    let one_by_one = || each().map(|(index, scene)| simulate(sweep, index, scene)).collect();
+    caught(together).flatten().unwrap_or_else(one_by_one)
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on
-/// completion.
+/// completion. A failure is a line too; with a limit it says where its case was stopped.
 ///
 /// Cases start in the order given, so that lines come nearly in that order; `sink` is called from every thread. Scenes with
 /// equal numbers of elements and steps run side by side, four at a time; with a limit each runs alone, so that the limit
@@ -169,9 +152,13 @@ pub fn run(
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
     // Batches small enough that every thread has work.
     let batch = if limit.is_some() { 1 } else { cases.len().div_ceil(pool.current_num_threads()).clamp(1, BATCH) };
-    let compute = |batch: &[usize]| match batch {
-        [index] => sink(Line::compute(sweep, *index, limit)),
-        _ => groups(sweep, batch).iter().try_for_each(|group| lines(sweep, group, &sink)),
+    let compute = |batch: &[usize]| {
+        let compute = || {
+            let (groups, failed) = groups(sweep, batch);
+            failed.into_iter().try_for_each(&sink)?;
+            groups.iter().try_for_each(|group| lines(sweep, group).into_iter().try_for_each(&sink))
+        };
+        time_limit::within(limit, compute).0
     };
     pool.install(|| cases.chunks(batch).par_bridge().try_for_each(compute))
 }
@@ -221,18 +208,12 @@ mod tests {
         std::fs::write(folder.path().join("sweep.toml"), grid).unwrap();
         let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
         let indices: Vec<usize> = (0..sweep.cases()).collect();
-        let found: Vec<(Vec<usize>, usize)> =
-            groups(&sweep, &indices).into_iter().map(|group| (group.indices, group.scenes.len())).collect();
+        let (groups, failed) = groups(&sweep, &indices);
         // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others differ in their number of steps.
-        let mut expected = vec![];
-        for case in 0..20 {
-            match case {
-                _ if case % 4 == 3 => expected.push((vec![case], 0)),
-                0..4 => expected.push((vec![case, case + 4, case + 8, case + 12], 4)),
-                16.. => expected.push((vec![case], 1)),
-                _ => {}
-            }
-        }
-        assert_eq!(found, expected);
+        let four = |case: usize| vec![case, case + 4, case + 8, case + 12];
+        let expected = [four(0), four(1), four(2), vec![16], vec![17], vec![18]];
+        assert_eq!(groups.iter().map(|group| group.cases.clone()).collect::<Vec<_>>(), expected);
+        assert!(groups.iter().all(|group| group.scenes.len() == group.cases.len()));
+        assert_eq!(failed.iter().map(|line| line.case).collect::<Vec<_>>(), [3, 7, 11, 15, 19]);
     }
 }

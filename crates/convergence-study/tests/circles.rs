@@ -61,7 +61,7 @@ const ORDERS: [(&str, &[&str]); 3] = [
             "any_order",
         ],
     ),
-    ("thermobeam-study", &["figures", "scene", "run", "error", "predict", "sweep", "kinds", "timing"]),
+    ("thermobeam-study", &["scene", "run", "figures", "error", "predict", "sweep", "kinds", "timing"]),
 ];
 
 /// Uses against these orders that are still there: crate, file, file used.

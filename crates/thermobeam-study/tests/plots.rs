@@ -81,7 +81,7 @@ fn contraction_factors_of_one_and_more_are_labelled() {
 #[test]
 fn open_markers_of_a_contraction_have_a_legend() {
     let series = |label: &str, points: &[(f64, f64)]| Series { label: label.into(), points: points.to_vec() };
-    let drawn = |series| contraction(&Contraction { title: None, series });
+    let drawn = |series: Vec<Series>| contraction(&series);
     let open_samples = |svg: &str| {
         let doc = parse(svg);
         let entries = elements(&doc, "g").filter(|n| n.has_attribute("data-entry"));
@@ -97,8 +97,7 @@ fn open_markers_of_a_contraction_have_a_legend() {
 
 #[test]
 fn nothing_to_draw_is_no_reason_to_panic() {
-    let empty =
-        [contraction(&Contraction::default()), bifurcation(&Bifurcation::default()), animation(&Animation::default())];
+    let empty = [contraction(&[]), bifurcation(&[], vec![], &Series::default()), animation(&Animation::default())];
     empty.iter().for_each(|svg| drop(parse(svg)));
 }
 
@@ -109,9 +108,9 @@ fn extreme_data_are_no_reason_to_panic() {
         for y in values {
             let points = vec![(x, y), (y, x), (x, x)];
             let series = vec![Series { label: "s".into(), points: points.clone() }];
-            parse(&contraction(&Contraction { series, title: None }));
+            parse(&contraction(&series));
             let branches = vec![Branch { label: "b".into(), points, stable: true }];
-            parse(&bifurcation(&Bifurcation { branches, ..Default::default() }));
+            parse(&bifurcation(&branches, vec![], &Series::default()));
             let frames = vec![vec![x, y], vec![y, 1.0]];
             let (times, nodes) = (vec![x, y], vec![y, x]);
             parse(&animation(&Animation { times, nodes, frames, obstacles: Some((x, y)), seconds: x, title: None }));
@@ -124,7 +123,7 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
     let points = vec![(0.0, 0.0), (1.0, 1.0)];
     let branch = |stable| Branch { label: "free".into(), points: points.clone(), stable };
     let count = |stable| {
-        let svg = bifurcation(&Bifurcation { branches: vec![branch(stable)], ..Default::default() });
+        let svg = bifurcation(&[branch(stable)], vec![], &Series::default());
         elements(&parse(&svg), "g").filter(|n| n.attribute("stroke-dasharray").is_some()).count()
     };
     // Guides, of which there are none here, are dashed too.
@@ -147,10 +146,8 @@ fn the_animation_starts_and_ends_with_its_data() {
 
 #[test]
 fn prediction_and_markers_are_filled_where_the_fixed_point_converges_only() {
-    let svg = contraction(&Contraction {
-        title: None,
-        series: vec![Series { label: "s".into(), points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 1.0), (30.0, 1.0)] }],
-    });
+    let svg =
+        contraction(&[Series { label: "s".into(), points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 1.0), (30.0, 1.0)] }]);
     let doc = parse(&svg);
     let open = elements(&doc, "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
     assert_eq!(open, 2);
@@ -180,7 +177,7 @@ fn the_beam_of_an_animation_is_bent_where_nothing_moves() {
 
 #[test]
 fn branches_end_inside_the_frame() {
-    let svg = bifurcation(&figures::equilibria());
+    let svg = figures::equilibria();
     let doc = parse(&svg);
     let plot: Vec<f64> =
         doc.root_element().attribute("data-plot").unwrap().split(' ').map(|v| v.parse().unwrap()).collect();

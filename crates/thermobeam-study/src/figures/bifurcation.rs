@@ -18,47 +18,29 @@ pub struct Branch {
     pub stable: bool,
 }
 
-/// A bifurcation diagram.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bifurcation {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// The parameter.
-    pub x_label: String,
-    /// The displacement.
-    pub y_label: String,
-    /// The equilibria.
-    pub branches: Vec<Branch>,
-    /// Where the obstacles are.
-    pub obstacles: Vec<Guide>,
-    /// `(parameter, tip displacement)` in which simulations ended, drawn as open markers.
-    pub states: Vec<Series>,
-}
-
-/// Draws tip displacements of equilibria over a parameter.
-pub fn bifurcation(figure: &Bifurcation) -> String {
+/// Draws tip displacements of equilibria over β, and those in which simulations ended as open markers.
+pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) -> String {
     let mut labels: Vec<&str> = Vec::new();
-    for branch in &figure.branches {
+    for branch in branches {
         if !labels.contains(&branch.label.as_str()) {
             labels.push(&branch.label);
         }
     }
     let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
-    let mut curves: Vec<Curve> = figure.branches.iter().map(|b| curve(b, look(family(b)))).collect();
-    let states = figure.states.iter().enumerate();
-    curves.extend(states.map(|(k, s)| end_states(s, look(labels.len() + k))));
+    let mut curves: Vec<Curve> = branches.iter().map(|b| curve(b, look(family(b)))).collect();
+    let ends_look = Look { colour: style::INK, ..look(labels.len()) };
+    curves.push(Curve { look: ends_look, width: 0.0, marks: Marks::Open, ..Curve::line(0, ends) });
     let parameters = || curves.iter().flat_map(|c| &c.points).map(|p| p.0).filter(|x| x.is_finite());
     let (low, high) = (parameters().fold(f64::INFINITY, f64::min), parameters().fold(f64::NEG_INFINITY, f64::max));
     // Branches end at the ends of the parameter's range: they must not lie on the frame.
     let room = 0.03 * (high - low);
     Xy {
-        title: figure.title.clone(),
         show_x: vec![low - room, high + room],
-        x: Axis::linear(&*figure.x_label),
-        y: Axis::linear(&*figure.y_label),
+        x: Axis::linear("axial force at rest β"),
+        y: Axis::linear("tip displacement u(1) (dimensionless)"),
         curves,
-        guides: figure.obstacles.clone(),
-        legend: entries(&labels, &figure.branches),
+        guides: obstacles,
+        legend: entries(&labels, branches),
         ..Xy::default()
     }
     .draw()
@@ -87,11 +69,6 @@ fn curve(branch: &Branch, look: Look) -> Curve {
 
 fn dash(stable: bool) -> Dash {
     if stable { Dash::Solid } else { Dash::Short }
-}
-
-fn end_states(series: &Series, look: Look) -> Curve {
-    let look = Look { colour: style::INK, ..look };
-    Curve { look, width: 0.0, marks: Marks::Open, ..Curve::line(0, series) }
 }
 
 fn entry_label(label: &str, stable: bool) -> String {

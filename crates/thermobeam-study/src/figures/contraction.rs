@@ -6,29 +6,21 @@ use convergence_study::plots::style::{self, Dash};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{Axis, Series};
 
-/// Contraction factors of an iteration: predicted and measured.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contraction {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// `(predicted, measured)`, one series per kind of case.
-    pub series: Vec<Series>,
-}
-
 /// Draws measured over predicted contraction, log-log, with the identity as far as it is claimed, and the region without
 /// convergence, where markers are open: there the ratio of successive increments is measured, which no longer falls.
-pub fn contraction(figure: &Contraction) -> String {
+///
+/// * `series`: `(predicted, measured)`, one for each kind of case.
+pub fn contraction(series: &[Series]) -> String {
     let mut xy = Xy {
-        title: figure.title.clone(),
         x: Axis::log("predicted contraction α"),
         y: Axis::log("measured contraction"),
-        curves: figure.series.iter().enumerate().flat_map(curves).collect(),
+        curves: series.iter().enumerate().flat_map(curves).collect(),
         beyond: Some((1.0, "no convergence (α ≥ 1)".into())),
         ..Xy::default()
     };
     let is_split =
         |series: &Series| [false, true].iter().all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above));
-    if figure.series.iter().any(is_split) {
+    if series.iter().any(is_split) {
         xy.notes.push("open markers: no convergence".to_owned());
     }
     // Up to 100, so that the text fits above its region.

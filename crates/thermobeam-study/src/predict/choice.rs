@@ -18,9 +18,9 @@
 
 use thermobeam::mesh::Mesh;
 
-use super::curves::{Apart, Curves, Rows, by_dg, by_one_step};
-use super::estimate::{TIMES, finer_one_step, none};
-use super::reference::{Reference, Wanted, impact, reference};
+use super::curves::{Apart, Curves, Rows, curves};
+use super::estimate::none;
+use super::reference::{Reference, Wanted, finer, impact, reference};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
@@ -45,9 +45,6 @@ const ROUNDS: usize = 16;
 
 /// Runs that may fail.
 const FAILURES: usize = 4;
-
-/// Numbers that a run in the norm keeps, at most.
-const MOST_KEPT: usize = 4_000_000;
 
 /// What an error is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -228,7 +225,6 @@ fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
 /// A run by the scene's own scheme.
 struct Own {
     rows: Rows,
-    every: usize,
     curves: Curves,
 }
 
@@ -236,15 +232,18 @@ impl Own {
     fn run(scene: &Scene, quantity: Quantity, work: &mut Work<'_>) -> Result<Self, Reason> {
         let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
         let rows = quantity.rows(&finer);
-        let every = scene.steps().div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
-        let curves = by_one_step(scene, &rows, every, work)?;
-        Ok(Self { rows, every, curves })
+        let curves = curves(scene, &rows, None, work)?;
+        Ok(Self { rows, curves })
     }
 
     /// Its error, that of the reference included.
     fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, Reason> {
-        let exact = by_dg(&reference.scene, &self.rows, Some(&self.curves.own_times()), work)?;
-        Ok(self.apart(&exact) + reference.error(0))
+        Ok(self.apart(&self.other(&reference.scene, work)?) + reference.error(0))
+    }
+
+    /// Another run, read at the same times.
+    fn other(&self, scene: &Scene, work: &mut Work<'_>) -> Result<Curves, Reason> {
+        curves(scene, &self.rows, Some(&self.curves.own_times()), work)
     }
 
     fn apart(&self, other: &Curves) -> f64 {
@@ -265,7 +264,7 @@ struct Law {
 impl Law {
     /// From twice the elements alone and half of dt alone.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
-        let [space, time] = finer_one_step(scene, &own.rows, own.every, work);
+        let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
         let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
         // In the norm the error of the mesh is orthogonal to that of a finer one, so that squares add.

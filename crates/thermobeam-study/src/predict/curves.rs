@@ -12,13 +12,19 @@ use super::{Cost, Reason, Work};
 use crate::run::dg::DgMotion;
 use crate::run::motion::Motion;
 use crate::run::simulate;
-use crate::scene::Scene;
+use crate::scene::{Method, Scene};
 
 /// Times of comparison in a step of dG, its end among them: dense at its ends, since a layer at the start of a step is shorter than that.
 const POINTS: usize = 12;
 
 /// Steps of the largest length that are compared, at most: the others of a longer run are left out evenly.
 const MOST_LONG_STEPS: f64 = 20_000.0;
+
+/// Times at which a one-step scheme is read, at most.
+const TIMES: usize = 4000;
+
+/// Numbers that a run by a one-step scheme keeps, at most.
+const MOST_KEPT: usize = 4_000_000;
 
 /// What is read off a run at a time: a row of numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +49,7 @@ impl Rows {
     }
 
     /// Numbers in a row.
-    pub(super) fn width(&self) -> usize {
+    fn width(&self) -> usize {
         match self {
             Self::Tip => 1,
             Self::Numbers => 3,
@@ -150,14 +156,29 @@ impl Curves {
     }
 }
 
-/// Runs a scene by dG.
+/// Runs a scene.
 ///
-/// * `at`: times, which increase, at which it is read; `None` for times of its own, inside steps too.
+/// * `at`: times, which increase, at which it is read, of a one-step scheme ends of steps; `None` for times of its own: by dG inside
+///   steps too, by a one-step scheme at the last level and those at most [`TIMES`] that lie evenly before.
 ///
 /// # Errors
 /// The scene is refused, a step fails, or a limit of time or work is reached.
-pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
-    let stepping = scene.dg_stepping();
+pub(super) fn curves(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    let curves = match scene.method {
+        Method::OneStep(_) => by_one_step(scene, rows, at, work),
+        Method::Dg(stepping) => by_dg(scene, stepping, rows, at, work),
+    }?;
+    work.ran(&curves.cost);
+    Ok(curves)
+}
+
+fn by_dg(
+    scene: &Scene,
+    stepping: dg::Stepping,
+    rows: &Rows,
+    at: Option<&[f64]>,
+    work: &mut Work<'_>,
+) -> Result<Curves, Reason> {
     let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
     let mut curves = Curves::new(rows, motion.extremes());
@@ -190,7 +211,6 @@ pub(super) fn by_dg(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut W
         }
     }
     curves.cost = Cost { work: (unknowns * solves) as f64, seconds: motion.wall().as_secs_f64(), runs: 1 };
-    work.ran(&curves.cost);
     Ok(curves)
 }
 
@@ -205,20 +225,23 @@ fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
     })
 }
 
-/// Runs a scene by its one-step scheme, read at its last level and each of number `every`, `2 every`, ...
-///
-/// # Errors
-/// As [`by_dg`].
-pub(super) fn by_one_step(scene: &Scene, rows: &Rows, every: usize, work: &mut Work<'_>) -> Result<Curves, Reason> {
+fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
     let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
     let (elements, steps) = (scene.mesh.elements(), scene.steps());
+    let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
     let broken = driver.run(steps, |step| {
         let (simulation, n) = (step.simulation, step.simulation.step());
         curves.include([step.new.u[elements]; 2]);
-        if n % every == 0 || n == steps {
-            curves.times.push(Instance { t: simulation.t(), since: 0.0, early: false });
+        let t = simulation.t();
+        let is_read = match at {
+            None => n % every == 0 || n == steps,
+            // Steps of half the length end there up to rounding.
+            Some(at) => at.get(curves.times.len()).is_some_and(|time| t >= time - 0.5 * simulation.dt()),
+        };
+        if is_read {
+            curves.times.push(Instance { t, since: 0.0, early: false });
             let energy = || simulation.energy(step.new).total();
             rows.of_one_step(&scene.mesh, step.new, energy, &mut curves.values);
         }
@@ -228,7 +251,6 @@ pub(super) fn by_one_step(scene: &Scene, rows: &Rows, every: usize, work: &mut W
         return Err(reason);
     }
     curves.cost = Cost { work: (elements * steps) as f64, seconds: driver.wall().as_secs_f64(), runs: 1 };
-    work.ran(&curves.cost);
     Ok(curves)
 }
 

@@ -8,15 +8,11 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::curves::{Curves, Rows, by_dg, by_one_step};
-use super::reference::{Reference, Wanted, finer_space, finer_steps, reference};
+use super::curves::{Curves, Rows, curves};
+use super::reference::{Reference, Wanted, finer, reference};
 use super::{Reason, Unreachable, Work};
 use crate::error::curve::distance;
-use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
-
-/// Times at which a one-step scheme is compared, at most.
-pub(super) const TIMES: usize = 4000;
 
 /// Error of the first reference, in units of the largest value of a curve.
 const ROUGH: f64 = 1e-4;
@@ -103,21 +99,17 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 /// # Errors
 /// [`Unreachable`]: the scene's own run fails, or there is no reference that is good enough.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
-    let own = own_curves(scene, work).map_err(Unreachable::Own)?;
+    let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
     let (reference, exact) = against(scene, &own, &times, work)?;
-    let finer = match scene.method {
-        Method::OneStep(_) => finer_one_step(scene, &Rows::Numbers, every(scene), work),
-        Method::Dg(_) => [finer_space(scene), Some(finer_steps(scene))]
-            .map(|finer| by_dg(&finer.ok_or(Reason::Finest)?, &Rows::Numbers, Some(&times), work)),
-    };
+    let finer = finer(scene).map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
     let quantities: Vec<Estimate> = OBSERVABLES
         .iter()
         .map(|&(name, kind, k)| {
             let (value, difference) = measured(kind, k, &own, &exact);
             let error = if kind == Kind::End { reference.end * largest(&exact.column(k)) } else { reference.error(k) };
             let [finer_space, finer_steps] =
-                [&finer[0], &finer[1]].map(|run| run.as_ref().ok().map(|run| measured(kind, k, run, &exact).1 + error));
+                finer.each_ref().map(|run| run.as_ref().ok().map(|run| measured(kind, k, run, &exact).1 + error));
             Estimate { name, kind, value, total: difference + error, reference: error, finer_space, finer_steps }
         })
         .collect();
@@ -125,40 +117,14 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
 }
 
-/// Of so many levels of a one-step scheme one is compared.
-fn every(scene: &Scene) -> usize {
-    scene.steps().div_ceil(TIMES)
-}
-
-fn own_curves(scene: &Scene, work: &mut Work<'_>) -> Result<Curves, Reason> {
-    match scene.method {
-        Method::OneStep(_) => by_one_step(scene, &Rows::Numbers, every(scene), work),
-        Method::Dg(_) => by_dg(scene, &Rows::Numbers, None, work),
-    }
-}
-
 /// The differences of a scene's numbers to those of another run, which is by dG, in the order of [`Budget::quantities`].
 ///
 /// # Errors
 /// [`Reason`]: one of the runs did not come to its end.
 pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<[f64; OBSERVABLES.len()], Reason> {
-    let own = own_curves(scene, work)?;
-    let other = by_dg(other, &Rows::Numbers, Some(&own.own_times()), work)?;
+    let own = curves(scene, &Rows::Numbers, None, work)?;
+    let other = curves(other, &Rows::Numbers, Some(&own.own_times()), work)?;
     Ok(OBSERVABLES.map(|(_, kind, k)| measured(kind, k, &own, &other).1))
-}
-
-/// A one-step scheme with twice the elements alone, and with half of dt alone.
-pub(super) fn finer_one_step(
-    scene: &Scene,
-    rows: &Rows,
-    every: usize,
-    work: &mut Work<'_>,
-) -> [Result<Curves, Reason>; 2] {
-    let (elements, steps) = (scene.mesh.elements(), scene.steps());
-    [(2 * elements, 1), (elements, 2)].map(|(elements, part)| {
-        let mesh = resampled(&scene.mesh, elements).map_err(Reason::of_run)?;
-        by_one_step(&at(scene, mesh, part * steps, scene.t_end), rows, part * every, work)
-    })
 }
 
 /// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
@@ -179,7 +145,7 @@ fn against(
     for _ in 0..ROUNDS {
         let start = held.as_ref().map(|(reference, ..)| &reference.scene);
         let found = reference(scene, start, &wanted, work).and_then(|reference| {
-            let curves = by_dg(&reference.scene, &Rows::Numbers, Some(times), work);
+            let curves = curves(&reference.scene, &Rows::Numbers, Some(times), work);
             curves.map(|curves| (reference, curves)).map_err(|reason| none(wanted.tolerance[0], reason))
         });
         let (reference, exact) = match (found, held) {

@@ -21,9 +21,10 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
-use super::curves::{Apart, Curves, Rows, by_dg};
+use super::curves::{Apart, Curves, Rows, curves};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::error::curve::distance;
+use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
 
 /// Share of the target that each of the two differences may take.
@@ -206,9 +207,8 @@ impl Search<'_, '_> {
     }
 
     fn found(&self, scene: Scene, base: &Curves, compared: &Compared) -> Reference {
-        let Compared { finer, shorter, .. } = compared;
         let mut found = Reference {
-            finer_space: finer_space(&scene).map_or_else(String::new, |finer| words(&finer)),
+            finer_space: finer(&scene)[0].as_ref().map_or_else(|_| String::new(), words),
             scene,
             space: [compared.space.most() * self.wanted.tolerance[0]; 3],
             time: [compared.time.most() * self.wanted.tolerance[0]; 3],
@@ -217,7 +217,7 @@ impl Search<'_, '_> {
         };
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {
-                let [own, finer, shorter] = [base, finer, shorter].map(|run| run.column(k));
+                let [own, finer, shorter] = [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
                 (found.space[k], found.time[k]) = (distance(&own, &finer), distance(&own, &shorter));
                 let last = own.len() - 1;
                 let end = (own[last] - finer[last]).abs() + (own[last] - shorter[last]).abs();
@@ -230,8 +230,9 @@ impl Search<'_, '_> {
     /// The two comparisons of a scene, `base` being its run.
     fn compare(&mut self, scene: &Scene, base: &Curves) -> Result<Compared, Reason> {
         let times = base.own_times();
-        let finer = self.run(&finer_space(scene).ok_or(Reason::Finest)?, Some(&times))?;
-        let shorter = self.run(&finer_steps(scene), Some(&times))?;
+        let [finer, shorter] = finer(scene);
+        let finer = self.run(&finer?, Some(&times))?;
+        let shorter = self.run(&shorter?, Some(&times))?;
         let Wanted { rows, tolerance } = self.wanted;
         let [space, time] = [&finer, &shorter].map(|finer| Apart::of(rows, base, finer, tolerance));
         Ok(Compared { finer, shorter, space, time })
@@ -241,7 +242,7 @@ impl Search<'_, '_> {
     fn run(&mut self, scene: &Scene, at: Option<&[f64]>) -> Result<Curves, Reason> {
         // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
         self.work.leaves(2.0 * self.last)?;
-        let run = by_dg(scene, &self.wanted.rows, at, self.work)?;
+        let run = curves(scene, &self.wanted.rows, at, self.work)?;
         self.last = run.cost.work;
         Ok(run)
     }
@@ -333,12 +334,21 @@ fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
     Some(Scene { method: Method::Dg(stepping), ..next })
 }
 
-/// p + 4, or the longest elements halved.
-pub(super) fn finer_space(scene: &Scene) -> Option<Scene> {
-    if scene.degree + FINER_DEGREES <= MAX_DEGREE {
-        return Some(Scene { degree: scene.degree + FINER_DEGREES, ..scene.clone() });
-    }
-    halved(scene)
+/// The scene with a finer space alone, and with finer steps alone: p + 4 or the longest elements halved, and half the steps, the first
+/// ones shorter still, since the error there falls more slowly; of a one-step scheme twice the elements, and half of dt.
+pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
+    let Method::Dg(stepping) = scene.method else {
+        let (elements, steps) = (scene.mesh.elements(), scene.steps());
+        return [(2 * elements, steps), (elements, 2 * steps)].map(|(elements, steps)| {
+            let mesh = resampled(&scene.mesh, elements).map_err(Reason::of_run)?;
+            Ok(at(scene, mesh, steps, scene.t_end))
+        });
+    };
+    let raised = scene.degree + FINER_DEGREES;
+    let space = if raised <= MAX_DEGREE { Some(Scene { degree: raised, ..scene.clone() }) } else { halved(scene) };
+    let half = shorter(stepping, 0.5);
+    let method = Method::Dg(Stepping { restart_dt: 0.5 * half.restart_dt, ..half });
+    [space.ok_or(Reason::Finest), Ok(Scene { method, ..scene.clone() })]
 }
 
 fn halved(scene: &Scene) -> Option<Scene> {
@@ -387,13 +397,6 @@ fn shorter(stepping: Stepping, part: f64) -> Stepping {
     let Stepping { dt, restart_dt, growth, .. } = stepping;
     let growth = (1.0 + part * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
     Stepping { dt: part * dt, restart_dt: part * restart_dt, growth, ..stepping }
-}
-
-/// Half the steps; the first ones are shorter still, since the error there falls more slowly.
-pub(super) fn finer_steps(scene: &Scene) -> Scene {
-    let half = shorter(scene.dg_stepping(), 0.5);
-    let stepping = Stepping { restart_dt: 0.5 * half.restart_dt, ..half };
-    Scene { method: Method::Dg(stepping), ..scene.clone() }
 }
 
 /// What `restart_dt` is divided by, for an error in the first steps smaller by `factor`.

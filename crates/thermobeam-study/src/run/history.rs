@@ -81,7 +81,7 @@ impl RunHistory {
     }
 
     /// A number over time.
-    pub(super) fn over_time(&self, value: fn(&Sample) -> f64) -> Vec<(f64, f64)> {
+    pub(crate) fn over_time(&self, value: fn(&Sample) -> f64) -> Vec<(f64, f64)> {
         self.rows.iter().map(|row| (row.sample.t, value(&row.sample))).collect()
     }
 

@@ -36,7 +36,6 @@ use super::history::RunHistory;
 use super::motion::{Motion, Report, Sample, Solves, Watch, run};
 use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::expression::Expression;
-use crate::figures::SceneMotion;
 use crate::scene::{Method, Scene};
 
 /// What to keep beside the summary.
@@ -146,26 +145,6 @@ impl Run {
             (None, Some(history)) => history.contact_phases(),
             (None, None) => vec![],
         }
-    }
-
-    /// Names of files and their SVG documents; none where no frames were kept.
-    pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
-        let Some(history) = self.history.as_ref().filter(|history| !history.frames.times.is_empty()) else {
-            return vec![];
-        };
-        let motion = SceneMotion {
-            name: &scene.name,
-            beam: &scene.beam,
-            obstacles: scene.obstacles,
-            u_tip: history.tip(),
-            phi_tip: history.over_time(|sample| sample.phi_tip),
-            energy: history.over_time(|sample| sample.energy),
-            contact: self.contact_phases(),
-            times: &history.frames.times,
-            points: &history.frames.points,
-            frames: &history.frames.u,
-        };
-        motion.pictures()
     }
 }
 

@@ -7,7 +7,7 @@ use thermobeam_study::figures::*;
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     vec![
         ("contraction", contraction(&contraction_factors())),
-        ("bifurcation", bifurcation(&equilibria())),
+        ("bifurcation", equilibria()),
         ("animation", animation(&motion())),
     ]
 }
@@ -21,22 +21,19 @@ fn tip(t: f64) -> f64 {
     free.clamp(-0.0105, 0.1004)
 }
 
-pub(crate) fn contraction_factors() -> Contraction {
+pub(crate) fn contraction_factors() -> Vec<Series> {
     let dt = |k: i32| 10f64.powf(-4.0 + 0.25 * f64::from(k));
     let alpha = |eps: f64, k: i32| dt(k).powf(1.5) / (eps * 0.1_f64.sqrt());
     let family =
         |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k).min(1.0))).collect();
-    Contraction {
-        title: None,
-        series: vec![
-            series("ε = 10⁻²", family(1e-2, 0..9)),
-            series("ε = 10⁻³", family(1e-3, 0..7)),
-            series("ε = 10⁻⁴", family(1e-4, 0..5)),
-        ],
-    }
+    vec![
+        series("ε = 10⁻²", family(1e-2, 0..9)),
+        series("ε = 10⁻³", family(1e-3, 0..7)),
+        series("ε = 10⁻⁴", family(1e-4, 0..5)),
+    ]
 }
 
-pub(crate) fn equilibria() -> Bifurcation {
+pub(crate) fn equilibria() -> String {
     let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
     let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| Branch { label: label.into(), points, stable };
     let pitchfork = |sign: f64| {
@@ -45,20 +42,16 @@ pub(crate) fn equilibria() -> Bifurcation {
             .filter(|p| p.1.abs() < 0.1)
             .collect()
     };
-    Bifurcation {
-        title: None,
-        x_label: "axial force β".into(),
-        y_label: "tip displacement u(1) (dimensionless)".into(),
-        branches: vec![
-            branch("free", true, (69..140).map(|k| (beta(k), 0.0)).collect()),
-            branch("free", false, (0..70).map(|k| (beta(k), 0.0)).collect()),
-            branch("free", true, pitchfork(1.0)),
-            branch("upper contact", true, (0..66).map(|k| (beta(k), 0.1 + 1e-5)).collect()),
-            branch("lower contact", true, (0..68).map(|k| (beta(k), -0.05)).collect()),
-        ],
-        obstacles: vec![Guide { label: "g₁".into(), value: -0.05 }, Guide { label: "g₂".into(), value: 0.1 }],
-        states: vec![series("end of a simulation", vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)])],
-    }
+    let branches = [
+        branch("free", true, (69..140).map(|k| (beta(k), 0.0)).collect()),
+        branch("free", false, (0..70).map(|k| (beta(k), 0.0)).collect()),
+        branch("free", true, pitchfork(1.0)),
+        branch("upper contact", true, (0..66).map(|k| (beta(k), 0.1 + 1e-5)).collect()),
+        branch("lower contact", true, (0..68).map(|k| (beta(k), -0.05)).collect()),
+    ];
+    let obstacles = vec![Guide { label: "g₁".into(), value: -0.05 }, Guide { label: "g₂".into(), value: 0.1 }];
+    let ends = series("end of a simulation", vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)]);
+    bifurcation(&branches, obstacles, &ends)
 }
 
 pub(crate) fn motion() -> Animation {

@@ -139,14 +139,8 @@ impl<'r> DiagramOf<'r> {
             branches.extend(lines.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
         }
         let ends: Vec<(f64, f64)> = self.tips().collect();
-        figures::bifurcation(&figures::Bifurcation {
-            title: None,
-            x_label: "axial force at rest β".into(),
-            y_label: "tip displacement u(1) (dimensionless)".into(),
-            branches,
-            obstacles: figures::obstacle_lines(self.scene.obstacles),
-            states: vec![plots::Series { label: "end of a run".into(), points: shown(&ends) }],
-        })
+        let ends = plots::Series { label: "end of a run".into(), points: shown(&ends) };
+        figures::bifurcation(&branches, figures::obstacle_lines(self.scene.obstacles), &ends)
     }
 }
 

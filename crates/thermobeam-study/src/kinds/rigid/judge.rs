@@ -6,7 +6,7 @@ use convergence_study::text::number::rate_text;
 
 use super::theory::peak_penetration;
 use super::{RigidStudy, RunOf, ShownImpact};
-use crate::figures::{Contraction, contraction, obstacle_lines};
+use crate::figures::{contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
 /// Contraction above which a time step averages over the whole impact, which makes the penetration of order 1.
@@ -240,7 +240,7 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
             id,
             "contraction",
             "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
-            contraction(&Contraction { title: None, series }),
+            contraction(&series),
         ),
     ]
 }

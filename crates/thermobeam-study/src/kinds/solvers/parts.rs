@@ -122,7 +122,7 @@ fn contraction_figure(id: &str, found: &[([f64; 3], &MeasuredFactor)]) -> Figure
         let points = of_zeta.map(|(_, found)| (found.alpha, found.step.contraction.unwrap_or(f64::NAN))).collect();
         plots::Series { label: format!("ζ = {zeta}"), points }
     });
-    let svg = figures::contraction(&figures::Contraction { title: None, series: series.collect() });
+    let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption =
         "Contraction factor of the fixed point in contact, measured over predicted; from 1 on it does not converge.";
     Figure::new(id, "contraction", caption, svg)

@@ -57,7 +57,7 @@ fn every_figure_is_in_the_gallery() {
     let figures: Vec<_> = exported.collect();
     assert!(figures.len() >= 3);
     for figure in figures {
-        assert!(gallery.contains(&format!(", {figure}(")), "{figure} is not in the gallery");
+        assert!(gallery.contains(&format!(" {figure}(")), "{figure} is not in the gallery");
     }
 }
 

@@ -1,15 +1,16 @@
 //! Where long runs end, against exact steady states, which no source term keeps in place.
 //!
 //! A beam at rest solves the discrete static problem to round-off, whatever the time step was: what is left is the error
-//! of P1 elements, O(h²) at the nodes in u and in φ. By elements of high degree and dG(q) next to nothing is left. Four things
-//! are judged: that, where the file asks for it, the rate at every scene that ends bent, the
-//! error on the finest mesh, and that a beam whose steady state is straight ends straight, but for the motion left.
+//! of P1 elements, O(h²) at the nodes in u and in φ; by elements of high degree and dG(q) next to nothing. A beam whose steady state is
+//! straight has no such error and is only known to end straight, up to the motion left.
 
 use convergence_study::judge::richardson;
 use convergence_study::text::number::decimals;
 
 use super::prelude::*;
-use super::steady::{Nearest, Rest, at_resolution, exact_states, listed_scenes, name_of, settle};
+use super::steady::{
+    Nearest, cost_to_rest, exact_states, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
+};
 use super::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::error::reference::Traced;
 
@@ -34,9 +35,6 @@ const MOTION: f64 = 10.0;
 
 /// Relative changes that the baseline tolerates in the tips of discrete and of exact states.
 const TIP_TOLERANCES: [f64; 2] = [1e-8, 1e-9];
-
-/// About when beams come to rest.
-const REST: f64 = 200.0;
 
 /// Elements on which a run of any order is compared with the exact state.
 const COMPARED: usize = 64;
@@ -80,12 +78,8 @@ impl FromFile for EndStates {
         root.allow(&["study", "run", "any-order", "expect"])?;
         let run = root.table("run", &["scenes", "elements", "dt", "speed", "t_max"])?;
         let expect = root.table("expect", &["tolerance", "error"])?;
-        let (dt, t_max) = (run.positive("dt")?, run.positive("t_max")?);
-        limits::steps_until(&run.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
-        let allowed = "a list of at least three numbers of elements, ascending";
-        let elements = run.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))?;
-        let allowed = "a number > 0 and < 0.5";
-        let is_tolerance = |tolerance| Judge::new(tolerance).is_ok();
+        let (dt, t_max) = steps_to_rest(&run)?;
+        let elements = meshes(&run)?;
         let any_order = |section: Section<'_>| {
             section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
             let t_end = section.positive("t_end")?;
@@ -98,7 +92,7 @@ impl FromFile for EndStates {
             dt,
             speed: run.positive("speed")?,
             t_max,
-            tolerance: expect.require("tolerance", allowed)?.number_where(allowed, is_tolerance)?,
+            tolerance: tolerance(&expect)?,
             error: expect.positive("error")?,
             any_order: root.section("any-order")?.map(any_order).transpose()?,
         })
@@ -120,7 +114,7 @@ impl Kind for EndStates {
                 (None, Some((how, t_end, _))) => (how.label(), how.cost(*t_end)),
                 (elements, _) => {
                     let n = elements.unwrap_or(0);
-                    (format!("n = {n}"), REST / self.dt * n as f64)
+                    (format!("n = {n}"), cost_to_rest(n, self.dt))
                 }
             };
             Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: (scene, elements) }
@@ -135,8 +129,8 @@ impl Kind for EndStates {
         let scene = &self.scenes[scene];
         let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
         if let Some(elements) = elements {
-            let scene = at_resolution(scene, elements, self.dt)?;
-            let Rest { t, level } = settle(&scene, self.speed, self.t_max)?;
+            let scene = scene.at(Mesh::uniform(elements)?, self.dt);
+            let (t, level) = settle(&scene, self.speed, self.t_max)?;
             return end(&scene, &scene.mesh, t, &level);
         }
         let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;

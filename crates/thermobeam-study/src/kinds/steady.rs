@@ -19,52 +19,79 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
-/// The scene on a uniform mesh and with another time step.
-pub(super) fn at_resolution(scene: &Scene, elements: usize, dt: f64) -> Result<Scene, MeshError> {
-    Ok(scene.at(Mesh::uniform(elements)?, dt))
-}
-
-/// How beams are run that have to come to rest: on a uniform mesh, until they are slow.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How beams are run that have to come to rest: with these β, on a uniform mesh, until they are slow.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToRest {
-    pub(super) elements: usize,
-    pub(super) dt: f64,
+    pub(super) betas: Vec<f64>,
+    elements: usize,
+    dt: f64,
     /// Largest velocity of a beam at rest.
-    pub(super) speed: f64,
+    speed: f64,
     /// A run that lasts longer fails.
-    pub(super) t_max: f64,
+    t_max: f64,
 }
 
 impl ToRest {
     /// The keys of a table.
-    pub(super) const KEYS: [&str; 4] = ["elements", "dt", "speed", "t_max"];
+    pub(super) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
 
     /// From a table that has [`ToRest::KEYS`], and may have others.
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
-        limits::steps_until(&section.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
+        let betas = section.list("beta", "a list of numbers, ascending", Field::number, fits)?;
+        let (dt, t_max) = steps_to_rest(section)?;
         let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
-        Ok(Self { elements, dt, speed: section.positive("speed")?, t_max })
+        Ok(Self { betas, elements, dt, speed: section.positive("speed")?, t_max })
     }
 
-    /// The scene with another β, at rest.
+    /// What a run costs.
+    pub(super) fn cost(&self) -> f64 {
+        cost_to_rest(self.elements, self.dt)
+    }
+
+    /// The scene with the β of that place in the list, at rest.
     ///
     /// # Errors
     /// As [`settle`], and where the steady states cannot be told.
-    pub(super) fn run(&self, scene: &Scene, beta: f64) -> Result<AtRest, CaseFailure> {
-        let mut scene = at_resolution(scene, self.elements, self.dt)?;
+    pub(super) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
+        let beta = self.betas[place];
+        let mut scene = scene.at(Mesh::uniform(self.elements)?, self.dt);
         scene.beam.beta = beta;
         scene.name = format!("beta = {beta}");
         let states = exact_states(&scene)?;
-        let rest = settle(&scene, self.speed, self.t_max)?;
+        let (t_rest, level) = settle(&scene, self.speed, self.t_max)?;
         Ok(AtRest {
             states: states.len(),
             stable: states.iter().filter(|state| state.stable).count(),
-            u_tip: rest.level.u[self.elements],
-            t_rest: rest.t,
-            nearest: Nearest::of(&scene.mesh, &rest.level, &states),
+            u_tip: level.u[self.elements],
+            t_rest,
+            nearest: Nearest::of(&scene.mesh, &level, &states),
         })
     }
+}
+
+/// The keys dt and t_max of a run to rest.
+pub(super) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
+    let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
+    limits::steps_until(&section.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+    Ok((dt, t_max))
+}
+
+/// The key `elements`: the meshes over which a rate is observed.
+pub(super) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of at least three numbers of elements, ascending";
+    section.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))
+}
+
+/// The key `tolerance`: how far a rate may be from its order.
+pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
+    let allowed = "a number > 0 and < 0.5";
+    section.require("tolerance", allowed)?.number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
+}
+
+/// What it costs until a beam has come to rest, at about t = 200.
+pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
+    200.0 / dt * elements as f64
 }
 
 /// Where a moving beam comes to rest, and the exact steady states.
@@ -94,38 +121,27 @@ impl AtRest {
     }
 }
 
-/// A beam at rest.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Rest {
-    /// The last level.
-    pub(super) level: Level,
-    /// Its time.
-    pub(super) t: f64,
-}
-
 /// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,
 /// and the slowest oscillation of a beam near buckling differs from rest by its speed alone.
 const QUIET: f64 = 5.0;
 
-/// Runs until no node has been faster than `speed`, in u or φ, for a while.
+/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns the time and the level then.
 ///
 /// # Errors
 /// A step that cannot be done, or motion that lasts longer than `t_max`.
-pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<Rest, CaseFailure> {
+pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     let mut moved = 0.0;
     let rest = simulate::driver(scene)?.run(usize::MAX, |step| {
         let t = step.simulation.t();
         if !step.new.is_slow(speed) {
             moved = t;
         } else if t - moved >= QUIET {
-            return ControlFlow::Break(Some(Rest { level: step.new.clone(), t }));
+            return ControlFlow::Break(Some((t, step.new.clone())));
         }
         if t < t_max { ControlFlow::Continue(()) } else { ControlFlow::Break(None) }
     })?;
-    rest.flatten().ok_or_else(|| {
-        let reason = format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name);
-        CaseFailure { reason }
-    })
+    let moving = || CaseFailure { reason: format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name) };
+    rest.flatten().ok_or_else(moving)
 }
 
 /// All exact steady states of the scene.

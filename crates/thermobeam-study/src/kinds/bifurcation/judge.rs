@@ -3,7 +3,7 @@
 
 use convergence_study::text::number::decimals;
 
-use super::branches::BranchEvent;
+use super::branches;
 use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
 use crate::figures;
 use crate::kinds::prelude::*;
@@ -32,7 +32,7 @@ impl<'r> DiagramOf<'r> {
             Some(Found::Rest(rest)) => (beta, Some(rest)),
             _ => (beta, None),
         };
-        Self { scene: &study.scenes[k], diagram, rests: study.betas.iter().enumerate().map(rest).collect() }
+        Self { scene: &study.scenes[k], diagram, rests: study.rest.betas.iter().enumerate().map(rest).collect() }
     }
 
     fn theta_a(&self) -> f64 {
@@ -54,9 +54,9 @@ impl<'r> DiagramOf<'r> {
         // Completion has failed where there is no diagram.
         if let Some(diagram) = self.diagram {
             checks.push(self.unambiguous(diagram));
-            checks.extend(match BranchEvent::of(self.scene) {
-                BranchEvent::Buckling => [buckles(diagram), self.bent_below()],
-                BranchEvent::LiftOff => [lifts_off(diagram), self.one_state(diagram)],
+            checks.extend(match branches::buckles(self.scene) {
+                true => [buckles(diagram), self.bent_below()],
+                false => [lifts_off(diagram), self.one_state(diagram)],
             });
         }
         checks
@@ -116,7 +116,7 @@ impl<'r> DiagramOf<'r> {
         );
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
         let mut figures = vec![Figure::new(id, &format!("theta-a-{theta_a}"), caption, whole)];
-        if BranchEvent::of(self.scene) == BranchEvent::Buckling {
+        if branches::buckles(self.scene) {
             let fork = diagram.event[0];
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
             let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
@@ -167,7 +167,7 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     let guarded = forces.iter().map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
     let at: Vec<String> = scenes.iter().map(|of| format!("{:.6}", of.event())).collect();
     let headline = format!("buckling and lift-off at β = {}", at.join(", "));
-    let (diagrams, runs) = (study.scenes.len(), study.scenes.len() * study.betas.len());
+    let (diagrams, runs) = (study.scenes.len(), study.scenes.len() * study.rest.betas.len());
     Outcome {
         tables: vec![force_table(&forces), rest_table(study, &scenes)],
         figures: scenes.iter().flat_map(|of| of.figures(&study.header.id)).collect(),
@@ -243,5 +243,5 @@ fn rest_table(study: &BifurcationStudy, scenes: &[DiagramOf<'_>]) -> Table {
     };
     let of_scene = |of: &DiagramOf<'_>| [format!("u(1) at rest, θ_A = {}", of.theta_a()), "exact".to_owned()];
     let head = std::iter::once("β".to_owned()).chain(scenes.iter().flat_map(of_scene));
-    Table::new("Where moving beams come to rest", head, study.betas.iter().enumerate().map(row))
+    Table::new("Where moving beams come to rest", head, study.rest.betas.iter().enumerate().map(row))
 }

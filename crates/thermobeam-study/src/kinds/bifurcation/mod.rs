@@ -5,13 +5,11 @@
 //! exact steady states changes, the buckling force of P1 elements as the mesh is refined, and `-(π²/4)/(1 + π²/4)`.
 
 mod branches;
-mod buckling;
 mod judge;
 
 use super::prelude::*;
 pub use super::steady::AtRest;
-use super::steady::{ToRest, listed_scenes};
-use branches::BranchEvent;
+use super::steady::{ToRest, listed_scenes, meshes, tolerance};
 pub use branches::{Diagram, SteadyBranch};
 
 /// The row of the table of kinds.
@@ -45,8 +43,6 @@ pub struct BifurcationStudy {
     meshes: Vec<usize>,
     /// Of its rate about the order 2.
     tolerance: f64,
-    /// β at which beams move and come to rest.
-    betas: Vec<f64>,
     rest: ToRest,
     /// How far from an exact steady state they may be.
     distance: f64,
@@ -83,19 +79,13 @@ impl FromFile for BifurcationStudy {
         let points = diagram.count("points", 2..=100_000)?;
         let beta = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / (points - 1) as f64);
         let buckling = root.table("buckling", &["elements", "tolerance"])?;
-        let allowed = "a list of at least three numbers of elements, ascending";
-        let meshes = buckling.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))?;
-        let allowed = "a number > 0 and < 0.5";
-        let is_tolerance = |tolerance| Judge::new(tolerance).is_ok();
-        let rest = root.table("rest", &[&["beta", "distance"], &ToRest::KEYS[..]].concat())?;
-        let fits = |list: &[f64]| !list.is_empty() && increases(list);
+        let rest = root.table("rest", &[&["distance"], &ToRest::KEYS[..]].concat())?;
         Ok(Self {
             header,
             scenes: listed_scenes(&diagram, folder)?,
             grid: (0..points).map(beta).collect(),
-            meshes,
-            tolerance: buckling.require("tolerance", allowed)?.number_where(allowed, is_tolerance)?,
-            betas: rest.list("beta", "a list of numbers, ascending", Field::number, fits)?,
+            meshes: meshes(&buckling)?,
+            tolerance: tolerance(&buckling)?,
             rest: ToRest::read(&rest)?,
             distance: rest.positive("distance")?,
         })
@@ -124,19 +114,20 @@ impl Kind for BifurcationStudy {
             data: DiagramTask::Buckling(n),
         };
         let rest = |scene: usize, beta: usize| Case {
-            label: format!("to rest, θ_A = {}, β = {}", self.scenes[scene].beam.theta_a, self.betas[beta]),
-            cost: 200.0 / self.rest.dt * self.rest.elements as f64,
+            label: format!("to rest, θ_A = {}, β = {}", self.scenes[scene].beam.theta_a, self.rest.betas[beta]),
+            cost: self.rest.cost(),
             data: DiagramTask::Rest(scene, beta),
         };
-        let rests = (0..self.scenes.len()).flat_map(|scene| (0..self.betas.len()).map(move |beta| rest(scene, beta)));
+        let rests =
+            (0..self.scenes.len()).flat_map(|scene| (0..self.rest.betas.len()).map(move |beta| rest(scene, beta)));
         self.scenes.iter().enumerate().map(diagram).chain(self.meshes.iter().map(force)).chain(rests).collect()
     }
 
     fn run(&self, task: &DiagramTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
             DiagramTask::Diagram(scene) => Found::Diagram(self.diagram(&self.scenes[scene])?),
-            DiagramTask::Buckling(n) => Found::Force(buckling::discrete_buckling_force(&Mesh::uniform(n)?)?),
-            DiagramTask::Rest(scene, beta) => Found::Rest(self.rest.run(&self.scenes[scene], self.betas[beta])?),
+            DiagramTask::Buckling(n) => Found::Force(branches::discrete_buckling_force(&Mesh::uniform(n)?)?),
+            DiagramTask::Rest(scene, beta) => Found::Rest(self.rest.run(&self.scenes[scene], beta)?),
         })
     }
 
@@ -150,7 +141,7 @@ impl BifurcationStudy {
         let coarse = branches::sample(scene, &self.grid, 0)?;
         let event = branches::bracket(scene, &coarse, BRACKET)?;
         let mut grid = self.grid.clone();
-        if BranchEvent::of(scene) == BranchEvent::Buckling && !event[0].is_nan() {
+        if branches::buckles(scene) && !event[0].is_nan() {
             // More points around a fork for the picture of it.
             let close = |k: usize| event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0);
             grid.extend((0..=FORK_POINTS).map(close));

@@ -1,7 +1,7 @@
 //! The sentences of Section 5, each a check with its numbers.
 
 use super::run::straight_energy;
-use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, Nearest, SectionGroup};
+use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup};
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
 
@@ -88,14 +88,10 @@ impl Measured {
             ends(Reading::new("u(1) of the exact state", exact), "exact_u_tip"),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
-            Reading::new("distance to a steady state", distance(self.nearest)),
+            Reading::new("distance to a steady state", self.nearest.map_or(f64::NAN, |nearest| nearest.distance)),
             Reading::new("largest change of the energy", self.largest_increase),
         ]
     }
-}
-
-fn distance(nearest: Option<Nearest>) -> f64 {
-    nearest.map_or(f64::NAN, |nearest| nearest.distance)
 }
 
 impl AtRest {
@@ -117,7 +113,7 @@ pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<ExperimentTask, Found
         Some(Found::Rest(rest)) => Some((beta, rest)),
         _ => None,
     };
-    study.betas.iter().enumerate().filter_map(rest).collect()
+    study.rest.betas.iter().enumerate().filter_map(rest).collect()
 }
 
 pub(super) fn checks(study: &Experiments, ran: &[Ran<ExperimentTask, Found>], rests: &Rests<'_>) -> Vec<Check> {
@@ -128,7 +124,7 @@ pub(super) fn checks(study: &Experiments, ran: &[Ran<ExperimentTask, Found>], re
         })
     })];
     checks.extend(claims(study, ran));
-    checks.extend(counts(rests, rests.len() == study.betas.len()));
+    checks.extend(counts(rests, rests.len() == study.rest.betas.len()));
     checks
 }
 
@@ -250,6 +246,7 @@ fn at_rest(run: &Measured) -> String {
 ///
 /// * `complete`: whether there is a result for every β; no claim holds without.
 fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
+    let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.u_tip.abs() <= STRAIGHT;
     let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
         let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
@@ -263,31 +260,22 @@ fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
     [
         claim(
             [AS_PRINTED, f64::INFINITY],
-            is_alone_and_straight,
+            alone_and_straight,
             "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it",
             "",
         ),
         claim(
             [-BUCKLING, AS_PRINTED],
-            is_alone_and_straight,
+            alone_and_straight,
             "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 there is only \
              one, the straight beam",
             &format!("; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}", -BUCKLING),
         ),
         claim(
             [f64::NEG_INFINITY, -BUCKLING],
-            is_one_of_several_and_bent,
+            |rest| rest.states >= 3 && rest.stable >= 2 && rest.u_tip.abs() > STRAIGHT && rest.is_stable(),
             "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent",
             "",
         ),
     ]
-}
-
-fn is_alone_and_straight(rest: &AtRest) -> bool {
-    rest.states == 1 && rest.u_tip.abs() <= STRAIGHT
-}
-
-fn is_one_of_several_and_bent(rest: &AtRest) -> bool {
-    let several = rest.states >= 3 && rest.stable >= 2;
-    several && rest.u_tip.abs() > STRAIGHT && rest.is_stable()
 }

@@ -30,7 +30,7 @@ mod report;
 mod run;
 
 use super::prelude::*;
-use super::steady::{ToRest, at_resolution, listed_scene};
+use super::steady::{ToRest, listed_scene};
 use convergence_study::input::POSITIVE;
 
 pub use super::steady::{AtRest, Nearest};
@@ -82,7 +82,6 @@ pub struct Experiments {
     header: Header,
     experiments: Vec<Experiment>,
     until: Until,
-    betas: Vec<f64>,
     rest: ToRest,
 }
 
@@ -116,10 +115,7 @@ impl FromFile for Experiments {
             refine(&run, &mut experiment.scene)?;
             limits::steps_until(&t_max, until.t_max, experiment.scene.dt(), limits::STEPS)?;
         }
-        let steady = root.table("steady", &[&["beta"], &ToRest::KEYS[..]].concat())?;
-        let fits = |list: &[f64]| !list.is_empty() && increases(list);
-        let betas = steady.list("beta", "a list of numbers, ascending", Field::number, fits)?;
-        Ok(Self { header, experiments, until, betas, rest: ToRest::read(&steady)? })
+        Ok(Self { header, experiments, until, rest: ToRest::read(&root.table("steady", &ToRest::KEYS)?)? })
     }
 }
 
@@ -147,13 +143,14 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
 
 /// Another mesh and time step, where `[run]` has them.
 fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
-    let field = run.get("elements");
-    let elements = field.as_ref().map_or(Ok(scene.mesh.elements()), tables::elements)?;
-    let dt = run.get("dt").map_or(Ok(scene.dt()), |field| field.positive())?;
-    if field.is_some() || run.get("dt").is_some() {
-        *scene =
-            at_resolution(scene, elements, dt).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
+    let (elements, dt) = (run.get("elements"), run.get("dt"));
+    if elements.is_none() && dt.is_none() {
+        return Ok(());
     }
+    let elements = elements.as_ref().map_or(Ok(scene.mesh.elements()), tables::elements)?;
+    let dt = dt.map_or(Ok(scene.dt()), |field| field.positive())?;
+    let mesh = Mesh::uniform(elements).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
+    *scene = scene.at(mesh, dt);
     Ok(())
 }
 
@@ -175,11 +172,11 @@ impl Kind for Experiments {
         };
         let rest = |(k, beta): (usize, &f64)| Case {
             label: format!("to rest, beta = {beta}"),
-            cost: 200.0 / self.rest.dt * self.rest.elements as f64,
+            cost: self.rest.cost(),
             data: ExperimentTask::Rest(k),
         };
         let runs = self.experiments.iter().enumerate().map(run);
-        runs.chain(self.betas.iter().enumerate().map(rest)).collect()
+        runs.chain(self.rest.betas.iter().enumerate().map(rest)).collect()
     }
 
     fn run(&self, task: &ExperimentTask) -> Result<Found, CaseFailure> {
@@ -188,7 +185,7 @@ impl Kind for Experiments {
             ExperimentTask::Rest(k) => {
                 // The third experiment is the last.
                 let third = self.experiments.last().ok_or(CaseFailure { reason: "no experiment".to_owned() })?;
-                Ok(Found::Rest(self.rest.run(&third.scene, self.betas[k])?))
+                Ok(Found::Rest(self.rest.run(&third.scene, k)?))
             }
         }
     }

@@ -47,15 +47,12 @@ fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figur
         Figure::new(id, "beam", caption, animated(&experiment.scene, &run.frames))
     });
     let above = |experiment: &Experiment, point: &CurvePoint| point.energy - straight_energy(&experiment.scene);
-    let decay = plots::History {
-        y: plots::Axis::log("E − β²/(4ρ) (dimensionless)"),
-        ..curves(&first, "", Span::UntilSteady, above)
-    };
+    let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
     let drawn = [
         (
             "figure-2",
             "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.",
-            energy(&first, Span::Figure),
+            energy(&first, false),
         ),
         ("figure-3", "Figure 3: displacement of the free end, θ_A = 0.", displacement(&first)),
         ("figure-4", "Figure 4: rotation of the free end, θ_A = 0.", rotation(&first)),
@@ -64,25 +61,20 @@ fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figur
         (
             "figure-7-energy",
             "Figure 7, left: the energy beyond buckling, until steady; the line is β²/(4ρ), which the bent beam falls below.",
-            energy(&third, Span::UntilSteady),
+            energy(&third, true),
         ),
         (
             "figure-7-tip",
             "Figure 7, right: displacement and rotation of the free end beyond buckling, until steady: the beam comes to rest bent.",
             tip(&third),
         ),
-        ("decay", "Energy above that of the straight beam until each run is steady, θ_A = 0.", decay),
+        (
+            "decay",
+            "Energy above that of the straight beam until each run is steady, θ_A = 0.",
+            curves(&first, decay, true, above),
+        ),
     ];
     beam.into_iter().chain(drawn.map(|(what, caption, history)| over_time(id, what, caption, &history))).collect()
-}
-
-/// How much of the runs a figure shows.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Span {
-    /// The scene's t_end, as in the paper.
-    Figure,
-    /// All of it.
-    UntilSteady,
 }
 
 fn beta_label(experiment: &Experiment) -> String {
@@ -90,51 +82,54 @@ fn beta_label(experiment: &Experiment) -> String {
     format!("β = {}", experiment.scene.beam.beta).replace('-', "−")
 }
 
-/// One curve for each run, over the figures' span or until the runs are steady.
-fn series(runs: &Each<'_>, span: Span, value: impl Fn(&Experiment, &CurvePoint) -> f64) -> Vec<plots::Series> {
-    let curve = |(experiment, run): &(&Experiment, &Measured)| {
-        let scene = &experiment.scene;
-        let end = if span == Span::Figure { scene.t_end + 0.5 * scene.dt() } else { f64::INFINITY };
-        let shown = run.points.iter().filter(|point| point.t <= end);
-        plots::Series {
-            label: beta_label(experiment),
-            points: shown.map(|point| (point.t, value(experiment, point))).collect(),
-        }
-    };
-    runs.iter().map(curve).collect()
-}
-
 fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
     figures::obstacle_lines(runs.first().and_then(|(experiment, _)| experiment.scene.obstacles))
 }
 
-/// Curves over the figures' span or until the runs are steady, each with the look of its scene.
-fn curves(runs: &Each<'_>, label: &str, span: Span, value: impl Fn(&Experiment, &CurvePoint) -> f64) -> plots::History {
+/// A curve for each run, with the look of its scene.
+///
+/// * `until_steady`: whether all of it is shown; else up to the scene's t_end, as in the paper.
+fn curves(
+    runs: &Each<'_>,
+    y: plots::Axis,
+    until_steady: bool,
+    value: impl Fn(&Experiment, &CurvePoint) -> f64,
+) -> plots::History {
+    let curve = |(experiment, run): &(&Experiment, &Measured)| {
+        let scene = &experiment.scene;
+        let end = if until_steady { f64::INFINITY } else { scene.t_end + 0.5 * scene.dt() };
+        let shown = run.points.iter().filter(|point| point.t <= end);
+        let points = shown.map(|point| (point.t, value(experiment, point))).collect();
+        plots::Series { label: beta_label(experiment), points }
+    };
     plots::History {
-        y: plots::Axis::linear(label),
-        series: series(runs, span, value),
+        y,
+        series: runs.iter().map(curve).collect(),
         looks: figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name)),
         ..plots::History::default()
     }
 }
 
-fn energy(runs: &Each<'_>, span: Span) -> plots::History {
+fn energy(runs: &Each<'_>, until_steady: bool) -> plots::History {
     let limit = |(e, _): &(&Experiment, &Measured)| {
         let value = straight_energy(&e.scene);
         let label = format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
         plots::Guide { label, value }
     };
-    let guides = runs.iter().map(limit).collect();
-    plots::History { guides, ..curves(runs, "energy E (dimensionless)", span, |_, point| point.energy) }
+    let y = plots::Axis::linear("energy E (dimensionless)");
+    plots::History {
+        guides: runs.iter().map(limit).collect(),
+        ..curves(runs, y, until_steady, |_, point| point.energy)
+    }
 }
 
 fn displacement(runs: &Each<'_>) -> plots::History {
-    let label = "tip displacement u(1, t) (dimensionless)";
-    plots::History { guides: obstacles(runs), ..curves(runs, label, Span::Figure, |_, point| point.u_tip) }
+    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+    plots::History { guides: obstacles(runs), ..curves(runs, y, false, |_, point| point.u_tip) }
 }
 
 fn rotation(runs: &Each<'_>) -> plots::History {
-    curves(runs, "tip rotation φ(1, t) (dimensionless)", Span::Figure, |_, point| point.phi_tip)
+    curves(runs, plots::Axis::linear("tip rotation φ(1, t) (dimensionless)"), false, |_, point| point.phi_tip)
 }
 
 fn tip(runs: &Each<'_>) -> plots::History {

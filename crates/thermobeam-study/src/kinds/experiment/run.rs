@@ -3,6 +3,7 @@
 use thermobeam::simulation::Simulation;
 
 use super::{Nearest, Until};
+use crate::figures::energy_at_rest;
 use crate::kinds::prelude::*;
 use crate::kinds::steady::exact_states;
 use crate::run::simulate::driver;
@@ -78,7 +79,8 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
     let end = driver.run(usize::MAX, |step| {
         // Summed up from differences: the total's round-off would hide a slow fall.
         let change = step.simulation.energy_change(step.old, step.new);
-        log.add(&step, change);
+        log.largest_increase = max_or_nan(log.largest_increase, change);
+        log.add(step.simulation, step.new);
         fall -= change;
         if step.simulation.step() % window == 0 {
             if fall <= until.rate * until.window {
@@ -104,19 +106,14 @@ struct MotionLog<'a> {
 
 impl<'a> MotionLog<'a> {
     fn new(scene: &'a Scene, driver: &mut Driver) -> Self {
-        let mut log =
-            Self { scene, motion: vec![], largest_increase: f64::NEG_INFINITY, points: vec![], frames: vec![] };
+        let largest_increase = f64::NEG_INFINITY;
+        let mut log = Self { scene, motion: vec![], largest_increase, points: vec![], frames: vec![] };
         let (simulation, level) = driver.present();
-        log.add_level(simulation, level);
+        log.add(simulation, level);
         log
     }
 
-    fn add(&mut self, step: &Step<'_>, change: f64) {
-        self.largest_increase = max_or_nan(self.largest_increase, change);
-        self.add_level(step.simulation, step.new);
-    }
-
-    fn add_level(&mut self, simulation: &Simulation, level: &Level) {
+    fn add(&mut self, simulation: &Simulation, level: &Level) {
         let (t, step, tip) = (simulation.t(), simulation.step(), level.u.len() - 1);
         let (t_end, dt) = (self.scene.t_end, self.scene.dt());
         // Half a step of slack: n dt is not t_end to the last bit.
@@ -147,6 +144,8 @@ impl<'a> MotionLog<'a> {
         let tip = end.u.len() - 1;
         let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
         let obstacles = self.scene.obstacles.as_ref();
+        let upper = obstacles.and_then(|of| self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2).next());
+        let lower = obstacles.and_then(|of| self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1).next());
         let crossings: Vec<f64> = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0).collect();
         let count = crossings.len();
         // The start is no step.
@@ -161,10 +160,8 @@ impl<'a> MotionLog<'a> {
             largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
             states: states.len(),
             nearest: Nearest::of(&self.scene.mesh, end, &states),
-            first_upper: obstacles
-                .and_then(|of| self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2).next()),
-            first_lower: obstacles
-                .and_then(|of| self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1).next()),
+            first_upper: upper,
+            first_lower: lower,
             crossings: count,
             frequency: (count >= 2).then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0])),
             phi_amplitude: largest(1.0) + largest(-1.0),
@@ -175,8 +172,7 @@ impl<'a> MotionLog<'a> {
     }
 }
 
-/// β²/(4ρ), the energy of the straight beam at rest; NaN for the linear beam, whose energy has another constant.
+/// The energy of the straight beam at rest; NaN for the linear beam, whose energy has another constant.
 pub(super) fn straight_energy(scene: &Scene) -> f64 {
-    let beam = &scene.beam;
-    if beam.rho > 0.0 { beam.beta * beam.beta / (4.0 * beam.rho) } else { f64::NAN }
+    energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
 }

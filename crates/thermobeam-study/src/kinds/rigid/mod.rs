@@ -28,7 +28,7 @@ use thermobeam::contraction::contact_contraction;
 use thermobeam::error::StepError;
 
 use super::prelude::*;
-use super::steady::{at_resolution, listed_scene, settle};
+use super::steady::{listed_scene, settle, tolerance};
 use crate::run::simulate::driver;
 
 /// The row of the table of kinds.
@@ -114,9 +114,8 @@ impl FromFile for RigidStudy {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
         let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
-        let allowed = "a number > 0 and < 0.5";
-        let tolerance = obstacles.require("tolerance", allowed)?;
-        let judge = Judge::new(tolerance.number()?).map_err(|_| tolerance.refuse_as_written(allowed))?;
+        let judge = Judge::new(tolerance(&obstacles)?);
+        let judge = judge.map_err(|error| obstacles.refuse("tolerance", error.to_string(), "a tolerance"))?;
         let moving = root.table("moving", &["scene", "elements", "dt", "t_end", "max_iterations"])?;
         let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
         let impact = root.table("impact", &["scene", "steps"])?;
@@ -148,14 +147,14 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
     let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
     let field = section.require("elements", "a whole number >= 1")?;
     let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
-    let dt = section.require("dt", "a number")?;
+    let (dt, of_dt) = (section.positive("dt")?, section.require("dt", "a number")?);
     // The moving beam's tip is kept at every step.
-    limits::steps_until(&dt, scene.t_end, section.positive("dt")?, limits::RECORDED_STEPS)?;
+    limits::steps_until(&of_dt, scene.t_end, dt, limits::RECORDED_STEPS)?;
     if section.get("t_max").is_some() {
-        limits::steps_until(&dt, section.positive("t_max")?, section.positive("dt")?, limits::STEPS)?;
+        limits::steps_until(&of_dt, section.positive("t_max")?, dt, limits::STEPS)?;
     }
-    at_resolution(&scene, tables::elements(&field)?, section.positive("dt")?)
-        .map_err(|error| field.refuse(error.to_string(), "a mesh"))
+    let mesh = Mesh::uniform(tables::elements(&field)?).map_err(|error| field.refuse(error.to_string(), "a mesh"))?;
+    Ok(scene.at(mesh, dt))
 }
 
 /// The scene of the impact, whose free end must start on the upper obstacle and move into it.
@@ -205,8 +204,8 @@ impl Kind for RigidStudy {
             RunOf::RigidLimit | RunOf::Bouncing => bouncing(&with_compliance(&self.moving), epsilon),
             RunOf::FixedPoint => fixed_point(&with_compliance(&self.moving), self.max_iterations),
             RunOf::Rest => {
-                let rest = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
-                Ok(ShownImpact::of_force(rest.level.contact_force.abs(), epsilon, ShownImpact::default()))
+                let (_, level) = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
+                Ok(ShownImpact::of_force(level.contact_force.abs(), epsilon, ShownImpact::default()))
             }
             RunOf::Impact => {
                 let scene = with_compliance(&self.impact);

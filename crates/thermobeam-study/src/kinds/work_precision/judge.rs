@@ -171,7 +171,7 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
             )];
         }
     };
-    let rms = law.misfit;
+    let rms = law.fit.rms;
     let undercut = law.undercut(&row.points);
     let allowed = (UNDERCUT * misfit * law.exponent()).exp();
     vec![
@@ -248,11 +248,11 @@ fn laws(rows: &[MethodRow]) -> Table {
         let path = law.as_ref().map(|law| law.best(1e-4));
         let path = path.map_or_else(Clone::clone, |[h, dt]| format!("h = {h:.2e}, dt = {dt:.2e}"));
         let cells = vec![
-            number("C_h", |law| law.c_h).scientific(3),
-            number("p", |law| law.p).fixed(3),
-            number("C_t", |law| law.c_t).scientific(3),
-            number("q", |law| law.q).fixed(3),
-            number("misfit", |law| law.misfit).fixed(3),
+            number("C_h", |law| law.fit.c_h).scientific(3),
+            number("p", |law| law.fit.p).fixed(3),
+            number("C_t", |law| law.fit.c_t).scientific(3),
+            number("q", |law| law.fit.q).fixed(3),
+            number("misfit", |law| law.fit.rms).fixed(3),
             number("cost ~ E^-b", CostLaw::exponent).fixed(2),
             Reading::text("best path at E = 1e-4", path),
             Reading::new("solves a step", row.solves_per_step()).fixed(2),

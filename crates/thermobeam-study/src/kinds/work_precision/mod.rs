@@ -2,7 +2,7 @@
 //!
 //! Every one-step method runs over the same grid of elements and steps; dG(q) with the degrees and steps that the file lists. Errors
 //! are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation that all runs share;
-//! those of dG are of its values at the nodes of a mesh finer than all others. From a grid follow the fitted [`law::CostLaw`], the best
+//! those of dG are of its values at the nodes of a mesh finer than all others. From a grid follow the fitted law ([`law`]), the best
 //! path dt(h), and the cost of an error E; of dG the cheapest run with that error counts. Costs are counted, not timed, so
 //! that a report is the same on every machine and at every time; [`timing`](crate::timing) measures the seconds.
 //!
@@ -31,7 +31,6 @@ mod file;
 mod judge;
 pub mod law;
 pub mod method;
-pub mod surface;
 
 use std::sync::OnceLock;
 

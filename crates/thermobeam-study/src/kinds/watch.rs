@@ -4,7 +4,7 @@ use convergence_study::text::number::short_text;
 use thermobeam::energy::{Balance, Rounding};
 
 use super::prelude::*;
-use crate::run::ensemble::EnsembleDriver;
+use crate::run::together::EnsembleDriver;
 
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
 pub(super) const SOLVED: f64 = 1e-14;

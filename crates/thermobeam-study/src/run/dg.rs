@@ -7,7 +7,7 @@ use thermobeam::dg::{self, ContactEvent, Field, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Obstacles;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
 use super::error::RunError;
@@ -20,7 +20,7 @@ const ROWS: usize = 4000;
 /// Points of a frame by dG.
 const POINTS: usize = 141;
 
-/// A scene by dG.
+/// A problem by dG.
 pub(crate) struct DgMotion {
     simulation: dg::Simulation,
     theta_a: f64,
@@ -37,14 +37,19 @@ impl DgMotion {
     /// [`SetupError`] where the solver refuses the scene's numbers.
     pub(crate) fn new(scene: &Scene, stepping: dg::Stepping) -> Result<Self, SetupError> {
         let simulation = dg::Simulation::new(scene.dg_problem(), stepping)?;
-        Ok(Self {
+        Ok(Self::of(simulation, &scene.beam, scene.obstacles, stepping))
+    }
+
+    /// A simulation under way.
+    pub(crate) fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
+        Self {
             level: simulation.level().clone(),
-            patience: Patience::new(simulation.space().blocks() * (stepping.degree + 1)),
+            patience: Patience::new(simulation.space().blocks() * (by.degree + 1)),
             simulation,
-            theta_a: scene.beam.theta_a,
-            obstacles: scene.obstacles,
+            theta_a: beam.theta_a,
+            obstacles,
             wall: Duration::ZERO,
-        })
+        }
     }
 
     /// The simulation.

@@ -37,7 +37,7 @@ pub(crate) struct Driver {
     old: Level,
     /// The last level that was shown.
     new: Level,
-    sampler: Sampler,
+    middle: Middle,
     patience: Patience,
     wall: Duration,
     is_timed: bool,
@@ -52,8 +52,8 @@ impl Driver {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
-        let sampler = Sampler::new(&simulation.problem().mesh);
-        Ok(Self { simulation, old, new, sampler, patience, wall: Duration::ZERO, is_timed: false })
+        let middle = Middle::of(&simulation.problem().mesh);
+        Ok(Self { simulation, old, new, middle, patience, wall: Duration::ZERO, is_timed: false })
     }
 
     /// Reads the clock before and after each step, which takes some 50 ns.
@@ -68,8 +68,7 @@ impl Driver {
 
     /// The present level.
     pub(crate) fn level(&mut self) -> &Level {
-        self.simulation.observe(&mut self.new);
-        &self.new
+        self.present().1
     }
 
     /// The simulation and its present level.
@@ -186,7 +185,12 @@ impl Motion for Driver {
     }
 
     fn at(&mut self, _: f64) -> Sample {
-        self.sampler.sample(&self.simulation, &self.new)
+        let (simulation, level) = (&self.simulation, &self.new);
+        let Problem { beam, obstacles, .. } = simulation.problem();
+        let energy = simulation.energy(level).total();
+        let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
+        // No step has led to the start, so that its contact force is that of the law.
+        if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
 
     fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64)) {
@@ -261,26 +265,6 @@ impl Middle {
 
     fn value(self, y: &[f64]) -> f64 {
         (1.0 - self.fraction) * y[self.node] + self.fraction * y[self.node + 1]
-    }
-}
-
-/// Reads samples off the levels of a simulation by a one-step scheme.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sampler {
-    middle: Middle,
-}
-
-impl Sampler {
-    pub(crate) fn new(mesh: &Mesh) -> Self {
-        Self { middle: Middle::of(mesh) }
-    }
-
-    pub(crate) fn sample(self, simulation: &Simulation, level: &Level) -> Sample {
-        let Problem { beam, obstacles, .. } = simulation.problem();
-        let energy = simulation.energy(level).total();
-        let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
-        // No step has led to the start, so that its contact force is that of the law.
-        if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
 }
 

@@ -9,13 +9,15 @@ use crate::exact::any_order::{self, ManufacturedLoad};
 use crate::exact::factors::Factors;
 use crate::exact::solution::Manufactured;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::rerun::resampled;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::study::CaseFailure;
 use thermobeam::dg;
-use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::error::SetupError;
+use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Problem, Stepping};
@@ -97,27 +99,15 @@ impl Family {
         }
     }
 
-    /// The mesh of so many elements, graded as the scene's.
-    ///
-    /// # Errors
-    /// [`MeshError`] for no elements.
-    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        match &self.grading {
-            None => Mesh::uniform(elements),
-            Some(grading) => resampled(grading, elements),
-        }
-    }
-
     /// The problem on elements of any degree, by dG, at t = 0.
     ///
     /// # Errors
-    /// [`CaseFailure`] where the solver refuses the numbers.
-    pub fn dg(&self, mesh: Mesh, degree: usize, stepping: dg::Stepping) -> Result<dg::Simulation, CaseFailure> {
+    /// [`SetupError`] where the solver refuses the numbers.
+    pub(crate) fn dg(&self, mesh: Mesh, degree: usize, stepping: dg::Stepping) -> Result<DgMotion, SetupError> {
         let Self { beam, obstacles, .. } = *self;
         let exact = match &self.start {
             Start::Scene(scene) => {
-                let problem = Scene { mesh, degree, ..Scene::clone(scene) }.dg_problem();
-                return Ok(dg::Simulation::new(problem, stepping)?);
+                return DgMotion::new(&Scene { mesh, degree, ..Scene::clone(scene) }, stepping);
             }
             Start::Exact(exact) => exact,
         };
@@ -125,18 +115,22 @@ impl Family {
         let load = |space: &dg::Space| -> Box<dyn dg::Load> {
             Box::new(ManufacturedLoad::new(exact, &beam, obstacles, space))
         };
-        Ok(match self.loaded {
-            true => dg::Simulation::with_load(problem, stepping, load)?,
-            false => dg::Simulation::new(problem, stepping)?,
-        })
+        let simulation = match self.loaded {
+            true => dg::Simulation::with_load(problem, stepping, load),
+            false => dg::Simulation::new(problem, stepping),
+        }?;
+        Ok(DgMotion::of(simulation, &beam, obstacles, stepping))
     }
 
-    /// The problem on a mesh.
+    /// The problem on a mesh of so many elements, graded as the scene's.
     ///
     /// # Errors
     /// [`CaseFailure`] where there is no such mesh.
     pub fn on(&self, elements: usize) -> Result<OnMesh<'_>, CaseFailure> {
-        let mesh = self.mesh(elements)?;
+        let mesh = match &self.grading {
+            None => Mesh::uniform(elements),
+            Some(grading) => resampled(grading, elements),
+        }?;
         let (initial, sources) = match &self.start {
             Start::Scene(scene) => (simulate::initial(scene, &mesh), None),
             Start::Exact(exact) => {
@@ -214,11 +208,6 @@ impl FamilyRun<'_> {
     /// The present time.
     pub fn t(&self) -> f64 {
         self.driver.simulation().t()
-    }
-
-    /// Length of each element.
-    pub fn lengths(&self) -> &[f64] {
-        self.driver.simulation().lengths()
     }
 
     /// What it has cost so far.

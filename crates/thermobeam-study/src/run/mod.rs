@@ -2,7 +2,6 @@
 
 pub(crate) mod dg;
 pub mod driver;
-pub(crate) mod ensemble;
 pub mod error;
 pub mod family;
 pub mod history;

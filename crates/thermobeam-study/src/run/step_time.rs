@@ -14,8 +14,8 @@ use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Start, Work};
 
 use crate::run::driver::Driver;
-use crate::run::ensemble::EnsembleDriver;
 use crate::run::simulate;
+use crate::run::together::EnsembleDriver;
 use crate::scene::Scene;
 
 /// Elements times steps of one timed run: some ten milliseconds.

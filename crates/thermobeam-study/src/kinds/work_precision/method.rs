@@ -4,13 +4,12 @@
 //! has it. The unit is the node-solve of `midpoint`, of two 3 x 3 blocks a row. A solve of dG(q) on so many blocks has 3 (q + 1)
 //! unknowns a block and costs (q + 1)² as much for each; a factorisation counts as 3 (q + 1) solves.
 
-use std::time::Instant;
-
 use thermobeam::dg;
 
 use crate::error::levels::combine;
 use crate::kinds::prelude::*;
 use crate::run::family::{Family, OnMesh, Spent};
+use crate::run::motion::Motion;
 
 /// A way to the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -153,23 +152,17 @@ impl Degrees {
             growth: 1.0 + 0.5 * dt / COARSE,
             ..dg::Stepping::default()
         };
-        let mut simulation = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
+        let mut motion = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
         let time = |k: usize| if k == times { family.t_end } else { family.t_end * k as f64 / times as f64 };
-        let (mut level, mut shown, mut seconds) = (simulation.level().clone(), 0, 0.0);
-        let mut patience = Patience::new(simulation.space().blocks() * (q + 1));
-        loop {
-            patience.check(simulation.work().steps, || simulation.t())?;
-            let started = Instant::now();
-            let step = simulation.step(family.t_end)?;
-            seconds += started.elapsed().as_secs_f64();
-            if step.is_none() {
-                break;
-            }
+        let (mut level, mut shown) = (motion.simulation().level().clone(), 0);
+        while motion.step(family.t_end)?.is_some() {
+            let simulation = motion.simulation();
             while shown < times && simulation.level_into(time(shown + 1), &mut level) {
                 observe(simulation.space(), &level, shown);
                 shown += 1;
             }
         }
+        let (simulation, seconds) = (motion.simulation(), motion.wall().as_secs_f64());
         let (stages, work) = ((q + 1) as f64, simulation.work());
         let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
         let weight = simulation.space().blocks() as f64 * stages * stages;

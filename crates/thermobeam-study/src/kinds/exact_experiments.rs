@@ -155,9 +155,9 @@ impl Kind for ExactExperiments {
             readings::not_finite(&shown.states.iter().flat_map(numbers).chain([tip]).collect::<Vec<_>>())
         })];
         checks.extend(scenes.iter().flat_map(|scene| scene.checks(self.agreement)));
-        let worst = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
+        let [worst, own] =
+            [OfScene::difference, OfScene::own_error].map(|of| scenes.iter().map(of).fold(0.0, max_or_nan));
         let agreement = format!("two discretisations agree within {worst:.1e}");
-        let own = scenes.iter().map(OfScene::own_error).fold(0.0, max_or_nan);
         let own = format!("; the scenes' own schemes at their resolution are off by up to {own:.1e} in u(1, t)");
         let values: Vec<_> = scenes.iter().flat_map(OfScene::values).collect();
         let title = "The free end and the energy, to the digits on which two discretisations agree";
@@ -197,14 +197,11 @@ impl ExactExperiments {
 
     /// The two discretisations, and the steps that they have taken.
     fn how(&self, scenes: &[OfScene<'_>]) -> Table {
-        let row = |(k, how): (usize, &Discretisation)| {
-            let steps =
-                |scene: &OfScene<'_>| scene.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string());
-            let stepping = how.stepping;
-            let counts = [how.elements, how.degree, stepping.degree].map(|count| count.to_string());
+        let row = |(k, Discretisation { elements, degree, stepping }): (usize, &Discretisation)| {
+            let steps = scenes.iter().map(|of| of.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string()));
+            let counts = [*elements, *degree, stepping.degree].map(|count| count.to_string());
             let numbers = [stepping.dt, stepping.restart_dt, stepping.growth].map(|number| format!("{number:?}"));
-            let steps = scenes.iter().map(steps).collect::<Vec<_>>().join(", ");
-            counts.into_iter().chain(numbers).chain([steps]).collect()
+            counts.into_iter().chain(numbers).chain([steps.collect::<Vec<_>>().join(", ")]).collect()
         };
         let head = ["elements", "degree p", "degree q", "largest step", "first step", "growth", "steps of each scene"];
         Table::new("The two discretisations", head, self.discretisations.iter().enumerate().map(row))
@@ -312,11 +309,10 @@ impl<'r> OfScene<'r> {
     }
 
     fn balance(&self) -> Check {
-        let fold = |i: usize| {
+        let [residual, increase] = [0, 1].map(|i| {
             let values = self.any_order.iter().map(|shown| shown.map_or(f64::NAN, |shown| shown.balance[i]));
             values.fold(f64::NEG_INFINITY, max_or_nan)
-        };
-        let (residual, increase) = (fold(0), fold(1));
+        });
         Check::that(
             residual <= CLOSED && increase <= 0.0,
             format!("{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0", self.name),
@@ -364,12 +360,12 @@ impl<'r> OfScene<'r> {
 }
 
 fn events(scenes: &[OfScene<'_>]) -> Table {
-    let row = |scene: &OfScene<'_>, event: &ContactEvent| {
-        let [from, to] = [event.from, event.to].map(phase_name);
-        vec![scene.name.to_owned(), format!("{:.10}", event.t), format!("{from} to {to}")]
-    };
     let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
-        scene.any_order[0].iter().flat_map(|shown| &shown.events).map(|event| row(scene, event)).collect()
+        let row = |event: &ContactEvent| {
+            let [from, to] = [event.from, event.to].map(phase_name);
+            vec![scene.name.to_owned(), format!("{:.10}", event.t), format!("{from} to {to}")]
+        };
+        scene.any_order[0].iter().flat_map(|shown| &shown.events).map(row).collect()
     };
     Table::new("Contact events", ["scene", "t", "free end"], scenes.iter().flat_map(of_scene))
 }

@@ -33,9 +33,9 @@ use crate::predict::estimate::estimate;
 use crate::predict::{Unreachable, Work};
 use crate::run::motion::Sample;
 use crate::run::simulate::{Recording, Run, Simulator};
-use crate::run::tally::{EnergySummary, Extremes};
+use crate::run::tally::Extremes;
 use crate::run::together::run_together;
-use crate::scene::{self};
+use crate::scene;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -166,9 +166,9 @@ fn numbers_of(section: &Section<'_>) -> Result<(Expected, f64), InputError> {
     let numbers = NUMBERS.into_iter().chain(PREDICTED).filter_map(number);
     let mut answer = numbers.collect::<Result<Expected, InputError>>()?;
     for (key, named) in PAIRS {
-        answer.extend(
-            section.get(key).map(|field| pairs(&field)).transpose()?.map(|pairs| named(&pairs)).unwrap_or_default(),
-        );
+        if let Some(field) = section.get(key) {
+            answer.extend(named(&pairs(&field)?));
+        }
     }
     if answer.is_empty() {
         return Err(section.missing(NUMBERS[0], "at least one number of the answer"));
@@ -348,11 +348,14 @@ impl Shown {
             None => End::Answer,
             Some(failure) => End::of_run(failure).ok_or_else(|| failure.clone())?,
         };
-        let Run { last, extremes, energy, iterations, work, .. } = run;
+        let Run { last, iterations, work, .. } = run;
+        let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, .. } = *last;
+        let Extremes { u_tip_min, u_tip_max } = run.extremes;
+        let rise = run.energy.largest_increase;
         let contact = run.contact.as_ref().map_or(run.contact_steps, |contact| contact.events.len());
         Ok(Self {
             end,
-            numbers: numbers(last, extremes, energy),
+            numbers: [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, u_tip_min, u_tip_max, rise],
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
             alike_in_lanes: None,
             tip: run.tip(),
@@ -360,11 +363,4 @@ impl Shown {
             others: vec![],
         })
     }
-}
-
-/// What a run of any scheme shows, in the order of [`NUMBERS`].
-fn numbers(last: &Sample, extremes: &Extremes, energy: &EnergySummary) -> [f64; NUMBERS.len()] {
-    let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy: end, .. } = *last;
-    let Extremes { u_tip_min, u_tip_max } = *extremes;
-    [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, end, u_tip_min, u_tip_max, energy.largest_increase]
 }

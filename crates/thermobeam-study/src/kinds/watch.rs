@@ -25,10 +25,14 @@ pub struct Worst {
     pub risen: f64,
 }
 
-impl Worst {
+impl Default for Worst {
     /// Of no step.
-    pub const NONE: Self = Self { residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0 };
+    fn default() -> Self {
+        Self { residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0 }
+    }
+}
 
+impl Worst {
     /// The worse of the two in each number.
     pub fn max(self, other: Self) -> Self {
         Self {
@@ -68,7 +72,7 @@ pub(super) struct EnergyWatch {
 impl EnergyWatch {
     /// From a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
-        Self { scale, worst: Worst::NONE, drift: 0.0 }
+        Self { scale, worst: Worst::default(), drift: 0.0 }
     }
 
     /// Takes in a step; `rounding` is asked for only where it matters.
@@ -78,7 +82,7 @@ impl EnergyWatch {
         let (residual, change) = (balance.residual.abs(), balance.change);
         let bound = CLOSED * scale;
         let mut step =
-            Worst { residual: residual / scale, rise: change / scale, open: residual / bound, ..Worst::NONE };
+            Worst { residual: residual / scale, rise: change / scale, open: residual / bound, ..Worst::default() };
         self.drift += balance.residual / scale;
         if !(residual <= bound && change <= 0.0) {
             let rounding = rounding().total();

@@ -35,12 +35,11 @@
 //! t_end = 10.0
 //! ```
 
-pub(crate) mod functions;
 pub(crate) mod limits;
 mod method;
 pub(crate) mod tables;
 
-use crate::scene::functions::FunctionField;
+use crate::scene::tables::FunctionField;
 use std::path::Path;
 
 use thermobeam::dg;

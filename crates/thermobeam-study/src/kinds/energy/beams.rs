@@ -2,11 +2,9 @@
 //!
 //! The same seed gives the same beam on every machine.
 
-use convergence_study::judge::random::SplitMix;
 use std::f64::consts::PI;
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::simulation::{Initial, Problem};
+
+use crate::kinds::prelude::*;
 
 /// Modes of the initial data.
 const MODES: usize = 4;

@@ -77,9 +77,10 @@ pub(in crate::kinds) fn named_cases<C>(
 }
 
 /// How a run ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum End {
     /// After its last step.
+    #[default]
     Answer,
     /// At a step whose operator is not definite.
     Indefinite,

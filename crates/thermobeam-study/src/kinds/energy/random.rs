@@ -47,7 +47,7 @@ pub struct RandomScenes {
 }
 
 /// What a batch finds, or several together.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
     /// Numbers of scenes by their ends, in the order of [`End::ALL`].
     pub ends: [usize; End::ALL.len()],
@@ -98,7 +98,7 @@ impl Kind for RandomScenes {
 
     /// The scenes in lanes, each to its end.
     fn run(&self, &number: &usize) -> Result<Batch, CaseFailure> {
-        let mut batch = Batch::NONE;
+        let mut batch = Batch::default();
         for group in 0..GROUPS {
             self.run_group(number, group, &mut batch)?;
         }
@@ -109,7 +109,7 @@ impl Kind for RandomScenes {
     }
 
     fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
-        let total = ran.iter().filter_map(Ran::ok).fold(Batch::NONE, Batch::with);
+        let total = ran.iter().filter_map(Ran::ok).fold(Batch::default(), Batch::with);
         let scenes = self.batches * BATCH;
         let Batch { ends, steps, exceptions, worst, .. } = &total;
         let mut checks = vec![completion(ran, |batch| not_finite(&batch.worst.named()))];
@@ -206,18 +206,6 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
 }
 
 impl Batch {
-    /// Of no scene.
-    const NONE: Self = Self {
-        ends: [0; End::ALL.len()],
-        refused: 0,
-        steps: 0,
-        not_finite_levels: 0,
-        worst: Worst::NONE,
-        exceptions: 0,
-        largest: vec![],
-        scenes: vec![],
-    };
-
     /// Both together.
     fn with(mut self, other: &Self) -> Self {
         self.ends.iter_mut().zip(other.ends).for_each(|(count, more)| *count += more);

@@ -35,7 +35,7 @@ use crate::figures::looks;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{mapped_mesh, mesh_map};
 use crate::kinds::watch::{EnergyWatch, SOLVED, of_allowed};
-use crate::scene::{self};
+use crate::scene;
 
 /// Samples of a run, about.
 const SAMPLES: usize = 400;
@@ -79,7 +79,7 @@ struct EnergyRun {
 }
 
 /// What a run finds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
     /// How it ended.
     pub end: End,
@@ -226,7 +226,8 @@ impl Kind for EnergyRuns {
         checks.extend(found.iter().map(|(run, found)| run.check(found)));
         let holding = checks.iter().skip(1).filter(|check| check.verdict == Verdict::Pass).count();
         let steps: usize = found.iter().map(|(_, found)| found.steps).sum();
-        let Worst { residual, rise, .. } = found.iter().fold(Worst::NONE, |worst, (_, found)| worst.max(found.worst));
+        let Worst { residual, rise, .. } =
+            found.iter().fold(Worst::default(), |worst, (_, found)| worst.max(found.worst));
         let share = of_allowed(found.iter().map(|(run, found)| run.share_of(found)).fold(0.0, max_or_nan));
         let headline = format!("largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}");
         let summary = format!("{holding} of {} runs hold, {steps} steps: {headline}; at most {share}", self.runs.len());
@@ -329,18 +330,11 @@ impl EnergyLog {
     fn new(driver: &mut Driver, last: usize) -> Self {
         let (simulation, level) = driver.present();
         let watch = EnergyWatch::new(simulation.energy_scale(level));
-        let energy = simulation.energy(level);
-        let start = EnergyAt { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
-        let found = Found {
-            end: End::Answer,
-            steps: 0,
-            contact_steps: 0,
-            most_iterations: 0,
-            initial_energy: size(&energy),
-            worst: watch.worst,
-            drift: 0.0,
-            samples: vec![start],
-        };
+        let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = simulation.energy(level);
+        let initial_energy = kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
+        let energy = simulation.energy(level).total();
+        let start = EnergyAt { step: 0, t: simulation.t(), energy, residual: 0.0, drift: 0.0 };
+        let found = Found { initial_energy, samples: vec![start], ..Found::default() };
         Self { watch, last, every: last.div_ceil(SAMPLES), peak: 0.0, found }
     }
 
@@ -362,12 +356,6 @@ impl EnergyLog {
             self.peak = 0.0;
         }
     }
-}
-
-/// The size of an energy: its terms without their signs.
-fn size(energy: &Energy) -> f64 {
-    let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
-    kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs()
 }
 
 impl EnergyRuns {

@@ -4,8 +4,7 @@ use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::text::number::rate_text;
 
-use super::theory::peak_penetration;
-use super::{RigidStudy, RunOf, ShownImpact};
+use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
 use crate::figures::{contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use crate::expression::Variable;
 use crate::kinds::prelude::*;
-use crate::scene::functions::FunctionField;
+use crate::scene::tables::FunctionField;
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;

@@ -4,7 +4,7 @@ use convergence_study::study::until_decided;
 
 use crate::expression::Variable;
 use crate::kinds::prelude::*;
-use crate::scene::functions::FunctionField;
+use crate::scene::tables::FunctionField;
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]

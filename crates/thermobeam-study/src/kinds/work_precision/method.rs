@@ -6,6 +6,7 @@
 
 use thermobeam::dg;
 
+use crate::error::evaluator::Evaluator;
 use crate::error::levels::combine;
 use crate::kinds::prelude::*;
 use crate::run::family::{Family, OnMesh, Spent};
@@ -53,9 +54,6 @@ pub struct Measurement {
     pub spent: Spent,
 }
 
-/// The errors of a level at a time, which is observation number `index` from 0.
-pub(super) type Meter<'a> = dyn FnMut(&Level, usize, f64) -> [f64; 3] + 'a;
-
 /// The larger of two errors each, NaN if there is one.
 pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| max_or_nan(errors[k], found[k]))
@@ -74,7 +72,7 @@ impl OneStep {
     pub(super) fn run(
         &self,
         on: &OnMesh<'_>,
-        meter: &mut Meter<'_>,
+        evaluator: &mut Evaluator<'_>,
         [steps, observations]: [usize; 2],
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
@@ -86,10 +84,10 @@ impl OneStep {
             run.advance(steps / observations)?;
             let t = run.t();
             let found = match &mut half {
-                None => meter(run.level(), index, t),
+                None => evaluator.measure(run.level(), index, t),
                 Some(half) => {
                     half.advance(2 * steps / observations)?;
-                    meter(&combine(half.level(), run.level(), 2.0), index, t)
+                    evaluator.measure(&combine(half.level(), run.level(), 2.0), index, t)
                 }
             };
             errors = worst(errors, found);

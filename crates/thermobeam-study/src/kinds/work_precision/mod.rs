@@ -40,7 +40,7 @@ use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
 use crate::run::dg::nodal;
 use crate::run::family::{Family, OnMesh};
-use method::{Degrees, GRADED, METHODS, Measurement, Meter, NamedMethod, OneStep, REFERENCE, worst};
+use method::{Degrees, GRADED, METHODS, Measurement, NamedMethod, OneStep, REFERENCE, worst};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -170,12 +170,11 @@ impl WorkPrecision {
     }
 
     /// Measures levels on a mesh.
-    fn meter(&self, on: &OnMesh<'_>) -> Result<Box<Meter<'_>>, CaseFailure> {
+    fn evaluator(&self, on: &OnMesh<'_>) -> Result<Evaluator<'_>, CaseFailure> {
         let reference = match &self.answer {
             Yardstick::Tip(computed) => {
                 let tip = computed.get_or_init(|| self.exact_tip()).as_ref().map_err(Clone::clone)?;
-                let error = move |level: &Level, index: usize| (level.u[level.u.len() - 1] - tip[index]).abs();
-                return Ok(Box::new(move |level, index, _| [f64::NAN, f64::NAN, error(level, index)]));
+                return Ok(Evaluator::of_tip(tip));
             }
             Yardstick::Agreed { scene, by, agreement, computed } => {
                 let computed = computed.get_or_init(|| self.agreed(scene, by, *agreement));
@@ -183,8 +182,7 @@ impl WorkPrecision {
             }
             Yardstick::Exact => None,
         };
-        let mut evaluator = Evaluator::new(&self.family, on, reference)?;
-        Ok(Box::new(move |level, index, t| evaluator.measure(level, index, t)))
+        Evaluator::new(&self.family, on, reference)
     }
 
     pub(crate) fn measure(&self, runs: Runs) -> Result<Vec<Measurement>, CaseFailure> {
@@ -192,16 +190,17 @@ impl WorkPrecision {
         match runs {
             Runs::OnMesh(_, scheme, elements) => {
                 let on = self.family.on(elements)?;
-                let mut meter = self.meter(&on)?;
-                let mut run = |&steps: &usize| scheme.run(&on, &mut meter, [steps, times], self.tolerance);
+                let mut evaluator = self.evaluator(&on)?;
+                let mut run = |&steps: &usize| scheme.run(&on, &mut evaluator, [steps, times], self.tolerance);
                 self.steps_on(elements).iter().map(&mut run).collect()
             }
             Runs::Dg(degrees) => {
                 let finest = self.elements.last().copied().unwrap_or(1);
                 let on = self.family.on(if self.diagonal.is_some() { 1 } else { FINER * finest })?;
-                let (mut meter, mut errors) = (self.meter(&on)?, [0.0; 3]);
+                let (mut evaluator, mut errors) = (self.evaluator(&on)?, [0.0; 3]);
                 let spent = degrees.run(&self.family, &GRADED, times, &mut |space, level, index| {
-                    let [_, nodal, tip] = meter(&nodal(space, level, on.mesh().nodes()), index, level.t);
+                    let level_on = nodal(space, level, on.mesh().nodes());
+                    let [_, nodal, tip] = evaluator.measure(&level_on, index, level.t);
                     errors = worst(errors, [nodal, nodal, tip]);
                 })?;
                 Ok(vec![Measurement { errors, spent }])

@@ -1,7 +1,7 @@
 //! Whole scenes, read and run as `run` does it, against the answers of an independent implementation.
 //!
-//! Studies of orders take loads and initial data from an exact solution; what a scene says beside them, from its initial rotation
-//! to its stopping criterion, is tested here. The work of a run is guarded too: a factorisation in every step changes no result.
+//! Studies of orders take loads and initial data from an exact solution; everything else that a scene says, from its initial rotation
+//! to its stopping criterion, is tested here. The work of a run is guarded as well.
 //!
 //! ```toml
 //! [[case]]
@@ -343,18 +343,14 @@ impl Shown {
         (self.end, bits(self), self.counts) == (other.end, bits(other), other.counts)
     }
 
-    fn of(run: &Run) -> Result<Self, CaseFailure> {
-        let end = match &run.failure {
-            None => End::Answer,
-            Some(failure) => End::of_run(failure).ok_or_else(|| failure.clone())?,
-        };
+    fn of(run: &Run) -> Result<Self, RunError> {
         let Run { last, iterations, work, .. } = run;
         let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, .. } = *last;
         let Extremes { u_tip_min, u_tip_max } = run.extremes;
         let rise = run.energy.largest_increase;
         let contact = run.contact.as_ref().map_or(run.contact_steps, |contact| contact.events.len());
         Ok(Self {
-            end,
+            end: End::of(run.failure.as_ref())?,
             numbers: [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, u_tip_min, u_tip_max, rise],
             counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
             alike_in_lanes: None,

@@ -364,13 +364,6 @@ fn halved(scene: &Scene) -> Option<Scene> {
     on(scene, nodes)
 }
 
-/// One more node.
-fn split(scene: &Scene, x: f64) -> Option<Scene> {
-    let mut nodes = scene.mesh.nodes().to_vec();
-    nodes.insert(nodes.len() - 1, x);
-    on(scene, nodes)
-}
-
 fn on(scene: &Scene, nodes: Vec<f64>) -> Option<Scene> {
     let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
     Some(Scene { mesh, ..scene.clone() })
@@ -381,7 +374,9 @@ fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
     let layer = (scene.beam.zeta * apart.since).sqrt();
     let last = scene.mesh.lengths().last().unwrap_or(1.0);
     if layer < RESOLVED * last / (scene.degree * scene.degree) as f64 {
-        return split(scene, 1.0 - last / GRADING);
+        let mut nodes = scene.mesh.nodes().to_vec();
+        nodes.insert(nodes.len() - 1, 1.0 - last / GRADING);
+        return on(scene, nodes);
     }
     let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();
     let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };

@@ -112,18 +112,25 @@ impl Method {
     }
 }
 
-/// Whether `time.scheme` is `dg`.
+/// The table `[time]`: the method, and t_end.
 ///
 /// # Errors
-/// No scheme has that name: said first, since the keys of `[time]` depend on it.
-pub(super) fn is_dg(root: &Section<'_>) -> Result<bool, InputError> {
-    let Some(time) = root.section("time")? else { return Ok(false) };
+/// That no scheme has the name is said first, since the keys depend on it.
+pub(super) fn read(
+    root: &Section<'_>,
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+) -> Result<(Method, f64), InputError> {
     let names: Vec<_> = SCHEMES.iter().map(|scheme| (scheme.name, false)).chain([(DG, true)]).collect();
-    time.get("scheme").map_or(Ok(false), |field| field.choice(&names))
+    let scheme = root.section("time")?.and_then(|time| time.get("scheme"));
+    let is_dg = scheme.map_or(Ok(false), |field| field.choice(&names))?;
+    let expected = if is_dg { "a table with scheme and t_end" } else { "a table with dt and t_end" };
+    let time = root.require("time", expected)?.section()?;
+    if is_dg { dg(&time, beam, obstacles) } else { one_step(&time) }
 }
 
 /// A one-step scheme, and t_end.
-pub(super) fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
+fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
     time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
     let (dt, t_end) = time_steps(time)?;
     let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
@@ -155,7 +162,7 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
 }
 
 /// dG(q), and t_end.
-pub(super) fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<(Method, f64), InputError> {
+fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<(Method, f64), InputError> {
     time.allow(&DG_KEYS)?;
     let t_end = time.positive("t_end")?;
     let defaults = default_stepping(beam, obstacles, t_end);

@@ -127,11 +127,7 @@ impl Scene {
     /// The scene of the tables in a section, which may hold other keys besides.
     pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         let Coefficients { beam, obstacles } = Coefficients::read(root)?;
-        let is_dg = method::is_dg(root)?;
-        let expected = if is_dg { "a table with scheme and t_end" } else { "a table with dt and t_end" };
-        let time = root.require("time", expected)?.section()?;
-        let (method, t_end) =
-            if is_dg { method::dg(&time, &beam, obstacles.as_ref())? } else { method::one_step(&time)? };
+        let (method, t_end) = method::read(root, &beam, obstacles.as_ref())?;
         let mesh = mesh(root, method.default_elements())?;
         let degree = method.degree(root, &mesh)?;
         let initial = initial(root, &beam, &mesh)?;

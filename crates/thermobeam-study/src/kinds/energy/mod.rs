@@ -99,21 +99,18 @@ impl End {
         ("not-finite", End::NotFinite),
     ];
 
-    /// The end of a run at a step that failed; `None` for failures to find a contact event, which one-step schemes do not have.
-    pub fn of(failure: &StepFailure) -> Option<Self> {
+    /// The end of a run.
+    ///
+    /// # Errors
+    /// The failure, where it is none that one-step schemes have in a step.
+    pub(crate) fn of(failure: Option<&RunError>) -> Result<Self, RunError> {
+        let Some(run) = failure else { return Ok(End::Answer) };
+        let RunError::Step(StepError { failure, .. }) = run else { return Err(run.clone()) };
         match failure {
-            StepFailure::Indefinite { .. } => Some(End::Indefinite),
-            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => Some(End::IterationLimit),
-            StepFailure::NonFinite { .. } => Some(End::NotFinite),
-            _ => None,
-        }
-    }
-
-    /// The end of a run that a step ended; `None` for other ends.
-    pub(crate) fn of_run(failure: &RunError) -> Option<Self> {
-        match failure {
-            RunError::Step(error) => Self::of(&error.failure),
-            _ => None,
+            StepFailure::Indefinite { .. } => Ok(End::Indefinite),
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => Ok(End::IterationLimit),
+            StepFailure::NonFinite { .. } => Ok(End::NotFinite),
+            _ => Err(run.clone()),
         }
     }
 

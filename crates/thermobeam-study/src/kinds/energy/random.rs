@@ -160,8 +160,7 @@ impl RandomScenes {
             batch.not_finite_levels += usize::from(!is_finite(level));
         })?;
         for (k, (Watched { worst, failure }, (problem, dt))) in runs.iter().zip(&scenes).enumerate() {
-            let end = |error: &StepError| End::of(&error.failure).ok_or_else(|| error.clone());
-            batch.ends[failure.as_ref().map(end).transpose()?.unwrap_or(End::Answer) as usize] += 1;
+            batch.ends[End::of(failure.clone().map(RunError::Step).as_ref())? as usize] += 1;
             batch.refused += usize::from(failure.is_some() && is_definite(&problem.beam, *dt));
             batch.worst = batch.worst.max(*worst);
             if !(worst.residual <= CLOSED) {

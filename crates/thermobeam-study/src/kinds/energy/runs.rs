@@ -1,5 +1,4 @@
-//! Scenes run one by one: `[energy]`, scene files and random beams by several schemes; or `[[case]]`, scenes with claims of
-//! their own.
+//! Scenes run one by one, of the table `[energy]` or of `[[case]]`.
 //!
 //! ```toml
 //! [energy]
@@ -252,10 +251,7 @@ impl EnergyRun {
             log.add(&step);
             ControlFlow::<()>::Continue(())
         });
-        log.found.end = match ended {
-            Ok(_) => End::Answer,
-            Err(error) => End::of_run(&error).ok_or(error)?,
-        };
+        log.found.end = End::of(ended.err().as_ref())?;
         Ok(Found { worst: log.watch.worst, drift: log.watch.drift, ..log.found })
     }
 

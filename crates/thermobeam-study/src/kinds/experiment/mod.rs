@@ -109,11 +109,11 @@ impl FromFile for Experiments {
         let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
         let until =
             Until { t_max: run.positive("t_max")?, window: run.positive("window")?, rate: run.positive("rate")? };
-        let mut experiments = experiments(root, folder)?;
         let t_max = run.require("t_max", POSITIVE)?;
-        for experiment in &mut experiments {
-            refine(&run, &mut experiment.scene)?;
-            limits::steps_until(&t_max, until.t_max, experiment.scene.dt(), limits::STEPS)?;
+        let mut experiments = experiments(root, folder)?;
+        for Experiment { scene, .. } in &mut experiments {
+            refine(&run, scene)?;
+            limits::steps_until(&t_max, until.t_max, scene.dt(), limits::STEPS)?;
         }
         Ok(Self { header, experiments, until, rest: ToRest::read(&root.table("steady", &ToRest::KEYS)?)? })
     }

@@ -85,7 +85,7 @@ pub struct ShownImpact {
     pub force: Option<f64>,
     /// ε times the force, which keeps the digits that the difference u(1) - g loses.
     pub penetration: Option<f64>,
-    /// Velocity of the free end at t = 0, before an impact.
+    /// Velocity of the free end at t = 0.
     pub velocity: Option<f64>,
     /// Iterations per step done.
     pub mean_iterations: Option<f64>,
@@ -100,13 +100,6 @@ pub struct ShownImpact {
     pub contraction: Option<f64>,
     /// Time of the step at which the fixed point fails, if it does.
     pub failed_at: Option<f64>,
-}
-
-impl ShownImpact {
-    /// A contact force, and what else is known of the run.
-    fn of_force(force: f64, epsilon: f64, others: Self) -> Self {
-        Self { force: Some(force), penetration: Some(epsilon * force), ..others }
-    }
 }
 
 impl FromFile for RigidStudy {
@@ -200,18 +193,19 @@ impl Kind for RigidStudy {
             Scene { obstacles, ..scene.clone() }
         };
         match run {
-            RunOf::RigidLimit | RunOf::Bouncing => bouncing(&with_compliance(&self.moving), epsilon),
+            RunOf::RigidLimit | RunOf::Bouncing => newton(&with_compliance(&self.moving), epsilon),
             RunOf::FixedPoint => fixed_point(&with_compliance(&self.moving), self.max_iterations),
             RunOf::Rest => {
                 let (_, level) = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
-                Ok(ShownImpact::of_force(level.contact_force.abs(), epsilon, ShownImpact::default()))
+                let force = level.contact_force.abs();
+                Ok(ShownImpact { force: Some(force), penetration: Some(epsilon * force), ..ShownImpact::default() })
             }
             RunOf::Impact => {
                 let scene = with_compliance(&self.impact);
                 let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(scene.beam.zeta);
                 // The peak is at 1.65 t*.
                 let method = scene.method.with_dt(time / self.steps as f64);
-                impact(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)
+                newton(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)
             }
         }
     }
@@ -221,10 +215,11 @@ impl Kind for RigidStudy {
     }
 }
 
-fn bouncing(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
+/// A bouncing beam or an impact by Newton's method.
+fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
     let mut driver = driver(scene)?;
     let end = scene.mesh.elements();
-    let mut tip = vec![(0.0, driver.level().u[end])];
+    let (velocity, mut tip) = (driver.level().v[end], vec![(0.0, driver.level().u[end])]);
     let (mut force, mut iterations, mut most_iterations) = (0.0, 0, 0);
     driver.run::<()>(scene.steps(), |Step { report, new, simulation, .. }| {
         iterations += report.iterations;
@@ -233,12 +228,15 @@ fn bouncing(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
         tip.push((simulation.t(), new.u[end]));
         ControlFlow::Continue(())
     })?;
-    let mean_iterations = Some(iterations as f64 / scene.steps() as f64);
-    Ok(ShownImpact::of_force(
-        force,
-        epsilon,
-        ShownImpact { mean_iterations, most_iterations, tip, ..ShownImpact::default() },
-    ))
+    Ok(ShownImpact {
+        force: Some(force),
+        penetration: Some(epsilon * force),
+        velocity: Some(velocity),
+        mean_iterations: Some(iterations as f64 / scene.steps() as f64),
+        most_iterations,
+        tip,
+        ..ShownImpact::default()
+    })
 }
 
 /// The fixed point up to its last step or the one that fails.
@@ -291,17 +289,6 @@ fn contraction_of(error: &StepError) -> Option<f64> {
         }
         _ => None,
     }
-}
-
-fn impact(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
-    let mut driver = driver(scene)?;
-    let velocity = Some(driver.level().v[scene.mesh.elements()]);
-    let mut force = 0.0;
-    driver.run::<()>(scene.steps(), |Step { new, .. }| {
-        force = max_or_nan(force, new.contact_force);
-        ControlFlow::Continue(())
-    })?;
-    Ok(ShownImpact::of_force(force, epsilon, ShownImpact { velocity, ..ShownImpact::default() }))
 }
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.

@@ -10,7 +10,6 @@ use std::path::Path;
 const CIRCLES: [(&str, &[&[&str]]); 1] = [(
     "convergence-study",
     &[
-        &["input/error_table/pairs", "input/error_table/text"],
         &["input/field", "input/section", "input/settings"],
         &["judge/richardson/estimate", "judge/richardson/gci"],
         &["judge/verdict/outcome", "judge/verdict/reading", "judge/verdict/reason"],

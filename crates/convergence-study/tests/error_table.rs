@@ -2,21 +2,26 @@
 
 use std::time::{Duration, Instant};
 
-use convergence_study::input::error_table::RateTable;
+use convergence_study::input::InputError;
+use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::verdict::{Judge, Verdict};
+
+fn parsed(text: &str) -> Result<RateTable, InputError> {
+    RateTable::parse_with(text, "t.csv", &Choice::default())
+}
 
 /// The message about a table.
 #[track_caller]
 fn refused(text: &str) -> String {
-    RateTable::parse(text, "t.csv").unwrap_err().to_string()
+    parsed(text).unwrap_err().to_string()
 }
 
 #[test]
 fn a_table_is_read_coarse_to_fine_whatever_its_order_and_separator() {
     let coarse_first = "# comment\nh, L2, H1\n\n0.2, 4, 2\n0.1, 1, 1\n";
     let fine_first = "\u{feff}h\tL2\t\"H1\"\n0.1\t1\t1\n0.2\t4\t2\n";
-    let table = RateTable::parse(coarse_first, "t.csv").unwrap();
-    assert_eq!(RateTable::parse(fine_first, "t.csv").unwrap(), table);
+    let table = parsed(coarse_first).unwrap();
+    assert_eq!(parsed(fine_first).unwrap(), table);
     let levels =
         |column: usize| table.columns[column].levels.iter().map(|level| (level.step, level.error)).collect::<Vec<_>>();
     assert_eq!((table.step.as_str(), table.columns[1].name.as_str()), ("h", "H1"));
@@ -51,7 +56,7 @@ fn time_of(columns: usize) -> Duration {
     let text = format!("h{}\n0.1{}\n", row(&|i| format!("column-{i}")), row(&|_| "0.5".to_owned()));
     let timed = |_| {
         let start = Instant::now();
-        assert_eq!(RateTable::parse(&text, "t.csv").unwrap().columns.len(), columns);
+        assert_eq!(parsed(&text).unwrap().columns.len(), columns);
         start.elapsed()
     };
     (0..4).map(timed).min().unwrap()
@@ -66,7 +71,7 @@ fn twenty_thousand_columns_are_read_in_time_proportional_to_their_number() {
 
 /// The error in a table of one row.
 fn read(cell: &str) -> Option<f64> {
-    let table = RateTable::parse(&format!("h;e\n1;{cell}\n"), "t.csv").ok()?;
+    let table = parsed(&format!("h;e\n1;{cell}\n")).ok()?;
     Some(table.columns[0].levels[0].error)
 }
 
@@ -102,7 +107,7 @@ fn a_number_is_read_as_it_is_written() {
 fn the_order_of_the_rows_does_not_matter() {
     let rows = ["0.1,1.01e-1", "0.05,5.02e-2", "0.025,2.505e-2", "0.0125,1.2512e-2"];
     let judged = |rows: Vec<&str>| {
-        let table = RateTable::parse(&format!("h,e\n{}\n", rows.join("\n")), "table").expect("a table");
+        let table = parsed(&format!("h,e\n{}\n", rows.join("\n"))).expect("a table");
         table.judge(&Judge::new(0.05).expect("a tolerance"), |_| 1.0)
     };
     let (down, up) = (judged(rows.to_vec()), judged(rows.iter().rev().copied().collect()));

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::input::error_table::RateTable;
+use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::verdict::Judge;
 use convergence_study::store::baseline::Baseline;
 use tempfile::TempDir;
@@ -179,7 +179,7 @@ impl Bench {
                 let _ = sweep.case(sweep.cases() - 1).hash();
             }
             Reading::Rates => {
-                let table = RateTable::read(&path).map_err(|error| said(&error))?;
+                let table = RateTable::read_with(&path, &Choice::default()).map_err(|error| said(&error))?;
                 drop(table.judge(&Judge::new(0.05).expect("a judge"), |_| 1.0));
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),

@@ -26,17 +26,16 @@ pub struct Column {
 
 impl Column {
     /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could
-    /// make a pass of another verdict,
-    /// or take it away, the digits are what is missing.
+    /// make a pass of another verdict, or take it away, the digits are what is missing.
     pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
         let (judged, order) = (claim.judge(judge, &self.levels), claim.order);
-        let doubt = |k: usize| self.doubt(k, order);
+        let share = |k: usize| self.half(k, order) / self.levels[k].error.abs().max(f64::MIN_POSITIVE);
         let is_told = matches!(judged.kind, Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels);
-        if is_told || order.is_nan() || (0..self.levels.len()).all(|k| doubt(k) < NOTHING) {
+        if is_told || order.is_nan() || (0..self.levels.len()).all(|k| share(k) < NOTHING) {
             return judged;
         }
         let finest = self.levels.windows(2).enumerate().next_back();
-        let wider = finest.map_or(0.0, |(k, pair)| (doubt(k) + doubt(k + 1)) / (pair[0].step / pair[1].step).ln());
+        let wider = finest.map_or(0.0, |(k, pair)| (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln());
         if judged.verdict != Verdict::Pass {
             let corners = self.corners(order);
             let may_be = |verdict: Verdict| corners.iter().any(|levels| claim.judge(judge, levels).verdict == verdict);
@@ -44,24 +43,20 @@ impl Column {
                 wider > judge.tolerance() && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
             return if is_poor || may_be(Verdict::Pass) { self.without_digits(judged) } else { judged };
         }
-        let Some([low, high]) = judged.interval else { return judged };
-        let interval = Some([low - wider, high + wider]);
-        let is_above = high + wider > order + judge.tolerance() && !claim.at_least;
-        if low - wider < order - judge.tolerance() || is_above {
-            return self.without_digits(RateVerdict { interval, ..judged });
-        }
-        RateVerdict { interval, ..judged }
+        let Some([low, high]) = judged.interval.map(|[low, high]| [low - wider, high + wider]) else { return judged };
+        let judged = RateVerdict { interval: Some([low, high]), ..judged };
+        let is_above = high > order + judge.tolerance() && !claim.at_least;
+        if low < order - judge.tolerance() || is_above { self.without_digits(judged) } else { judged }
     }
 
     /// Judges the differences of the values, and estimates their limit.
     pub fn estimate(&self, estimator: &Estimator, order: f64) -> Estimate {
-        let estimate = |levels: &[Level]| {
-            let values: Vec<Value> =
-                levels.iter().map(|level| Value { step: level.step, value: level.error }).collect();
-            estimator.estimate(&values, order)
+        let estimate = |levels: &Vec<Level>| {
+            let value = |level: &Level| Value { step: level.step, value: level.error };
+            estimator.estimate(&levels.iter().map(value).collect::<Vec<_>>(), order)
         };
         let mut found = estimate(&self.levels);
-        let corners: Vec<Estimate> = self.corners(order).iter().map(|levels| estimate(levels)).collect();
+        let corners: Vec<Estimate> = self.corners(order).iter().map(estimate).collect();
         let verdict = found.judged.verdict;
         if !order.is_nan() && corners.iter().any(|corner| corner.judged.verdict != verdict) {
             found.judged = self.without_digits(found.judged);
@@ -74,31 +69,24 @@ impl Column {
         found
     }
 
-    /// Half a unit of the last place of an error and of its step, as a share of the error.
-    fn doubt(&self, k: usize, order: f64) -> f64 {
+    /// By how much the last places of an error and of its step may be off, in the unit of the error.
+    fn half(&self, k: usize, order: f64) -> f64 {
         let Level { step, error } = self.levels[k];
-        self.halves[k] / error.abs().max(f64::MIN_POSITIVE) + order * self.step_halves[k] / step
+        self.halves[k] + error.abs() * order.max(0.0) * self.step_halves[k] / step
     }
 
     /// The numbers that may have been rounded to the finest ones: each as it is, or half a unit more or less.
     fn corners(&self, order: f64) -> Vec<Vec<Level>> {
         let mut corners = vec![self.levels.clone()];
         for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
-            let half = self.halves[k]
-                + self.levels[k].error.abs() * order.max(0.0) * self.step_halves[k] / self.levels[k].step;
+            let half = self.half(k, order);
+            let moved = |by: f64| {
+                let mut levels = corners.clone();
+                levels.iter_mut().for_each(|levels| levels[k].error += by);
+                levels
+            };
             if half > NOTHING * self.levels[k].error.abs() && half.is_finite() {
-                let moved = |by: f64| {
-                    corners
-                        .iter()
-                        .map(move |corner| {
-                            let mut corner = corner.clone();
-                            corner[k].error += by;
-                            corner
-                        })
-                        .collect::<Vec<_>>()
-                };
-                let moved = [moved(-half), moved(half)].concat();
-                corners.extend(moved);
+                corners = [moved(0.0), moved(-half), moved(half)].concat();
             }
         }
         corners
@@ -106,14 +94,10 @@ impl Column {
 
     fn without_digits(&self, judged: RateVerdict) -> RateVerdict {
         let last = self.levels.len() - 1;
-        let shares = [
-            self.halves[last] / self.levels[last].error.abs(),
-            judged.order * self.step_halves[last] / self.levels[last].step,
-        ];
-        let digits = (-(2.0 * shares[0]).log10()).clamp(0.0, 16.0).floor() as usize + 1;
-        let what =
-            if shares[1] > shares[0] { "the steps have too few digits".to_owned() } else { counted(digits, "digit") };
-        let because = format!("{what}: print more");
-        judged.with_reason(Reason::Digits, &because)
+        let share = self.halves[last] / self.levels[last].error.abs();
+        let digits = (-(2.0 * share).log10()).clamp(0.0, 16.0).floor() as usize + 1;
+        let is_step = judged.order * self.step_halves[last] / self.levels[last].step > share;
+        let what = if is_step { "the steps have too few digits".to_owned() } else { counted(digits, "digit") };
+        judged.with_reason(Reason::Digits, &format!("{what}: print more"))
     }
 }

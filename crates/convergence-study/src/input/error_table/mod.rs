@@ -9,22 +9,20 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The
-//! numbers decide what a column is, and
-//! its name where they leave it open: the step falls, or as a count grows, by regular ratios; errors are positive and
-//! fall; rates are those of another
-//! column; what tends to a limit is a value. [`RateTable::reading`] says in a line how the table was read. What is in
-//! doubt is refused, with the
-//! command that works. `NaN` and `inf` are errors; a column with one of them fails.
+//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The numbers
+//! decide what a column is, and its name where they leave it open: the step falls, or as a count grows, by regular
+//! ratios; errors are positive and fall; rates are those of another column; what tends to a limit is a value.
+//! [`RateTable::reading`] says in a line how the table was read. What is in doubt is refused, with the command that
+//! works. `NaN` and `inf` are errors; a column with one of them fails.
 
-mod choice;
-mod column;
-mod columns;
 mod digits;
 pub(crate) mod names;
 mod number;
 mod pairs;
+mod roles;
+mod rows;
 mod step;
+mod table;
 mod text;
 
 use std::io;
@@ -33,10 +31,8 @@ use std::path::Path;
 use crate::input::{self, InputError};
 use crate::judge::claims::Claim;
 use crate::judge::verdict::{Judge, RateVerdict};
-pub use choice::Choice;
-pub use column::limit;
 pub use digits::Column;
-use text::RawTable;
+pub use table::limit;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,20 +51,34 @@ pub struct RateTable {
     pub is_guessed: bool,
 }
 
-impl RateTable {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// [`InputError`] with line, column and the name of the table's column.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        Self::read_with(path, &Choice::default())
-    }
+/// Which columns of a table are meant; by default their numbers decide.
+///
+/// A column is named as in the table, with or without its unit, or by its number from 1.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Choice {
+    /// The column of the step, or of the count that it is computed from.
+    pub step: Option<String>,
+    /// The columns of errors.
+    pub columns: Option<Vec<String>>,
+    /// Columns of values, which tend to a limit that is not zero.
+    pub values: Vec<String>,
+    /// Names for all columns, in place of those in the table.
+    pub names: Option<Vec<String>>,
+    /// Columns of which an order is claimed by name: none of them is taken for the step.
+    pub claimed: Vec<String>,
+    /// Dimension D > 0 of what a count counts: h = count^(-1/D).
+    pub dim: Option<f64>,
+    /// The command that reads the table, for advice; empty for none.
+    pub command: String,
+}
 
+impl RateTable {
     /// Reads a file, of which `choice` says which columns are meant; `-` is standard input.
     ///
     /// # Errors
-    /// As [`RateTable::read`]; and a choice of columns that are not there.
+    /// [`InputError`] with line, column and the name of the table's column; and a choice of columns that are not there.
     pub fn read_with(path: impl AsRef<Path>, choice: &Choice) -> Result<Self, InputError> {
+        const STANDARD_INPUT: &str = "standard input";
         let path = path.as_ref();
         if path == Path::new("-") {
             let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
@@ -80,17 +90,9 @@ impl RateTable {
     /// Reads a table from `text`; messages name `file_name`.
     ///
     /// # Errors
-    /// As [`RateTable::read`], but for the file.
-    pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        Self::parse_with(text, file_name, &Choice::default())
-    }
-
-    /// As [`RateTable::parse`] with a choice of columns.
-    ///
-    /// # Errors
     /// As [`RateTable::read_with`], but for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        columns::read(RawTable::read(&text::plain(text)), file_name, choice)
+        roles::read(&text::plain(text), file_name, choice)
     }
 
     /// The column of errors of this name, with or without its unit.
@@ -106,5 +108,23 @@ impl RateTable {
     }
 }
 
-/// Standard input as messages name it.
-const STANDARD_INPUT: &str = "standard input";
+impl Choice {
+    /// The command with this choice, changed, on a line of its own; empty where no command is known.
+    fn command(&self, change: impl FnOnce(&mut Choice)) -> String {
+        let mut choice = self.clone();
+        change(&mut choice);
+        if choice.command.is_empty() {
+            return String::new();
+        }
+        let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
+        let quoted =
+            |text: String| if text.chars().all(is_plain) { text } else { format!("'{}'", text.replace('\'', "'\\''")) };
+        let list = |list: Vec<String>| Some(list.join(",")).filter(|list| !list.is_empty());
+        let [names, columns] = [choice.names, choice.columns].map(|names| names.and_then(list));
+        let (dim, values) = (choice.dim.map(|dim| dim.to_string()), list(choice.values));
+        let options = [("names", names), ("step", choice.step), ("dim", dim), ("columns", columns), ("values", values)];
+        let given = options.into_iter().filter_map(|(name, value)| Some((name, quoted(value?))));
+        let given: String = given.map(|(name, value)| format!(" --{name} {value}")).collect();
+        format!("\n  {}{given}", choice.command)
+    }
+}

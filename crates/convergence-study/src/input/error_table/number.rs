@@ -8,7 +8,7 @@ const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\
     \\textbf= \\mathbf= \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
 
 /// A number, and how many digits it is printed with.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Number {
     pub(super) value: f64,
     /// Decimals, and the power of ten behind them; `None` for fractions and powers, which are exact.
@@ -43,44 +43,43 @@ pub(super) fn is_dash(cell: &str) -> bool {
 /// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may
 ///   be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
-    // Most cells that are no numbers are words, of which there may be a hundred thousand.
-    if cell.is_empty() || (cell.starts_with(char::is_alphabetic) && cell.parse::<f64>().is_err()) {
-        return None;
-    }
     if let Some(number) = real(cell) {
         return Some(number);
     }
-    // Two numbers with a blank between them are not one.
-    if cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
+    // Two numbers with a blank between them are not one. Most other cells are words, a hundred thousand perhaps.
+    let is_word = cell.is_empty() || cell.starts_with(char::is_alphabetic);
+    if is_word || cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
         return None;
     }
-    if let Some((edge, others)) = cell.split_once(['x', '×'])
-        && !edge.is_empty()
-        && edge.bytes().all(|c| c.is_ascii_digit())
-        && others.split(['x', '×']).all(|other| other == edge)
-    {
+    let (edge, others) = cell.split_once(['x', '×']).unwrap_or((cell, ""));
+    if edge.bytes().all(|c| c.is_ascii_digit()) && others.split(['x', '×']).all(|other| other == edge) {
         return real(edge);
     }
     let plain = undressed(cell);
-    let is_decimal = decimal_comma && plain.matches(',').count() == 1 && !looks_like_thousands(&plain);
-    ratio(&if is_decimal { plain.replace(',', ".") } else { plain })
+    // Three digits behind a comma, and no zero before it, may be thousands.
+    let may_be_thousands = |(whole, rest): (&str, &str)| {
+        let is_zero = whole.trim_start_matches(['+', '-']).trim_start_matches('0').is_empty();
+        rest.len() == 3 && rest.bytes().all(|c| c.is_ascii_digit()) && !is_zero
+    };
+    let is_decimal =
+        decimal_comma && plain.matches(',').count() == 1 && !plain.split_once(',').is_some_and(may_be_thousands);
+    value(&if is_decimal { plain.replace(',', ".") } else { plain })
 }
 
-/// Whether a comma may separate thousands as well as decimals: three digits behind it, and no zero before it.
-fn looks_like_thousands(cell: &str) -> bool {
-    let (whole, rest) = cell.trim_start_matches(['+', '-']).split_once(',').unwrap_or((cell, ""));
-    rest.len() == 3 && rest.bytes().all(|c| c.is_ascii_digit()) && !whole.trim_start_matches('0').is_empty()
+/// A text without any of the marks that it begins and ends with.
+pub(super) fn unmarked<'t>(text: &'t str, marks: &[&str]) -> &'t str {
+    let mut text = text.trim();
+    while let Some(inner) = marks.iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark)) {
+        text = inner.trim();
+    }
+    text
 }
 
 /// The cell without markup of LaTeX and Markdown, with `*` for times, `^` for powers and `/` for fractions.
 fn undressed(cell: &str) -> String {
-    let mut text = cell.trim();
-    let inner = |text: &str| ["**", "__", "`", "*", "_"].into_iter().find_map(|mark| within(text, mark));
-    while let Some(end) = inner(text) {
-        text = &text[end..text.len() - end];
-    }
+    let text = unmarked(cell, &["**", "__", "`", "*", "_"]).to_owned();
     let marks = DRESS.split_whitespace().filter_map(|mark| mark.split_once('='));
-    let mut text = marks.fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    let mut text = marks.fold(text, |text, (from, to)| text.replace(from, to));
     if let Some((before, fraction)) = text.split_once("\\frac") {
         text = before.to_owned() + &fraction.replacen("}{", "/", 1);
     }
@@ -88,25 +87,15 @@ fn undressed(cell: &str) -> String {
     text
 }
 
-/// The length of a mark that a text begins and ends with.
-fn within(text: &str, mark: &str) -> Option<usize> {
-    text.strip_prefix(mark)?.strip_suffix(mark).filter(|inner| !inner.is_empty()).map(|_| mark.len())
-}
-
-/// `a`, or `a/b`.
-fn ratio(text: &str) -> Option<Number> {
-    match text.split_once('/') {
-        Some((above, below)) => Some(Number { value: scaled(above)?.value / scaled(below)?.value, place: None }),
-        None => scaled(text),
-    }
-}
-
-/// `a`, or `a*10^n`. Any other product is none: Fortran writes `2*0.1` for the number 0.1 twice.
-fn scaled(text: &str) -> Option<Number> {
+/// `a/b`, `a*10^n`, `a^n` or `a`. Any other product is none: Fortran writes `2*0.1` for the number 0.1 twice.
+fn value(text: &str) -> Option<Number> {
     let integer = |text: &str| text.trim_start_matches('(').trim_end_matches(')').parse::<i32>().ok();
-    if let Some((factor, ten)) = text.split_once('*') {
+    if let Some((above, below)) = text.split_once('/').filter(|(_, below)| !below.contains('/')) {
+        return Some(Number { value: value(above)?.value / value(below)?.value, place: None });
+    }
+    if let Some((factor, power)) = text.split_once('*') {
         // Read as one number, for a product is rounded once more.
-        return real(&format!("{factor}e{}", integer(ten.strip_prefix("10^")?)?));
+        return real(&format!("{factor}e{}", integer(power.strip_prefix("10^")?)?));
     }
     match text.split_once('^') {
         Some(("10", exponent)) => Some(Number { place: None, ..real(&format!("1e{}", integer(exponent)?))? }),
@@ -117,24 +106,20 @@ fn scaled(text: &str) -> Option<Number> {
 
 /// A number of C or of Fortran, whose exponents begin with D or, where they have three digits, with their sign.
 fn real(text: &str) -> Option<Number> {
-    let is_digit = |c: char| c.is_ascii_digit();
-    let split = text.find(['e', 'E', 'D', 'd', 'Q', 'q']).map(|at| (&text[..at], &text[at + 1..]));
+    let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
     let signed = || {
-        let (mantissa, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
-        let is_exponent = exponent.starts_with(['+', '-']) && exponent[1..].chars().all(is_digit);
-        is_exponent.then_some((mantissa, exponent))
+        let (_, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
+        let is_exponent = exponent.starts_with(['+', '-']) && exponent[1..].bytes().all(|c| c.is_ascii_digit());
+        is_exponent.then_some([text.len() - 4; 2])
     };
-    if let Some((mantissa, exponent)) = split.or_else(signed)
-        && mantissa.ends_with(|c: char| is_digit(c) || c == '.')
+    let exponent = text.find(['e', 'E', 'D', 'd', 'Q', 'q']).map(|at| [at, at + 1]).or_else(signed);
+    if let Some([end, start]) = exponent
+        && text[..end].ends_with(|c: char| c.is_ascii_digit() || c == '.')
     {
-        let ten: i32 = exponent.parse().ok()?;
+        let (mantissa, ten): (&str, i32) = (&text[..end], text[start..].parse().ok()?);
         let value = format!("{mantissa}e{ten}").parse().ok()?;
         return Some(Number { value, place: Some((decimals(mantissa), Some(ten))) });
     }
     let value: f64 = text.parse().ok()?;
     Some(Number { value, place: value.is_finite().then_some((decimals(text), None)) })
-}
-
-fn decimals(text: &str) -> i32 {
-    text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32)
 }

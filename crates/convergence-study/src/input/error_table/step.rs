@@ -1,29 +1,51 @@
 //! Which column is the step, or the count that it is computed from.
 
-use super::column::Cells;
-use super::columns::{NEIGHBOURS, TableReader, listed};
 use super::names::{Word, reciprocal};
+use super::table::{Cells, NEIGHBOURS, TableReader, listed};
 use crate::input::InputError;
 use crate::text::number::plain_text;
 
-impl TableReader<'_, '_> {
-    /// The column of the step, and how it was found where its name does not say so.
-    pub(super) fn step(&self) -> Result<(usize, String), InputError> {
-        if let Some(wanted) = &self.choice.step {
-            return Ok((self.find(wanted, "--step")?, String::new()));
-        }
+/// The step of a table.
+pub(super) struct Step {
+    pub(super) column: usize,
+    /// The dimension where the column counts.
+    pub(super) dim: Option<f64>,
+    /// Its name, or `cells^(-1/2)`.
+    pub(super) label: String,
+    /// How it was found where its name does not say so.
+    pub(super) how: String,
+}
+
+impl TableReader<'_> {
+    pub(super) fn step(&self) -> Result<Step, InputError> {
+        let (column, how) = match &self.choice.step {
+            Some(wanted) => (self.find(wanted, "--step")?, String::new()),
+            None => self.natural_step()?,
+        };
+        let (dim, name) = (self.dim(column)?, &self.columns[column].name);
+        let label = match dim {
+            Some(1.0) => reciprocal(name).map_or_else(|| format!("1/{name}"), str::to_owned),
+            Some(dim) => format!("{name}^(-1/{dim})"),
+            None => name.to_owned(),
+        };
+        Ok(Step { column, dim, label, how })
+    }
+
+    /// The step by its name, else the count nearest to it, else what falls by regular ratios.
+    fn natural_step(&self) -> Result<(usize, String), InputError> {
         let of = |wanted: fn(Word) -> bool| -> Vec<usize> {
-            let is_free = |column: &Cells| wanted(column.word) && !column.is_claimed && !column.is_constant();
+            let is_free = |column: &Cells<'_>| wanted(column.word) && !column.is_claimed && !column.is_constant();
             (0..self.columns.len()).filter(|k| is_free(&self.columns[*k])).collect()
         };
-        let steps = of(|word| word == Word::Step);
-        if let Some((&first, others)) = steps.split_first() {
-            if let Some(other) = others.iter().find(|k| !self.columns[first].is_in_proportion(&self.columns[**k])) {
-                let found = self.named(&steps).join(", ") + &self.with_step(first) + &self.with_step(*other);
+        let names = |columns: &[usize]| columns.iter().map(|k| self.columns[*k].name.clone()).collect::<Vec<_>>();
+        if let [first, others @ ..] = &of(|word| word == Word::Step)[..] {
+            if let Some(other) = others.iter().find(|k| !self.columns[*first].is_in_proportion(&self.columns[**k])) {
+                let all = names(&[&[*first], others].concat()).join(", ");
+                let found = all + &self.with_step(*first) + &self.with_step(*other);
                 return Err(self.refuse("one column of steps, or --step COLUMN", &found));
             }
-            let alike = listed(others.iter().map(|k| format!("`{}`", self.columns[*k].name)));
-            return Ok((first, if alike.is_empty() { alike } else { format!(", in proportion to {alike}") }));
+            let alike = listed(names(others).iter().map(|name| format!("`{name}`")));
+            return Ok((*first, if alike.is_empty() { alike } else { format!(", in proportion to {alike}") }));
         }
         let rank = |k: &usize| if let Word::Count(rank) = self.columns[*k].word { rank } else { u8::MAX };
         if let Some(count) = of(|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
@@ -33,15 +55,13 @@ impl TableReader<'_, '_> {
         // smaller ratio.
         let first = self.columns.iter().position(|column| !column.is_index);
         let unknown = of(|word| word == Word::Unknown);
-        let regular = unknown.iter().filter_map(|k| Some((*k, self.columns[*k].regular()?)));
-        let regular: Vec<(usize, f64)> = regular.collect();
-        if let Some((&(k, ratio), others)) = regular.split_first()
-            && (others.is_empty() || Some(k) == first)
-            && others.iter().all(|(_, other)| *other >= ratio)
+        let regular: Vec<_> = unknown.iter().filter_map(|k| Some((*k, self.columns[*k].regular()?))).collect();
+        if let [(k, ratio), others @ ..] = &regular[..]
+            && (others.is_empty() || Some(*k) == first && others.iter().all(|(_, other)| other >= ratio))
         {
-            return Ok((k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
+            return Ok((*k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
         }
-        let described = |column: &Cells| {
+        let described = |column: &Cells<'_>| {
             let why = match column.word {
                 _ if column.is_index => " (the number of the row)",
                 Word::Logarithm => " (give the values, not their logarithms)",
@@ -55,8 +75,8 @@ impl TableReader<'_, '_> {
             unknown.contains(k) && column.values().is_some() && !column.name.contains(['^', '²'])
         };
         let command = first.filter(may_be).map_or(String::new(), |k| self.with_step(k));
-        let found = listed(self.columns.iter().map(described));
-        Err(self.refuse("a column of steps: add `h`, or name it with --step", &(found + &command)))
+        let found = listed(self.columns.iter().map(described)) + &command;
+        Err(self.refuse("a column of steps: add `h`, or name it with --step", &found))
     }
 
     /// The command with a column for the step.
@@ -67,26 +87,22 @@ impl TableReader<'_, '_> {
     }
 
     /// The dimension for a column that counts; `None` for a step.
-    pub(super) fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
+    fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
         let Cells { name, word, .. } = &self.columns[step];
         let is_edge = reciprocal(name).is_some()
             || matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt");
         let is_count = self.is_count(step);
         let with = |dim: Option<f64>| self.choice.command(|choice| choice.dim = dim);
-        match self.choice.dim {
-            _ if *word == Word::Logarithm => Err(self.refuse("the values, not their logarithms", &format!("`{name}`"))),
+        let (expected, found) = match self.choice.dim {
+            _ if *word == Word::Logarithm => ("the values, not their logarithms", format!("`{name}`")),
             Some(dim) if is_count && is_edge && dim != 1.0 => {
-                let found = format!("`{name}`, which is known to be of one dimension{}", with(None));
-                Err(self.refuse("no --dim but 1", &found))
+                ("no --dim but 1", format!("`{name}`, which is known to be of one dimension{}", with(None)))
             }
-            Some(dim) if is_count || *word == Word::Unknown => Ok(Some(dim)),
-            Some(_) => {
-                let found = format!("the step `{name}`{}", with(None));
-                Err(self.refuse("no --dim, which is for counts such as `cells`", &found))
+            Some(_) if !is_count && *word != Word::Unknown => {
+                ("no --dim, which is for counts such as `cells`", format!("the step `{name}`{}", with(None)))
             }
-            None if !is_count => Ok(None),
-            None if is_edge && matches!(word, Word::Count(_)) => Ok(Some(1.0)),
-            None => {
+            None if is_count && is_edge && matches!(word, Word::Count(_)) => return Ok(Some(1.0)),
+            None if is_count => {
                 let [edge, plane, space] = [1.0, 2.0, 3.0].map(|dim| with(Some(dim)));
                 let commands = match word {
                     Word::Count(1) | Word::Step => edge,
@@ -95,9 +111,11 @@ impl TableReader<'_, '_> {
                 };
                 let expected =
                     format!("--dim D for h = {name}^(-1/D), with D = 1 for cells along an edge, or --step COLUMN");
-                Err(self.refuse(&expected, &format!("the count `{name}` and no step{commands}")))
+                return Err(self.refuse(&expected, &format!("the count `{name}` and no step{commands}")));
             }
-        }
+            dim => return Ok(dim),
+        };
+        Err(self.refuse(expected, &found))
     }
 
     /// Whether a column counts: by its name, or because it has whole numbers that grow where errors fall.
@@ -119,15 +137,6 @@ impl TableReader<'_, '_> {
             _ if !is_whole(&values) || values.iter().all(|value| *value == 1.0) => false,
             Word::Step => together() < 0.0,
             _ => together() <= 0.0,
-        }
-    }
-
-    pub(super) fn label(&self, step: usize, dim: Option<f64>) -> String {
-        let name = &self.columns[step].name;
-        match dim {
-            Some(1.0) => reciprocal(name).map_or_else(|| format!("1/{name}"), str::to_owned),
-            Some(dim) => format!("{name}^(-1/{dim})"),
-            None => name.to_owned(),
         }
     }
 }

@@ -26,13 +26,6 @@ struct Interpolation {
     moments: Vec<[f64; 2]>,
 }
 
-/// η and η_x of every product at a quadrature point.
-struct Sample {
-    u: Vec<[f64; 2]>,
-    phi: Vec<[f64; 2]>,
-    theta: Vec<[f64; 2]>,
-}
-
 /// Computes the errors of a level against the exact solution.
 pub struct ErrorMeter {
     lengths: Vec<f64>,
@@ -101,35 +94,32 @@ impl ErrorMeter {
             for (s, weight) in RULE {
                 let x = ends[0] + s * h;
                 let sample = |products: &[Product], field: &[Interpolation]| {
-                    products.iter().zip(field).map(|(p, f)| interpolation_error(p, f, i, h, s, x)).collect()
+                    let errors = products.iter().zip(field).map(|(p, f)| interpolation_error(p, f, i, h, s, x));
+                    errors.collect::<Vec<[f64; 2]>>()
                 };
-                let sample = Sample {
-                    u: sample(&exact.u, &self.u),
-                    phi: sample(&exact.phi, &self.phi),
-                    theta: sample(&exact.theta, &self.theta),
-                };
-                self.add_sample(i, s, weight * h, &sample);
+                let of_u = sample(&exact.u, &self.u);
+                let (of_phi, of_theta) = (sample(&exact.phi, &self.phi), sample(&exact.theta, &self.theta));
+                self.add_sample(i, s, weight * h, [&of_u, &of_phi, &of_theta]);
             }
         }
     }
 
-    /// Adds the contribution of one quadrature point.
-    fn add_sample(&mut self, element: usize, s: f64, weight: f64, sample: &Sample) {
-        let fields = [(&mut self.u, &sample.u), (&mut self.phi, &sample.phi), (&mut self.theta, &sample.theta)];
-        for (field, sample) in fields {
+    /// Adds the contribution of one quadrature point, at which η and η_x of the products of u, φ and θ are these.
+    fn add_sample(&mut self, element: usize, s: f64, weight: f64, sample: [&[[f64; 2]]; 3]) {
+        for (field, sample) in [&mut self.u, &mut self.phi, &mut self.theta].into_iter().zip(sample) {
             for (interpolation, [eta, _]) in field.iter_mut().zip(sample) {
                 interpolation.moments[element][0] += weight * (1.0 - s) * eta;
                 interpolation.moments[element][1] += weight * s * eta;
             }
         }
+        let [u, phi, theta] = sample;
         let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
         let slopes = |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
-        let shear: Vec<f64> =
-            slopes(&sample.u).into_iter().chain(values(&sample.phi).into_iter().map(|psi| -psi)).collect();
-        add_outer(&mut self.gram_u, weight, &values(&sample.u));
-        add_outer(&mut self.gram_phi, weight, &values(&sample.phi));
-        add_outer(&mut self.gram_theta, weight, &values(&sample.theta));
-        add_outer(&mut self.gram_curvature, weight, &slopes(&sample.phi));
+        let shear: Vec<f64> = slopes(u).into_iter().chain(values(phi).into_iter().map(|psi| -psi)).collect();
+        add_outer(&mut self.gram_u, weight, &values(u));
+        add_outer(&mut self.gram_phi, weight, &values(phi));
+        add_outer(&mut self.gram_theta, weight, &values(theta));
+        add_outer(&mut self.gram_curvature, weight, &slopes(phi));
         add_outer(&mut self.gram_shear, weight, &shear);
     }
 

@@ -103,9 +103,9 @@ struct Vectors {
     slope: Vec<f64>,
     /// `-(X'', N_i)`, equal to `(X', N_i') - X'(1) δ_in`.
     curvature: Vec<f64>,
-    /// X(1), and the values of X and X' at 1 for the boundary loads.
+    /// X(1).
     tip: f64,
-    boundary_value: f64,
+    /// X'(1) for the boundary loads; zero where the curvature contains it.
     boundary_slope: f64,
 }
 
@@ -128,7 +128,7 @@ impl Vectors {
             }
         }
         let [tip, tip_slope, _] = product.x.derivatives(1.0);
-        Self { value, slope, curvature, tip, boundary_value: tip, boundary_slope: tip_slope }
+        Self { value, slope, curvature, tip, boundary_slope: tip_slope }
     }
 
     /// The integrals by quadrature, with the basis functions of one equation on elements of any degree.
@@ -150,7 +150,6 @@ impl Vectors {
             slope: tested(&|[_, x1, _]| x1),
             curvature: tested(&|[_, _, x2]| -x2),
             tip,
-            boundary_value: tip,
             boundary_slope: tip_slope,
         }
     }
@@ -163,9 +162,8 @@ impl Vectors {
             value: matrices.mass.multiply(&nodal),
             slope: matrices.slope.multiply(&nodal),
             curvature: matrices.stiffness.multiply(&nodal),
+            // Y(1) is a boundary load here too: -C φ = Cᵀ φ - φ(1) e for P1 functions.
             tip,
-            // -C φ = Cᵀ φ - φ(1) e for P1 functions too.
-            boundary_value: tip,
             // K u contains the derivative at the end.
             boundary_slope: 0.0,
         }
@@ -283,7 +281,7 @@ impl Sources {
         let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
         let boundary = Boundary {
             u_slope: u.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
-            phi: phi.iter().map(|[vectors, ..]| vectors.boundary_value).collect(),
+            phi: phi.iter().map(|[vectors, ..]| vectors.tip).collect(),
             phi_slope: phi.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
         };
         let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();

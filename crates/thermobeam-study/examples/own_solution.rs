@@ -13,7 +13,7 @@ use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
 use thermobeam_study::kinds::convergence::Convergence;
-use thermobeam_study::kinds::tables::Refine;
+use thermobeam_study::kinds::tables::{Layout, Refine};
 use thermobeam_study::scene::Coefficients;
 
 const TOML: &str = r#"
@@ -39,8 +39,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         grid: false,
         budget: None,
         t_end: 1.0,
-        map: None,
-        perturbation: None,
+        layout: Layout::default(),
         scheme: EULER_CRANK_NICOLSON,
         settings: Settings { tolerance: 1e-13, ..Settings::default() },
     };

@@ -80,12 +80,25 @@ impl<'a> Section<'a> {
         &self,
         key: &str,
         allowed: &str,
-        read: impl Fn(&Field<'a>) -> Result<T, InputError>,
+        read: impl FnMut(&Field<'a>) -> Result<T, InputError>,
         fits: impl Fn(&[T]) -> bool,
     ) -> Result<Vec<T>, InputError> {
         let field = self.require(key, allowed)?;
         let list = field.items(allowed)?.iter().map(read).collect::<Result<Vec<T>, InputError>>()?;
         if fits(&list) { Ok(list) } else { Err(field.refuse_as_written(allowed)) }
+    }
+
+    /// The tables `[[key]]`, at least one, each by `read`.
+    ///
+    /// * `keys`: what follows in a message, such as ` with order and tolerance`.
+    pub fn tables<T>(
+        &self,
+        key: &str,
+        keys: &str,
+        mut read: impl FnMut(&Section<'a>) -> Result<T, InputError>,
+    ) -> Result<Vec<T>, InputError> {
+        let allowed = format!("at least one table [[{key}]]{keys}");
+        self.list(key, &allowed, |item| read(&item.section()?), |list| !list.is_empty())
     }
 
     /// The whole number of a key that has no default.

@@ -211,6 +211,17 @@ impl Outcome {
         }
     }
 
+    /// Adds what another part of the study has found, but for summary and headline.
+    pub fn extend(&mut self, part: Self) {
+        self.verdict = Verdict::worst([self.verdict, part.verdict]);
+        self.levels.extend(part.levels);
+        self.rates.extend(part.rates);
+        self.checks.extend(part.checks);
+        self.tables.extend(part.tables);
+        self.figures.extend(part.figures);
+        self.quantities.extend(part.quantities);
+    }
+
     /// Every number that JSON cannot hold.
     pub fn not_finite(&self) -> Vec<NotFinite> {
         let mut found = Vec::new();

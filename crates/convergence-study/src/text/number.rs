@@ -17,6 +17,11 @@ pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
+/// The smaller of two numbers; NaN if one of them is.
+pub fn min_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a <= b { a } else { b }
+}
+
 /// The number that a committed file has for `value`: six significant digits, none of them beyond 1e-15 but the first.
 ///
 /// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical libraries need not make the

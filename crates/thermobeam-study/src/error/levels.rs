@@ -1,5 +1,6 @@
-//! Levels of two meshes, one nested in the other: their distance, combinations, and the same functions by other nodes.
+//! Levels of two meshes, one nested in the other: their distance, combinations, and the same functions by other nodes; distances of curves.
 
+use convergence_study::text::number::max_or_nan;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 
@@ -9,6 +10,14 @@ pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
     let [v, u, w, phi, theta] = [(&a.v, &b.v), (&a.u, &b.u), (&a.w, &b.w), (&a.phi, &b.phi), (&a.theta, &b.theta)]
         .map(|(a, b)| difference(a, b));
     TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
+}
+
+/// Largest difference of two curves at the same times; NaN where there is one, or where the curves do not match.
+pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
+    if a.len() != b.len() || a.is_empty() {
+        return f64::NAN;
+    }
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
 }
 
 fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {

@@ -1,6 +1,5 @@
 //! Errors of runs against what is known: exact vibrations, and runs of any order.
 
-pub(crate) mod curve;
 pub mod evaluator;
 pub mod free_vibration;
 pub mod levels;

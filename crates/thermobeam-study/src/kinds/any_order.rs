@@ -1,8 +1,6 @@
 //! Orders of the scheme of any order: elements of degree p in space, dG(q) in time.
 //!
-//! Against a manufactured solution, contact included, or a free vibration without any load: the error at the end falls like h^(p+1) in the fields and h^p in
-//! their slopes; like dt^(2q+1) at the ends of steps and, inside steps, dt^(q+2) in u and dt^(q+1) in its velocity; and
-//! exponentially in p.
+//! Against a manufactured solution, contact included, or a free vibration without any load.
 //!
 //! ```toml
 //! [run]
@@ -34,7 +32,7 @@ use convergence_study::text::number::counted;
 use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};
 
 use super::prelude::*;
-use super::tables::{control, manufactured, mapped_mesh, mesh_map};
+use super::tables::{Layout, control, manufactured};
 use crate::error::free_vibration;
 use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
 use crate::scene::Coefficients;
@@ -85,18 +83,8 @@ pub struct Resolution {
     pub steps: usize,
 }
 
-/// Errors of one run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
-    /// Root of the sum of the squares of the L2 errors of u, φ, u_t, φ_t, θ at the end.
-    pub fields: f64,
-    /// The same of their slopes.
-    pub slopes: f64,
-    /// Largest L2 error of u inside steps.
-    pub inside_u: f64,
-    /// Largest L2 error of u_t inside steps.
-    pub inside_u_t: f64,
-}
+/// The errors of one run that are judged, each with its name; those in the fields at the end come first.
+pub type NamedErrors = Vec<(&'static str, f64)>;
 
 /// Runs that are judged together.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +106,7 @@ pub struct AnyOrder {
     exact: Manufactured,
     /// Whether loads keep the exact solution in place; a free vibration needs none.
     loaded: bool,
-    map: Option<Expression>,
+    layout: Layout,
     t_end: f64,
     over: Over,
     series: Vec<RunsOfDegree>,
@@ -145,11 +133,10 @@ impl FromFile for AnyOrder {
                 (theory, manufactured(root, &theory.beam, t_end)?)
             }
         };
-        let one = |item: &Field<'_>| series(&run, over, &item.section()?);
-        let series = root.list("series", "at least one table [[series]]", one, |list| !list.is_empty())?;
+        let series = root.tables("series", "", |section| series(&run, over, section))?;
         let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
-        let (solver, map) = (control(root, theory)?, mesh_map(&run, &elements, None)?);
-        Ok(AnyOrder { header, theory, solver, exact, loaded: vibration.is_none(), map, t_end, over, series })
+        let (solver, layout) = (control(root, theory)?, Layout::read(&run, &elements, None)?);
+        Ok(AnyOrder { header, theory, solver, exact, loaded: vibration.is_none(), layout, t_end, over, series })
     }
 }
 
@@ -204,7 +191,7 @@ fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOf
 
 impl Kind for AnyOrder {
     type Data = Resolution;
-    type Found = Errors;
+    type Found = NamedErrors;
 
     fn header(&self) -> &Header {
         &self.header
@@ -224,8 +211,9 @@ impl Kind for AnyOrder {
         self.series.iter().flat_map(|series| &series.runs).map(case).collect()
     }
 
-    /// The errors at the end and, for a study over time, inside every step.
-    fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
+    /// Roots of the sums of the squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes; of a study over time in
+    /// place of the slopes the largest L2 errors of u and u_t inside steps.
+    fn run(&self, resolution: &Resolution) -> Result<NamedErrors, CaseFailure> {
         let mut simulation = self.simulation(*resolution)?;
         // The temperature that the solver means: what it computes is lifted by its own.
         let theta_a = self.solver.beam.theta_a;
@@ -252,13 +240,14 @@ impl Kind for AnyOrder {
         }
         let LevelErrors { values, slopes } = meter.errors(simulation.level());
         let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
-        Ok(Errors { fields: together(values), slopes: together(slopes), inside_u, inside_u_t })
+        Ok(match self.over {
+            Over::Time => vec![("ends", together(values)), ("u inside", inside_u), ("u_t inside", inside_u_t)],
+            _ => vec![("fields", together(values)), ("slopes", together(slopes))],
+        })
     }
 
     fn judge(&self, ran: &[OneRun]) -> Outcome {
-        let completion = completion(ran, |&Errors { fields, slopes, inside_u, inside_u_t }| {
-            not_finite(&[("fields", fields), ("slopes", slopes), ("u inside", inside_u), ("u_t inside", inside_u_t)])
-        });
+        let completion = completion(ran, |errors| not_finite(errors));
         // Fewer where some are missing.
         let mut rest = ran;
         let of_series = |series| {
@@ -276,13 +265,9 @@ impl Kind for AnyOrder {
     }
 }
 
-type OneRun = Ran<Resolution, Errors>;
+type OneRun = Ran<Resolution, NamedErrors>;
 
 impl AnyOrder {
-    fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        mapped_mesh(elements, self.map.as_ref(), None)
-    }
-
     fn simulation(&self, resolution: Resolution) -> Result<Simulation, CaseFailure> {
         let Resolution { degree, elements, time_degree, steps } = resolution;
         let dt = self.t_end / steps as f64;
@@ -293,7 +278,7 @@ impl AnyOrder {
         let exact = any_order::initial(&self.exact);
         let theta = exact.theta;
         let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
-        let problem = Problem { beam, obstacles, mesh: self.mesh(elements)?, degree, initial };
+        let problem = Problem { beam, obstacles, mesh: self.layout.mesh(elements)?, degree, initial };
         if !self.loaded {
             return Ok(Simulation::new(problem, stepping)?);
         }
@@ -305,56 +290,44 @@ impl AnyOrder {
 
     /// Rates over h or dt, a figure for each degree's errors together.
     fn over_steps(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
-        let (mut rates, mut levels, mut figures, mut quantities) = (vec![], vec![], vec![], vec![]);
+        let mut all = Outcome::new("", vec![], vec![completion]);
         for (series, runs) in runs {
             let Resolution { degree, time_degree, .. } = series.runs[0];
             let (letter, degree) = if self.over == Over::Time { ("q", time_degree) } else { ("p", degree) };
             let title = format!("{letter} = {degree}");
             let caption = format!("Errors for {title}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
-            let one = self.levels(series, runs).outcome(&self.header.id, &what, Some(&title), &caption, vec![]);
-            rates.extend(one.rates);
-            levels.extend(one.levels);
-            figures.extend(one.figures);
-            quantities.extend(one.quantities);
+            all.extend(self.levels(series, runs).outcome(&self.header.id, &what, Some(&title), &caption, vec![]));
         }
-        Outcome { levels, figures, quantities, ..Outcome::new(summary(&rates), rates, vec![completion]) }
+        Outcome { summary: summary(&all.rates), ..all }
     }
 
     fn levels(&self, series: &RunsOfDegree, ran: &[OneRun]) -> Levels {
-        /// Name and order of an error, and the error itself.
-        type ClaimOf = (String, usize, fn(&Errors) -> f64);
-        let Resolution { degree: p, time_degree: q, .. } = series.runs[0];
-        let claims: Vec<ClaimOf> = match self.over {
-            Over::Time => vec![
-                (format!("q = {q}, ends"), 2 * q + 1, |errors| errors.fields),
-                (format!("q = {q}, u inside"), (q + 2).min(2 * q + 1), |errors| errors.inside_u),
-                (format!("q = {q}, u_t inside"), q + 1, |errors| errors.inside_u_t),
-            ],
-            _ => vec![
-                (format!("p = {p}, fields"), p + 1, |errors| errors.fields),
-                (format!("p = {p}, slopes"), p, |errors| errors.slopes),
-            ],
+        let (name, orders) = match (self.over, &series.runs[0]) {
+            (Over::Time, Resolution { time_degree: q, .. }) => {
+                let orders = vec![("ends", 2 * q + 1), ("u inside", (q + 2).min(2 * q + 1)), ("u_t inside", q + 1)];
+                (format!("q = {q}"), orders)
+            }
+            (_, Resolution { degree: p, .. }) => (format!("p = {p}"), vec![("fields", p + 1), ("slopes", *p)]),
         };
-        let column = |(look, (name, order, of)): (usize, ClaimOf)| ErrorColumn {
-            name,
-            errors: ran.iter().map(|ran| ran.ok().map(of)).collect(),
-            claim: Some(Claim::new(order as f64, series.tolerance)),
-            look,
-        };
+        let claim = |(name, order): (&'static str, usize)| (name, Claim::new(order as f64, series.tolerance));
+        let claims: Vec<(&str, Claim)> = orders.into_iter().map(claim).collect();
+        let errors: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
+        let mut columns = ErrorColumn::of(&claims, &errors);
+        columns.iter_mut().for_each(|column| column.name = format!("{name}, {}", column.name));
         let refinement = |ran: &OneRun| {
             let Resolution { degree, elements, time_degree, steps } = ran.case.data;
             let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
             let step = match self.over {
                 Over::Time => self.t_end / steps as f64,
-                _ => self.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+                _ => self.layout.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
             };
             Refinement::new(ran.case.label.clone(), &numbers, step)
         };
         Levels {
             axis: if self.over == Over::Time { Axis::Time } else { Axis::Space },
             refinements: ran.iter().map(refinement).collect(),
-            columns: claims.into_iter().enumerate().map(column).collect(),
+            columns,
         }
     }
 
@@ -363,7 +336,7 @@ impl AnyOrder {
         let mut checks = vec![completion];
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
         for (k, (series, runs)) in runs.iter().enumerate() {
-            let error = |run: &OneRun| run.ok().map_or(f64::NAN, |errors| errors.fields);
+            let error = |run: &OneRun| run.ok().map_or(f64::NAN, |errors| errors[0].1);
             let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));

@@ -14,7 +14,7 @@
 //! ```
 
 use convergence_study::judge::calibration::{
-    CLAIMS, ELEMENTS_OF_A_TABLE, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
+    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
 };
 
 use super::prelude::*;
@@ -30,21 +30,27 @@ pub const ROW: KindRow = KindRow {
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted as far as was said.",
 };
 
-/// What is counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// Verdicts on rates, beside other rules.
-    Rule,
-    /// Error bars of values.
-    Bars,
-    /// Verdicts on grids of h and dt.
-    Grids,
+/// What can be counted.
+#[derive(Debug)]
+struct Part {
+    /// Its name in files.
+    name: &'static str,
+    /// Tables of all laws and meshes, for each of `tables`; measured.
+    cost: usize,
+    /// Counts so many tables, drawn from a seed.
+    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
 }
 
+static PARTS: [Part; 3] = [
+    Part { name: "rule", cost: 3000, sheets: of_the_rule },
+    Part { name: "bars", cost: 90, sheets: of_the_bars },
+    Part { name: "grids", cost: 40, sheets: of_grids },
+];
+
 /// A part with the number of its tables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    of: Part,
+    of: &'static Part,
     tables: usize,
     seed: u64,
 }
@@ -52,22 +58,12 @@ pub struct Measure {
 impl Measure {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         section.allow(&["of", "tables", "seed"])?;
-        let parts = [("rule", Part::Rule), ("bars", Part::Bars), ("grids", Part::Grids)];
+        let parts = PARTS.each_ref().map(|part| (part.name, part));
         Ok(Self {
             of: section.require("of", "rule, bars or grids")?.choice(&parts)?,
             tables: section.require("tables", "a number of tables")?.count(1..=10_000)?,
             seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
         })
-    }
-
-    /// Tables of all laws and meshes, for each of `tables`; measured.
-    fn cost(self) -> f64 {
-        let each = match self.of {
-            Part::Rule => 3000,
-            Part::Bars => 90,
-            Part::Grids => 40,
-        };
-        (each * self.tables * ELEMENTS_OF_A_TABLE) as f64
     }
 }
 
@@ -100,9 +96,8 @@ impl Expectation {
         let Self { sheet, column, row, bounds: [least, most] } = self;
         let found = sheets.iter().find(|known| known.key == sheet);
         let place = found.and_then(|sheet| sheet.columns.iter().position(|known| known == column));
-        let rows = found.map_or(&[][..], |sheet| &sheet.rows[..]).iter();
         let is_meant = |known: &&Row| row.as_ref().map_or(known.declared, |name| *name == known.name);
-        let rows: Vec<&Row> = rows.filter(is_meant).collect();
+        let rows: Vec<&Row> = found.iter().flat_map(|sheet| &sheet.rows).filter(is_meant).collect();
         let (Some(place), false) = (place, rows.is_empty()) else {
             let names = |sheet: &Sheet| format!("columns: {}", sheet.columns.join("; "));
             let there = found.map_or_else(|| "no such sheet".to_owned(), names);
@@ -132,23 +127,8 @@ pub struct Calibration {
 impl FromFile for Calibration {
     fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "measure", "expect"])?;
-        let allowed = |key: &str| format!("at least one table [[{key}]]");
-        let (measure, expect) = (allowed("measure"), allowed("expect"));
-        Ok(Self {
-            header,
-            measures: root.list(
-                "measure",
-                &measure,
-                |item| Measure::read(&item.section()?),
-                |list| !list.is_empty(),
-            )?,
-            expected: root.list(
-                "expect",
-                &expect,
-                |item| Expectation::read(&item.section()?),
-                |list| !list.is_empty(),
-            )?,
-        })
+        let measures = root.tables("measure", "", Measure::read)?;
+        Ok(Self { header, measures, expected: root.tables("expect", "", Expectation::read)? })
     }
 }
 
@@ -161,17 +141,16 @@ impl Kind for Calibration {
     }
 
     fn cases(&self) -> Vec<Case<Measure>> {
-        let label =
-            |measure: &Measure| format!("{:?}, {} tables of each law", measure.of, measure.tables).to_lowercase();
-        self.measures.iter().map(|data| Case { label: label(data), cost: data.cost(), data: *data }).collect()
+        let case = |&data: &Measure| Case {
+            label: format!("{}, {} tables of each law", data.of.name, data.tables),
+            cost: (data.of.cost * data.tables * ELEMENTS_OF_A_TABLE) as f64,
+            data,
+        };
+        self.measures.iter().map(case).collect()
     }
 
     fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
-        Ok(match of {
-            Part::Rule => of_the_rule(tables, seed)?,
-            Part::Bars => of_the_bars(tables, seed)?,
-            Part::Grids => of_grids(tables, seed)?,
-        })
+        Ok((of.sheets)(tables, seed)?)
     }
 
     fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
@@ -196,45 +175,31 @@ fn table(sheet: &Sheet) -> Table {
 }
 
 /// What is drawn of a row.
-type Points<'p> = &'p dyn Fn(&Sheet, &Row) -> Vec<(f64, f64)>;
+type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
 /// What each rule pays for the true claims that it passes, and how often a term of lower order goes unnoticed.
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
-    let figure = |key: &str, caption: &str, x_label: &str, y: &str, points: Points<'_>| {
+    let figure = |key: &str, caption: &str, [x, y]: [&str; 2], points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
         let series = |row: &Row| plots::Series { label: row.name.clone(), points: points(sheet, row) };
         let history = plots::History {
-            x_label: x_label.to_owned(),
+            x_label: x.to_owned(),
             y: plots::Axis::linear(y),
             series: sheet.rows.iter().map(series).collect(),
             ..plots::History::default()
         };
         Some(over_time(id, key, caption, &history))
     };
-    let trade = |_: &Sheet, row: &Row| {
+    let trade: Points = |_, row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()
     };
-    let hidden = |sheet: &Sheet, row: &Row| {
+    let hidden: Points = |sheet, row| {
         let share = |column: &String| column.trim_end_matches(" %").parse().unwrap_or(f64::NAN);
         sheet.columns.iter().map(share).zip(row.values.iter().map(|value| 100.0 * value)).collect()
     };
-    [
-        figure(
-            "rules",
-            "What each rule pays for the true claims it passes: wrong claims that pass, too.",
-            "true claims that pass (%)",
-            "wrong claims that pass (%)",
-            &trade,
-        ),
-        figure(
-            "hidden-8",
-            "How often a term of lower order goes unnoticed, by its share of the finest error.",
-            "share of the finest error (%)",
-            "tables that pass (%)",
-            &hidden,
-        ),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let of_rules = "What each rule pays for the true claims it passes: wrong claims that pass, too.";
+    let of_hidden = "How often a term of lower order goes unnoticed, by its share of the finest error.";
+    let trade = figure("rules", of_rules, ["true claims that pass (%)", "wrong claims that pass (%)"], trade);
+    let axes = ["share of the finest error (%)", "tables that pass (%)"];
+    [trade, figure("hidden-8", of_hidden, axes, hidden)].into_iter().flatten().collect()
 }

@@ -18,7 +18,7 @@ use thermobeam::dg::MAX_DEGREE;
 use thermobeam::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
-use super::tables::{mapped_mesh, mesh_map};
+use super::tables::Layout;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -49,7 +49,7 @@ pub struct Frequencies {
     count: usize,
     degree: usize,
     elements: Vec<usize>,
-    map: Option<Expression>,
+    layout: Layout,
     claim: Claim,
 }
 
@@ -69,7 +69,7 @@ impl FromFile for Frequencies {
             first: section.get("first").map_or(Ok(1), |field| field.count(1..=count))?,
             count,
             degree,
-            map: mesh_map(&section, &elements, None)?,
+            layout: Layout::read(&section, &elements, None)?,
             elements,
             claim: Claim { tolerance: section.positive("tolerance")?, ..claim },
         })
@@ -95,7 +95,7 @@ impl Kind for Frequencies {
     fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {
         // Each count of the bisection goes over all elements, as a step does.
         let mut patience = Patience::new(elements * self.degree.pow(3));
-        let mesh = self.mesh(elements)?;
+        let mesh = self.layout.mesh(elements)?;
         Ok(discrete_frequencies_until(&mesh, self.degree, self.count, |known| patience.check(known, || 0.0))??)
     }
 
@@ -119,15 +119,11 @@ impl Kind for Frequencies {
 }
 
 impl Frequencies {
-    fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        mapped_mesh(elements, self.map.as_ref(), None)
-    }
-
     fn levels(&self, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
         let exact = frequencies(self.count);
         let refinement = |level: &Ran<usize, Vec<f64>>| {
             let (n, label) = (level.case.data, level.case.label.clone());
-            Refinement::new(label, &[("elements", n)], self.mesh(n).map_or(f64::NAN, |mesh| mesh.size()))
+            Refinement::new(label, &[("elements", n)], self.layout.mesh(n).map_or(f64::NAN, |mesh| mesh.size()))
         };
         let column = |mode: usize| ErrorColumn {
             name: format!("omega-{}", mode + 1),
@@ -194,7 +190,7 @@ impl Frequencies {
     fn lie_above(&self, levels: &Levels) -> Check {
         // A NaN must stay, and so must a mode that was not found.
         let errors = levels.columns.iter().flat_map(|column| &column.errors).map(|error| error.unwrap_or(f64::NAN));
-        let least = -errors.map(|error| -error).fold(f64::NEG_INFINITY, max_or_nan);
+        let least = errors.fold(f64::INFINITY, min_or_nan);
         Check::that(
             least > 0.0,
             format!("discrete frequencies {} to {} lie above the exact ones", self.first, self.count),

@@ -13,7 +13,7 @@ pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Reading,
     Refinement, Table, reader, readings,
 };
-pub(crate) use convergence_study::text::number::{max_or_nan, plain_text};
+pub(crate) use convergence_study::text::number::{max_or_nan, min_or_nan, plain_text};
 pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;

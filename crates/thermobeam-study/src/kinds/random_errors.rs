@@ -1,12 +1,13 @@
-//! Errors and accuracies asked for, of random scenes with contact: against runs that share neither mesh nor steps with the search.
+//! Estimated errors, and runs chosen for an accuracy, of random scenes with contact: against runs that share neither mesh nor steps
+//! with the search.
 //!
 //! A mistake that all runs by dG share would not show. So for some scenes linear elements and steps of `midpoint` are refined as well:
 //! they must tend to the run that was chosen.
 //!
 //! ```toml
 //! [random-errors]
-//! scenes = 12            # by turns of the paper's scheme, midpoint and dG
-//! refined = 4            # of every so many scenes one is run on finer and finer linear elements
+//! scenes = 12            # by the paper's scheme, midpoint and dG in turn
+//! refined = 4            # every fourth scene is also run on finer and finer linear elements
 //! targets = [1e-4, 1e-6]
 //! seed = 1
 //! ```
@@ -23,20 +24,20 @@ use crate::predict::{MOST_WORK, Unreachable, Work};
 pub const ROW: KindRow = KindRow {
     name: "random-errors",
     read: reader::<RandomErrors>,
-    why: "An error that is told is believed. It is measured against runs on seven elements of degree 16, which no search tries, and \
-          for some scenes linear elements and small steps must tend to the same motion.",
+    why: "Users rely on an error that the program prints. Here it is measured against runs on seven elements of degree 16, which no \
+          search tries; for some scenes linear elements and small steps must tend to the same motion.",
     judged: "No error of any number exceeds twice its estimate, no run the error asked for, no search is refused, and the error of \
              linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
 };
 
-/// What an error may be of its estimate.
+/// An error may be this many times its estimate.
 const EXCEEDED: f64 = 2.0;
 
 /// How much the error of linear elements must fall with four times the elements and steps: contact leaves first order.
 const FALL: f64 = 4.0;
 
-/// Elements of the coarsest of the linear elements, and its steps in a unit of time.
+/// Elements of the coarsest mesh of linear elements, and its steps in a unit of time.
 const COARSEST: [usize; 2] = [80, 2500];
 
 /// Which of the numbers is the curve of u(1, t).
@@ -183,8 +184,8 @@ impl Kind for RandomErrors {
     fn run(&self, &number: &usize) -> Result<Found, CaseFailure> {
         let scene = self.scene(number).map_err(failed)?;
         let exact = Self::independent(&scene)?;
-        let mut told = |_: f64| ();
-        let work = &mut Work::new(MOST_WORK, &mut told);
+        let mut ignored = |_: f64| ();
+        let work = &mut Work::new(MOST_WORK, &mut ignored);
         let mut found = Found::default();
         match self.searches(&scene, work) {
             Err(refused) => found.refused = Some(refused.to_string()),
@@ -210,7 +211,7 @@ impl Kind for RandomErrors {
         let (over_estimate, over_target) = (worst(|found| found.over_estimate), worst(|found| found.over_target));
         let falls: Vec<f64> =
             found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
-        let least = -falls.iter().map(|fall| -fall).fold(f64::NEG_INFINITY, max_or_nan);
+        let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
         let refused: Vec<&str> = found.iter().filter_map(|(_, found)| found.refused.as_deref()).collect();
         let checks = vec![
             completion(ran, |found| readings::not_finite(&found.readings())),

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::curves::{Curves, Rows, curves};
 use super::reference::{Reference, Wanted, finer, reference};
 use super::{Reason, Unreachable, Work};
-use crate::error::curve::distance;
+use crate::error::levels::distance_of_curves;
 use crate::scene::{Method, Scene};
 
 /// Error of the first reference, in units of the largest value of a curve.
@@ -153,7 +153,8 @@ fn against(
             (Err(_), Some((reference, exact, errors))) if fits(&errors, 1.0) => return Ok((reference, exact)),
             (Err(error), _) => return Err(error),
         };
-        let errors = std::array::from_fn(|k| [distance(&own.column(k), &exact.column(k)), reference.error(k)]);
+        let errors =
+            std::array::from_fn(|k| [distance_of_curves(&own.column(k), &exact.column(k)), reference.error(k)]);
         if fits(&errors, TENTH) {
             return Ok((reference, exact));
         }
@@ -171,7 +172,7 @@ pub(super) fn none(target: f64, reason: Reason) -> Unreachable {
 }
 
 fn largest(curve: &[f64]) -> f64 {
-    distance(curve, &vec![0.0; curve.len()])
+    distance_of_curves(curve, &vec![0.0; curve.len()])
 }
 
 /// The value of a number or curve, and its difference to the reference.
@@ -179,7 +180,7 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
     let [curve, truth] = [own, exact].map(|run| run.column(k));
     let last = |curve: &[f64]| curve.last().copied().unwrap_or(f64::NAN);
     let (value, truth) = match kind {
-        Kind::Curve => return (largest(&curve), distance(&curve, &truth)),
+        Kind::Curve => return (largest(&curve), distance_of_curves(&curve, &truth)),
         Kind::Largest => (own.range[1], exact.range[1]),
         Kind::Smallest => (own.range[0], exact.range[0]),
         Kind::End => (last(&curve), last(&truth)),

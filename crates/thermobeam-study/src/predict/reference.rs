@@ -23,7 +23,7 @@ use thermobeam::parameters::Beam;
 
 use super::curves::{Apart, Curves, Rows, curves};
 use super::{Cost, Reason, Unreachable, Work};
-use crate::error::curve::distance;
+use crate::error::levels::distance_of_curves;
 use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
 
@@ -218,10 +218,11 @@ impl Search<'_, '_> {
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {
                 let [own, finer, shorter] = [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
-                (found.space[k], found.time[k]) = (distance(&own, &finer), distance(&own, &shorter));
+                (found.space[k], found.time[k]) =
+                    (distance_of_curves(&own, &finer), distance_of_curves(&own, &shorter));
                 let last = own.len() - 1;
                 let end = (own[last] - finer[last]).abs() + (own[last] - shorter[last]).abs();
-                found.end = found.end.max(end / distance(&own, &vec![0.0; own.len()]));
+                found.end = found.end.max(end / distance_of_curves(&own, &vec![0.0; own.len()]));
             }
         }
         found

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::run::error::RunError;
 use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, min_or_nan};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
@@ -41,7 +41,7 @@ pub(crate) fn traced<S>(
     let stride = scene.steps() / samples;
     driver.run(scene.steps(), |step| {
         let tip = step.new.u[last];
-        trace.tip = [-max_or_nan(-trace.tip[0], -tip), max_or_nan(trace.tip[1], tip)];
+        trace.tip = [min_or_nan(trace.tip[0], tip), max_or_nan(trace.tip[1], tip)];
         if step.simulation.step() % stride == 0 {
             trace.samples.push(sample(step.simulation, step.new));
         }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::energy::Balance;
 
@@ -98,7 +98,7 @@ impl Tally {
         self.iterations.max = self.iterations.max.max(report.iterations);
         self.contact_steps += usize::from(report.in_contact);
         self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
-        self.extremes.u_tip_min = -max_or_nan(-self.extremes.u_tip_min, -low);
+        self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
         // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
         let (change, residual) = (balance.change, balance.residual.abs());
         self.largest_increase = Some(self.largest_increase.map_or(change, |most| max_or_nan(most, change)));

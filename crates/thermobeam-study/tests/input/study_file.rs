@@ -117,7 +117,7 @@ fn levels_run_in_pairs_or_over_the_grid() {
 fn a_perturbed_mesh_is_the_same_every_time_and_different_for_every_seed_and_level() {
     let nodes = |lines: &str, elements: usize| {
         let lines = format!("axis = \"space\"\nelements = [4]\nsteps = 2\n{lines}");
-        let mesh = spec(&[STUDY, EXACT, &refine(&lines), EXPECT]).refine.mesh(elements).expect("a mesh");
+        let mesh = spec(&[STUDY, EXACT, &refine(&lines), EXPECT]).refine.layout.mesh(elements).expect("a mesh");
         mesh.nodes().to_vec()
     };
     let first = nodes("perturb = 0.3\nseed = 1", 64);
@@ -139,9 +139,9 @@ fn a_perturbed_mesh_is_the_same_every_time_and_different_for_every_seed_and_leve
 #[test]
 fn a_random_mesh_is_displaced_before_it_is_mapped() {
     let lines = "axis = \"space\"\nelements = [4]\nsteps = 2\nperturb = 0.9\nseed = 5";
-    let flat = spec(&[STUDY, EXACT, &refine(lines), EXPECT]).refine.mesh(32).expect("a mesh");
+    let flat = spec(&[STUDY, EXACT, &refine(lines), EXPECT]).refine.layout.mesh(32).expect("a mesh");
     let lines = format!("{lines}\nmap = \"s^2\"");
-    let graded = spec(&[STUDY, EXACT, &refine(&lines), EXPECT]).refine.mesh(32).expect("a mesh");
+    let graded = spec(&[STUDY, EXACT, &refine(&lines), EXPECT]).refine.layout.mesh(32).expect("a mesh");
     assert!(flat.nodes().iter().zip(graded.nodes()).all(|(s, x)| (s.powi(2) - x).abs() <= f64::EPSILON));
 }
 
@@ -292,7 +292,7 @@ fn a_refinement_that_breaks_a_rule_is_named() {
         &["refine.t_end: missing; expected a finite number > 0"],
     );
     let seeded = spec(&[STUDY, EXACT, &refine(&format!("{space}perturb = 0.5")), EXPECT]);
-    assert_eq!(seeded.refine.perturbation, Some(Perturbation { amount: 0.5, seed: 0 }));
+    assert_eq!(seeded.refine.layout.perturbation, Some(Perturbation { amount: 0.5, seed: 0 }));
 }
 
 #[test]

@@ -2,7 +2,7 @@ use std::sync::LazyLock;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::controls::matrix::{Controls, Planted};
+use thermobeam_study::kinds::controls::matrix::Controls;
 use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
@@ -20,10 +20,10 @@ static SOUND: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&contro
 /// The errors under one fault replaced by those under another.
 fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
     changed::<Controls>(&SOUND, |_, found| {
-        let errors = found.iter().find(|planted| planted.fault == from).map(|planted| planted.errors);
-        let target = found.iter_mut().find(|planted| planted.fault == to);
-        if let (Some(errors), Some(planted)) = (errors, target) {
-            planted.errors = errors;
+        let errors = found.iter().find(|(fault, _)| *fault == from).map(|(_, errors)| *errors);
+        let target = found.iter_mut().find(|(fault, _)| *fault == to);
+        if let (Some(errors), Some((_, planted))) = (errors, target) {
+            *planted = errors;
         }
     })
 }
@@ -55,12 +55,11 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
         let outcome = study.judge(&failed);
         assert_eq!(outcome.verdict, Verdict::Fail, "case {case}");
         assert!(report(&outcome).contains("planted"));
-        let broken = changed::<Controls>(&SOUND, |index, found: &mut Vec<Planted>| {
-            if index == case {
-                found
-                    .iter_mut()
-                    .filter(|planted| planted.fault == Fault::None)
-                    .for_each(|planted| planted.errors[Norm::Theorem34] = f64::NAN);
+        let broken = changed::<Controls>(&SOUND, |index, found| {
+            for (fault, errors) in found.iter_mut().filter(|_| index == case) {
+                if *fault == Fault::None {
+                    errors[Norm::Theorem34] = f64::NAN;
+                }
             }
         });
         assert_eq!(study.judge(&broken).verdict, Verdict::Fail, "case {case}");

@@ -6,7 +6,7 @@ use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::solvers::{Agreement, Boundary, Crossing, Found, MeasuredFactor, Point, Solvers};
+use thermobeam_study::kinds::solvers::{Agreement, Boundary, Crossing, FixedPointStep, Found, Point, Solvers};
 
 fn map() -> Solvers {
     Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -24,7 +24,7 @@ fn boundary(found: &mut Found) -> &mut Boundary {
     if let Found::Boundary(line) = found { line } else { panic!("no boundary: {found:?}") }
 }
 
-fn contraction(found: &mut Found) -> &mut MeasuredFactor {
+fn contraction(found: &mut Found) -> &mut FixedPointStep {
     if let Found::Contraction(contraction) = found { contraction } else { panic!("no contraction: {found:?}") }
 }
 
@@ -43,11 +43,11 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
         |change: &dyn Fn(&mut Point)| verdict_with(&study, &sound, 0, |found| row(found).iter_mut().for_each(change));
     let last_point = 11;
     assert_eq!(with_all(&|_| ()), Verdict::Pass);
-    assert_eq!(with_point(0, &|point| point.fixed_point.converged = false), Verdict::Fail);
-    assert_eq!(with_point(last_point, &|point| point.fixed_point.converged = true), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.alpha = f64::NAN), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.gamma = f64::NAN), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.fixed_point.contraction = Some(f64::NAN)), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.step.converged = false), Verdict::Fail);
+    assert_eq!(with_point(last_point, &|point| point.step.converged = true), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.step.alpha = f64::NAN), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.step.gamma = f64::NAN), Verdict::Fail);
+    assert_eq!(with_point(0, &|point| point.step.contraction = Some(f64::NAN)), Verdict::Fail);
     assert_eq!(with_point(0, &|point| point.newton_completes = false), Verdict::Fail);
     assert_eq!(with_all(&|point| point.newton = None), Verdict::Fail);
     assert_eq!(verdict_with(&study, &sound, 0, |found| row(found).truncate(5)), Verdict::Fail);
@@ -97,8 +97,8 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             }
             continue;
         }
-        let MeasuredFactor { alpha, gamma, .. } = *contraction(found);
-        let with = |change: &dyn Fn(&mut MeasuredFactor)| {
+        let FixedPointStep { alpha, gamma, .. } = *contraction(found);
+        let with = |change: &dyn Fn(&mut FixedPointStep)| {
             verdict_with(&study, &sound, index, |found| change(contraction(found)))
         };
         assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
@@ -106,13 +106,13 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         // A factor is judged only where contact dominates, and not where α is within 3 % of 1.
         if alpha < 0.97 && alpha >= 100.0 * gamma {
             as_predicted += 1;
-            assert_eq!(with(&|found| found.step.converged = false), Verdict::Fail);
+            assert_eq!(with(&|found| found.converged = false), Verdict::Fail);
             for wrong in [Some(1.04 * alpha), Some(0.96 * alpha), Some(f64::NAN), None] {
-                assert_eq!(with(&|found| found.step.contraction = wrong), Verdict::Fail, "case {index}, {wrong:?}");
+                assert_eq!(with(&|found| found.contraction = wrong), Verdict::Fail, "case {index}, {wrong:?}");
             }
         } else if alpha > 1.03 {
             divergent += 1;
-            assert_eq!(with(&|found| found.step.converged = true), Verdict::Fail, "case {index}");
+            assert_eq!(with(&|found| found.converged = true), Verdict::Fail, "case {index}");
         }
     }
     assert_eq!((as_predicted, divergent, compared), (25, 10, 4));

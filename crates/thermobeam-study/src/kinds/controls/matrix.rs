@@ -26,15 +26,6 @@ pub struct Controls {
 /// A study, by its place in the list, and elements and steps of a level of it, on which every fault is planted.
 type LevelOf = (usize, (usize, usize));
 
-/// The errors of one run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Planted {
-    /// What was wrong.
-    pub fault: Fault,
-    /// The error in each norm; NaN where the run broke down.
-    pub errors: Norms,
-}
-
 impl FromFile for Controls {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.require("controls", "a table with relative and studies")?.section()?;
@@ -46,8 +37,8 @@ impl FromFile for Controls {
 
 impl Kind for Controls {
     type Data = LevelOf;
-    /// One run for each fault that can be planted.
-    type Found = Vec<Planted>;
+    /// One run for each fault that can be planted, with its errors; NaN where it broke down.
+    type Found = Vec<(Fault, Norms)>;
 
     fn header(&self) -> &Header {
         &self.header
@@ -64,7 +55,7 @@ impl Kind for Controls {
         (0..self.studies.len()).flat_map(levels).collect()
     }
 
-    fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<Planted>, CaseFailure> {
+    fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<(Fault, Norms)>, CaseFailure> {
         let spec = &self.studies[study];
         let mut prepared = Prepared::new(spec, elements)?;
         let mut found = vec![];
@@ -72,20 +63,19 @@ impl Kind for Controls {
             let Some((solver, defect)) = fault.plant(spec, self.relative) else { continue };
             // A fault that breaks a run down is detected; only the honest run has to end.
             let errors = match prepared.run(steps, solver, defect) {
-                Ok(errors) => errors,
                 Err(failure) if fault == Fault::None => return Err(failure),
-                Err(_) => Norms::NAN,
+                errors => errors.unwrap_or(Norms::NAN),
             };
-            found.push(Planted { fault, errors });
+            found.push((fault, errors));
         }
         Ok(found)
     }
 
-    fn judge(&self, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Outcome {
         // Of a wrong run a number that is not finite is a detection.
-        let not_finite = |found: &Vec<Planted>| {
-            let honest = found.iter().find(|planted| planted.fault == Fault::None);
-            let finite = honest.is_some_and(|planted| planted.errors.iter().all(|(_, error)| error.is_finite()));
+        let not_finite = |found: &Vec<(Fault, Norms)>| {
+            let honest = errors_with(found, Fault::None);
+            let finite = honest.is_some_and(|errors| errors.iter().all(|(_, error)| error.is_finite()));
             if finite { vec![] } else { vec!["an error without a fault".to_owned()] }
         };
         let headers = self.studies.iter().map(|spec| &spec.header);
@@ -105,14 +95,18 @@ impl Kind for Controls {
 
 impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` where the fault cannot be planted.
-    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<Planted>>]) -> Option<Verdict> {
+    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Option<Verdict> {
         let spec = &self.studies[study];
         fault.plant(spec, self.relative)?;
-        let level = |ran: &Ran<LevelOf, Vec<Planted>>| {
-            let planted = ran.ok().and_then(|found| found.iter().find(|planted| planted.fault == fault));
-            (ran.case.data.1, planted.map_or(Norms::NAN, |planted| planted.errors))
+        let level = |ran: &Ran<LevelOf, Vec<(Fault, Norms)>>| {
+            let errors = ran.ok().and_then(|found| errors_with(found, fault));
+            (ran.case.data.1, errors.copied().unwrap_or(Norms::NAN))
         };
         let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.0 == study).map(level).collect();
         Some(Verdict::worst(verdicts(spec, &levels)))
     }
+}
+
+fn errors_with(found: &[(Fault, Norms)], fault: Fault) -> Option<&Norms> {
+    found.iter().find(|(planted, _)| *planted == fault).map(|(_, errors)| errors)
 }

@@ -84,7 +84,7 @@ impl Kind for Sensitivity {
         let (mut rows, mut quantities) = (vec![], vec![]);
         for key in Coefficients::names() {
             let cells: Vec<(f64, String)> = (0..self.studies.len()).map(|study| cell(study, key, ran)).collect();
-            let best = cells.iter().map(|(smallest, _)| *smallest).fold(f64::INFINITY, smaller_or_nan);
+            let best = cells.iter().map(|(smallest, _)| *smallest).fold(f64::INFINITY, min_or_nan);
             let claim = format!("{key} off by {:e} is detected", self.at_most);
             checks.push(Check::that(best <= self.at_most, claim, format!("detected from {best:.1e} on")));
             quantities.push(Quantity::new(format!("smallest {key} seen"), best, 0.2));
@@ -113,8 +113,4 @@ fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]
         Some(Ok(None)) => (f64::INFINITY, "not in the range".to_owned()),
         Some(Ok(Some(smallest))) => (*smallest, format!("{smallest:.1e}")),
     }
-}
-
-fn smaller_or_nan(a: f64, b: f64) -> f64 {
-    -max_or_nan(-a, -b)
 }

@@ -71,7 +71,7 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// [`MeshError`] where the study's map makes no mesh of so many elements.
     pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
-        let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.mesh(elements)?);
+        let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.layout.mesh(elements)?);
         let is_nodal = study.refine.isolates(Axis::Time);
         let sources =
             if is_nodal { Sources::discrete(exact, beam, &mesh) } else { Sources::strong(exact, beam, &mesh) };

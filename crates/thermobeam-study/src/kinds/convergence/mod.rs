@@ -38,7 +38,7 @@ use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, manufactured, norm_levels, not_finite, refine};
-use super::terms;
+use super::terms::TERMS;
 use crate::scene::Coefficients;
 pub use design::{Defect, Prepared};
 
@@ -145,10 +145,9 @@ impl Kind for Convergence {
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let orders = self
-            .expect
-            .iter()
-            .map(|&(norm, claim)| (format!("{}, order {claim}", norm.name()), format!("{}.", terms::text(norm))));
+        let orders = self.expect.iter().map(|&(norm, claim)| {
+            (format!("{}, order {claim}", norm.name()), format!("{}.", TERMS[norm as usize].text))
+        });
         [("what is done".to_owned(), self.design())].into_iter().chain(orders).collect()
     }
 

@@ -32,7 +32,7 @@ use thermobeam::energy::Energy;
 use super::{End, Worst, beams, named_cases};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{mapped_mesh, mesh_map};
+use crate::kinds::tables::Layout;
 use crate::kinds::watch::{EnergyWatch, SOLVED, of_allowed};
 use crate::scene;
 
@@ -135,8 +135,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let seed = count("seed")? as u64;
     let field = section.require("elements", "a number of elements")?;
     let elements = tables::elements(&field)?;
-    let map = mesh_map(section, &[elements], None)?;
-    let mesh = tables::checked_mesh(mapped_mesh(elements, map.as_ref(), None), &field)?;
+    let mesh = tables::checked_mesh(Layout::read(section, &[elements], None)?.mesh(elements), &field)?;
     let (dt, tolerance) = (section.positive("dt")?, section.positive("tolerance")?);
     let steps = section.count("steps", 1..=limits::STEPS)?;
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });

@@ -4,8 +4,8 @@ use convergence_study::judge::richardson;
 use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
 
-use super::observable::last;
-use super::{ComparedRun, Observable, SelfConvergence, Traced};
+use super::{ComparedRun, SelfConvergence, Traced};
+use crate::error::levels::{self, prolong, restrict};
 use crate::figures::obstacle_lines;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
@@ -21,23 +21,91 @@ const KNOWN: f64 = 1e-2;
 
 type Results = [Ran<ComparedRun, Traced>];
 
-/// Which run a level is compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Against {
-    /// The next finer one.
-    Successive,
-    /// The reference.
-    Reference,
+/// A difference of two runs, the second on a mesh that is the first's or nested in it; each the maximum over the times compared.
+#[derive(Debug)]
+pub(super) struct Observable {
+    /// The name in study files and tables.
+    pub(super) name: &'static str,
+    /// The order in h for a smooth solution.
+    in_space: f64,
+    of: fn(&Traced, &Traced) -> f64,
 }
+
+static OBSERVABLES: [Observable; 6] = [
+    TIP,
+    Observable {
+        name: "rotation",
+        in_space: 2.0,
+        of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
+    },
+    // The energy (3.9).
+    Observable { name: "energy", in_space: 2.0, of: |a, b| levels::distance_of_curves(&a.energies, &b.energies) },
+    // The largest u(1) over all time levels.
+    Observable { name: "tip-max", in_space: 2.0, of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs() },
+    // The solutions as functions.
+    Observable {
+        name: "theorem-3.4",
+        in_space: 1.0,
+        of: |coarse, fine| {
+            let lengths: Vec<f64> = fine.mesh.lengths().collect();
+            let extended = |level: &Level| prolong(level, coarse.mesh.nodes(), fine.mesh.nodes());
+            largest(coarse, fine, |a, b| levels::distance(&lengths, &extended(a), b))
+        },
+    },
+    // The same norm of their values at the nodes of the coarser mesh.
+    Observable {
+        name: "superclose",
+        in_space: 2.0,
+        of: |coarse, fine| {
+            let lengths: Vec<f64> = coarse.mesh.lengths().collect();
+            let stride = fine.mesh.elements() / coarse.mesh.elements();
+            largest(coarse, fine, |a, b| levels::distance(&lengths, a, &restrict(b, stride)))
+        },
+    },
+];
+
+const TIP: Observable =
+    Observable { name: "tip", in_space: 2.0, of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()) };
+
+/// The largest over the times compared.
+fn largest(coarse: &Traced, fine: &Traced, of: impl Fn(&Level, &Level) -> f64) -> f64 {
+    coarse.levels.iter().zip(&fine.levels).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
+}
+
+fn last(values: &[f64]) -> f64 {
+    values.last().copied().unwrap_or(f64::NAN)
+}
+
+impl Observable {
+    /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
+    /// 3.4 are the same.
+    pub(super) fn all(axis: Axis) -> impl Iterator<Item = &'static Self> {
+        OBSERVABLES.iter().filter(move |observable| axis != Axis::Time || observable.name != "superclose")
+    }
+
+    /// The order for a smooth solution in the step that is refined, in which the scheme has the order `in_time`.
+    fn order(&self, axis: Axis, in_time: f64) -> f64 {
+        if axis == Axis::Time { in_time } else { in_time.min(self.in_space) }
+    }
+
+    /// The difference of two runs; NaN where they cannot be compared.
+    fn difference(&self, coarse: &Traced, fine: &Traced) -> f64 {
+        let is_nested = fine.mesh.elements().is_multiple_of(coarse.mesh.elements());
+        if coarse.levels.len() == fine.levels.len() && is_nested { (self.of)(coarse, fine) } else { f64::NAN }
+    }
+}
+
+/// Each level is compared with the next finer one, or with the reference.
+const READINGS: [&str; 2] = ["successive", "reference"];
 
 pub(super) fn judge(study: &SelfConvergence, ran: &Results) -> Outcome {
     let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
-    for against in [Against::Successive, Against::Reference] {
-        let claimed = differences(study, ran, against, |claim| claim.is_some());
+    for reading in READINGS {
+        let claimed = differences(study, ran, reading, |claim| claim.is_some());
         let judged = claimed.judge();
         quantities.extend(claimed.quantities(&judged));
         rates.extend(judged);
-        let others = differences(study, ran, against, |claim| claim.is_none());
+        let others = differences(study, ran, reading, |claim| claim.is_none());
         shown.extend(others.judge());
         append(&mut errors, claimed.errors());
         append(&mut errors, others.errors());
@@ -63,7 +131,7 @@ fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: 
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();
     rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
-    let mut differences = differences(study, ran, Against::Reference, |_| true);
+    let mut differences = differences(study, ran, READINGS[1], |_| true);
     for column in differences.columns.iter_mut().filter(|column| shown.iter().any(|(name, _)| *name == column.name)) {
         column.name = not_claimed(&column.name);
     }
@@ -116,31 +184,30 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
 fn differences(
     study: &SelfConvergence,
     ran: &Results,
-    against: Against,
+    reading: &str,
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
-    let reference = study.levels.len();
-    let (name, count) = match against {
-        Against::Successive => ("successive", reference - 1),
-        Against::Reference => ("reference", reference),
-    };
-    let finer = |k: usize| if against == Against::Successive { k + 1 } else { reference };
-    let column = |observable: Observable| {
-        let claim = study.claims.iter().find(|(claimed, _)| *claimed == observable).map(|(_, claim)| claim);
+    let (reference, is_successive) = (study.levels.len(), reading == READINGS[0]);
+    let count = if is_successive { reference - 1 } else { reference };
+    let finer = |k: usize| if is_successive { k + 1 } else { reference };
+    let column = |(place, observable): (usize, &Observable)| {
+        // A norm that is also one of errors has its look wherever it is drawn.
+        let norm = Norm::ALL.iter().position(|norm| norm.name() == observable.name);
+        let claim = study.claims.iter().find(|(of, _)| of.name == observable.name).map(|(_, claim)| claim);
         let difference = |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
         let smooth = Claim::new(observable.order(study.axis, study.order_in_time()), SHOWN_TOLERANCE);
         wanted(claim).then(|| ErrorColumn {
-            name: format!("{}, {name}", observable.name()),
+            name: format!("{}, {reading}", observable.name),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
-            look: observable.look(),
+            look: norm.unwrap_or(Norm::ALL.len() + place),
         })
     };
     let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
     Levels {
         axis: study.axis,
         refinements: (0..count).map(refinement).collect(),
-        columns: Observable::of(study.axis).filter_map(column).collect(),
+        columns: Observable::all(study.axis).enumerate().filter_map(column).collect(),
     }
 }
 
@@ -166,7 +233,7 @@ fn values(study: &SelfConvergence, ran: &Results) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
     let ratio = study.step(before) / study.step(finest);
-    let order = Observable::Tip.order(study.axis, study.order_in_time());
+    let order = TIP.order(study.axis, study.order_in_time());
     let row = |k: usize| {
         let value = |run: usize| tip_at(ran, run, k);
         let correction = richardson::correction(value(before), value(finest), ratio, order);
@@ -194,12 +261,11 @@ fn contact(study: &SelfConvergence, ran: &Results) -> Option<Check> {
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
 fn reference_known(study: &SelfConvergence, ran: &Results) -> Check {
     let reference = study.levels.len();
-    let part = |observable: Observable| {
+    let part = |observable: &Observable| {
         let (finest, one, other) = (found(ran, reference - 1)?, found(ran, reference)?, found(ran, reference + 1)?);
         Some(observable.difference(one, other) / observable.difference(finest, one))
     };
-    let part = |(observable, _): &(Observable, Claim)| (observable.name(), part(*observable).unwrap_or(f64::NAN));
-    let parts: Vec<(&str, f64)> = study.claims.iter().map(part).collect();
+    let parts: Vec<(&str, f64)> = study.claims.iter().map(|(of, _)| (of.name, part(of).unwrap_or(f64::NAN))).collect();
     let worst = parts.iter().map(|(_, part)| *part).fold(0.0, max_or_nan);
     Check::that(
         worst <= KNOWN,

@@ -42,14 +42,13 @@
 //! ```
 
 mod judge;
-mod observable;
 
 use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
 use crate::run::rerun::{at, traced};
-pub use observable::Observable;
+use judge::Observable;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -66,7 +65,7 @@ pub const ROW: KindRow = KindRow {
 const CURVE_POINTS: usize = 2000;
 
 /// A study of rates without exact solution.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct SelfConvergence {
     header: Header,
     scene: Scene,
@@ -84,7 +83,7 @@ pub struct SelfConvergence {
     /// Must the tip meet an obstacle?
     contact: bool,
     /// What is claimed of both readings.
-    claims: Vec<(Observable, Claim)>,
+    claims: Vec<(&'static Observable, Claim)>,
 }
 
 /// A run of the scene.
@@ -111,7 +110,7 @@ impl FromFile for SelfConvergence {
         let (levels, power) = levels(&section, axis, samples)?;
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
         let schemes = SCHEMES.map(|scheme| (scheme.name, scheme));
-        let observables: Vec<_> = Observable::of(axis).map(|observable| (observable.name(), observable)).collect();
+        let observables: Vec<_> = Observable::all(axis).map(|observable| (observable.name, observable)).collect();
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
             header,
@@ -140,13 +139,21 @@ fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
 
 /// The levels, coarse to fine, and the power of h that dt is proportional to where both are refined.
 fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usize, usize)>, f64), InputError> {
-    let steps = nested_list(section, "steps")?;
+    let steps = nested_list(section, "steps", |item| item.count(1..=limits::STEPS))?;
     let (elements, power) = if axis == Axis::Time {
         let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
         (vec![one; steps.len()], 1.0)
     } else {
-        let elements = nested_list(section, "elements")?;
-        (elements.clone(), power(section, &elements, &steps)?)
+        let elements = nested_list(section, "elements", tables::elements)?;
+        let ratios = |list: &[usize]| list.windows(2).map(|pair| pair[1] / pair[0]).collect::<Vec<usize>>();
+        let (finer, shorter) = (ratios(&elements), ratios(&steps));
+        let is = |power: &u32| finer.iter().map(|ratio| ratio.pow(*power)).eq(shorter.iter().copied());
+        let Some(power) = [1, 2].into_iter().find(is) else {
+            let allowed =
+                "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+            return Err(section.require("steps", allowed)?.refuse_as_written(allowed));
+        };
+        (elements, f64::from(power))
     };
     if !steps[0].is_multiple_of(samples) {
         let found = format!("{} steps", steps[0]);
@@ -156,30 +163,22 @@ fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usi
 }
 
 /// A list of levels, each of which the one before divides.
-fn nested_list(section: &Section<'_>, key: &str) -> Result<Vec<usize>, InputError> {
+fn nested_list(
+    section: &Section<'_>,
+    key: &str,
+    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two whole numbers, each a multiple of the one before";
     let list = section.require(key, allowed)?;
     let mut levels = vec![];
     for item in list.items(allowed)? {
-        let level = if key == "elements" { tables::elements(&item)? } else { item.count(1..=limits::STEPS)? };
+        let level = read(&item)?;
         if let Some(&before) = levels.last().filter(|before| level <= **before || !level.is_multiple_of(**before)) {
             return Err(item.refuse_as_written(format!("a multiple of {before}, the level before")));
         }
         levels.push(level);
     }
     if levels.len() < 2 { Err(list.refuse_as_written(allowed)) } else { Ok(levels) }
-}
-
-/// 1 for dt = c h from level to level, 2 for dt = c h².
-fn power(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<f64, InputError> {
-    let ratios = |list: &[usize]| list.windows(2).map(|pair| pair[1] / pair[0]).collect::<Vec<usize>>();
-    let (finer, shorter) = (ratios(elements), ratios(steps));
-    let is = |power: &u32| finer.iter().map(|ratio| ratio.pow(*power)).eq(shorter.iter().copied());
-    let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
-    match [1, 2].into_iter().find(is) {
-        Some(power) => Ok(f64::from(power)),
-        None => Err(section.require("steps", allowed)?.refuse_as_written(allowed)),
-    }
 }
 
 impl Kind for SelfConvergence {

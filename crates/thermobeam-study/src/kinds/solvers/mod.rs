@@ -29,6 +29,7 @@
 //! agreement = 0.02           # of measured and predicted boundary, relative
 //! ```
 
+mod judge;
 mod map;
 mod parts;
 
@@ -37,7 +38,7 @@ use thermobeam::contraction::{contact_contraction, coupling_contraction};
 use super::prelude::*;
 
 pub use map::{Boundary, Crossing, NewtonSteps, Point};
-pub use parts::{Agreement, MeasuredFactor};
+pub use parts::Agreement;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -78,8 +79,8 @@ pub enum SolverTask {
 /// What a case found, variant by variant as in [`SolverTask`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
-    /// Predicted and measured factor.
-    Contraction(MeasuredFactor),
+    /// Predicted and measured factor of the step.
+    Contraction(FixedPointStep),
     /// Difference between the two solvers.
     Comparison(Agreement),
     /// A row of the map, one point for each time step, ascending.
@@ -172,21 +173,21 @@ impl Kind for Solvers {
         let parts: Vec<Outcome> = [contraction, comparison, map].into_iter().flatten().collect();
         let join = |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
         let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));
-        let mut all = Outcome::new("", vec![], vec![completion(ran, Found::not_finite)]);
-        for part in parts {
-            all.checks.extend(part.checks);
-            all.tables.extend(part.tables);
-            all.figures.extend(part.figures);
-            all.quantities.extend(part.quantities);
-        }
-        let Outcome { checks, tables, figures, quantities, .. } = all;
-        Outcome { headline, tables, figures, quantities, ..Outcome::new(summary, vec![], checks) }
+        let mut all = Outcome { headline, ..Outcome::new(summary, vec![], vec![completion(ran, Found::not_finite)]) };
+        parts.into_iter().for_each(|part| all.extend(part));
+        all
     }
 }
 
-/// How a step by the fixed point ended.
+/// A step by the fixed point: what is predicted, and how it ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointStep {
+    /// The time step.
+    pub dt: f64,
+    /// Predicted factor of the contact; infinite where its operator is not definite.
+    pub alpha: f64,
+    /// Predicted factor of the coupling between rotation and displacement; infinite where its operator is not definite.
+    pub gamma: f64,
     /// Whether the increment fell below the tolerance.
     pub converged: bool,
     /// Iterations done.
@@ -199,27 +200,38 @@ pub struct FixedPointStep {
 impl FixedPointStep {
     /// The first step of the problem, with at most so many iterations, to an increment below `tolerance`.
     ///
+    /// * `n_value`: mean axial force for the predicted factors.
+    ///
     /// # Errors
     /// [`CaseFailure`] where the solver refuses the problem or time is up; that the iteration fails is a result.
-    fn run(problem: &Problem, dt: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
-        let settings =
-            Settings { solver: Solver::FixedPoint, tolerance, max_iterations: iterations, ..Settings::default() };
-        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
-        let error = match Driver::new(problem.clone(), stepping)?.advance(|_, _| ()) {
-            Ok(report) => {
-                return Ok(Self { converged: true, iterations: report.iterations, contraction: report.contraction });
-            }
-            Err(RunError::Step(error)) => error,
-            Err(other) => return Err(other.into()),
-        };
-        let (iterations, contraction) = match error.failure {
-            StepFailure::Diverged { iterations, contraction, .. }
-            | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, contraction),
-            StepFailure::NonFinite { iterations, .. } => (iterations, f64::INFINITY),
-            _ => (0, f64::INFINITY),
-        };
-        Ok(Self { converged: false, iterations, contraction: Some(contraction) })
+    fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
+        let (converged, iterations, contraction) = iterate(problem, dt, tolerance, iterations)?;
+        let [alpha, gamma] = factors(problem, dt, n_value);
+        Ok(Self { dt, alpha, gamma, converged, iterations, contraction })
     }
+}
+
+/// Whether the first step converges, its iterations, and the ratio of its last two increments.
+fn iterate(
+    problem: &Problem,
+    dt: f64,
+    tolerance: f64,
+    max_iterations: usize,
+) -> Result<(bool, usize, Option<f64>), CaseFailure> {
+    let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations, ..Settings::default() };
+    let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+    let failure = match Driver::new(problem.clone(), stepping)?.advance(|_, _| ()) {
+        Ok(report) => return Ok((true, report.iterations, report.contraction)),
+        Err(RunError::Step(error)) => error.failure,
+        Err(other) => return Err(other.into()),
+    };
+    let (iterations, contraction) = match failure {
+        StepFailure::Diverged { iterations, contraction, .. }
+        | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, contraction),
+        StepFailure::NonFinite { iterations, .. } => (iterations, f64::INFINITY),
+        _ => (0, f64::INFINITY),
+    };
+    Ok((false, iterations, Some(contraction)))
 }
 
 /// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite where the

@@ -1,7 +1,7 @@
 //! Two parts of a study: the contraction factor in contact, measured against α; a scene by the fixed point and by Newton's
 //! method, their difference against the fixed point's tolerance.
 
-use super::{FixedPointStep, SolverTask, factors, positive_numbers};
+use super::{FixedPointStep, SolverTask, positive_numbers};
 use crate::error::levels;
 use crate::figures;
 use crate::kinds::prelude::*;
@@ -26,29 +26,14 @@ pub(super) struct Grid {
     zeta: Vec<f64>,
 }
 
-/// Predicted and measured factor of one step in contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeasuredFactor {
-    /// The factor α of the contact.
-    pub alpha: f64,
-    /// The factor γ of the coupling between rotation and displacement.
-    pub gamma: f64,
-    /// What the fixed point did.
-    pub step: FixedPointStep,
-}
-
 impl Grid {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         section.allow(&["elements", "dt", "epsilon", "zeta"])?;
         let [dt, epsilon, zeta] = ["dt", "epsilon", "zeta"].map(|key| positive_numbers(section, key));
         let (dt, epsilon, zeta) = (dt?, epsilon?, zeta?);
         limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
-        Ok(Self {
-            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-            dt,
-            epsilon,
-            zeta,
-        })
+        let elements = tables::elements(&section.require("elements", "a number of elements")?)?;
+        Ok(Self { elements, dt, epsilon, zeta })
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
@@ -60,15 +45,14 @@ impl Grid {
     }
 
     /// One step of a beam at rest, pressed into the upper obstacle.
-    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<MeasuredFactor, CaseFailure> {
+    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<FixedPointStep, CaseFailure> {
         let mesh = Mesh::uniform(self.elements)?;
         let mut initial = Initial::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
         let beam = Beam { zeta, ..Beam::default() };
         let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
         let problem = Problem { beam, obstacles, mesh, initial };
-        let [alpha, gamma] = factors(&problem, dt, beam.axial_force(PRESSED * PRESSED));
-        Ok(MeasuredFactor { alpha, gamma, step: FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)? })
+        FixedPointStep::run(&problem, dt, beam.axial_force(PRESSED * PRESSED), TOLERANCE, ITERATIONS)
     }
 }
 
@@ -77,31 +61,26 @@ fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
 }
 
 /// * `found`: the results, each with its (dt, ε, ζ).
-pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &MeasuredFactor)]) -> Outcome {
+pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Outcome {
     let (mut checks, mut rows, mut quantities) = (vec![], vec![], vec![]);
     let mut worst = 0.0;
-    for &(at, &MeasuredFactor { alpha, gamma, step }) in found {
+    for &(at, &FixedPointStep { alpha, gamma, converged, iterations, contraction, .. }) in found {
         let name = name(at);
-        let factor = step.contraction.unwrap_or(f64::NAN);
+        let factor = contraction.unwrap_or(f64::NAN);
         let deviation = (factor / alpha - 1.0).abs();
         let evidence = format!("alpha {alpha:.5}, measured {factor:.5}");
         if alpha < 1.0 - AGREEMENT && alpha >= DOMINANCE * gamma {
             worst = max_or_nan(worst, deviation);
-            let holds = step.converged && deviation <= AGREEMENT;
+            let holds = converged && deviation <= AGREEMENT;
             checks.push(Check::that(holds, format!("{name}: the contraction factor is alpha"), evidence));
             quantities.push(Quantity::new(format!("contraction, {name}"), factor, 1e-2));
         } else if alpha > 1.0 + AGREEMENT {
-            checks.push(Check::that(!step.converged, format!("{name}: diverges, since alpha > 1"), evidence));
+            checks.push(Check::that(!converged, format!("{name}: diverges, since alpha > 1"), evidence));
         }
         let [dt, epsilon, zeta] = at;
-        rows.push(vec![
-            format!("{dt:e}"),
-            format!("{epsilon:e}"),
-            zeta.to_string(),
-            format!("{alpha:.5}"),
-            if step.converged { format!("{factor:.5}") } else { "diverges".to_owned() },
-            step.iterations.to_string(),
-        ]);
+        let measured = if converged { format!("{factor:.5}") } else { "diverges".to_owned() };
+        let [dt, epsilon] = [dt, epsilon].map(|value| format!("{value:e}"));
+        rows.push(vec![dt, epsilon, zeta.to_string(), format!("{alpha:.5}"), measured, iterations.to_string()]);
     }
     let head = ["dt", "epsilon", "zeta", "alpha", "measured", "iterations"];
     let summary = format!("contraction within {:.1} % of alpha", 100.0 * worst);
@@ -114,12 +93,12 @@ pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &MeasuredFactor)])
     }
 }
 
-fn contraction_figure(id: &str, found: &[([f64; 3], &MeasuredFactor)]) -> Figure {
+fn contraction_figure(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Figure {
     let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
     zetas.dedup();
     let series = zetas.iter().map(|zeta| {
         let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
-        let points = of_zeta.map(|(_, found)| (found.alpha, found.step.contraction.unwrap_or(f64::NAN))).collect();
+        let points = of_zeta.map(|(_, step)| (step.alpha, step.contraction.unwrap_or(f64::NAN))).collect();
         plots::Series { label: format!("ζ = {zeta}"), points }
     });
     let svg = figures::contraction(&series.collect::<Vec<_>>());
@@ -210,7 +189,7 @@ impl Comparison {
 /// * `found`: the results, each with its tolerance η*.
 pub(super) fn judge_comparison(id: &str, found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
-        // A step leaves less than α/(1 - α) η* unsolved, with α far below 1/2 here, and the beam damps what is left.
+        // A step leaves less than α/(1 - α) η* unsolved, with α far below 1/2 here, and the beam damps the rest.
         let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
         Check::that(found.distance <= *eta, format!("eta* = {eta:e}: the error is below eta*"), evidence)
     };

@@ -91,25 +91,23 @@ pub(crate) fn discretisations(
             "two tables [[{key}]] of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
         ),
     };
-    let field = root.require(key, &allowed)?;
-    let items = field.items(&allowed)?;
     let one = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&DISCRETISATION_KEYS)?;
         Discretisation::read(&section, t_end)
     };
-    let list = items.iter().map(one).collect::<Result<Vec<_>, InputError>>()?;
-    let [one, other]: [Discretisation; 2] = list.try_into().map_err(|_| field.refuse_as_written(&allowed))?;
+    let list = root.list(key, &allowed, one, |list| list.len() == 2)?;
+    let (one, other) = (list[0], list[1]);
     let steps =
         [("time_degree", one.stepping.degree == other.stepping.degree), ("dt", one.stepping.dt == other.stepping.dt)];
     let space = [("elements", one.elements == other.elements), ("degree", one.degree == other.degree)];
     let same = if elements.is_some() { steps.to_vec() } else { [space, steps].concat() };
-    if let Some((key, _)) = same.iter().find(|(_, is_same)| *is_same) {
-        return Err(field.refuse(format!("two with the same {key}"), allowed));
+    if let Some((same, _)) = same.iter().find(|(_, is_same)| *is_same) {
+        return Err(root.refuse(key, format!("two with the same {same}"), allowed));
     }
     match elements.and_then(|n| [one, other].into_iter().find(|how| (how.elements, how.degree) != (n, 1))) {
         Some(Discretisation { elements, degree, .. }) => {
-            Err(field.refuse(format!("{elements} elements of degree {degree}"), allowed))
+            Err(root.refuse(key, format!("{elements} elements of degree {degree}"), allowed))
         }
         None => Ok([one, other]),
     }

@@ -2,17 +2,86 @@
 //! two discretisations of any order.
 
 mod discretisation;
-mod manufactured;
 mod refine;
 
 use super::prelude::*;
+use crate::exact::function::Factor;
+use crate::expression::Variable;
 use crate::scene::Coefficients;
+use crate::scene::tables::FunctionField;
 
 pub use discretisation::Discretisation;
 pub(crate) use discretisation::{DISCRETISATION_KEYS, discretisations};
-pub(crate) use manufactured::manufactured;
-pub use refine::{Perturbation, Refine};
-pub(crate) use refine::{mapped_mesh, mesh_map, refine};
+pub(crate) use refine::refine;
+pub use refine::{Layout, Perturbation, Refine};
+
+/// The sources hold second derivatives, in space and in time.
+const DERIVATIVES: usize = 2;
+
+/// The table `[exact]`: for each field a sum of products of a function of x and a function of t.
+pub(crate) fn manufactured(root: &Section<'_>, beam: &Beam, t_end: f64) -> Result<Manufactured, InputError> {
+    let allowed = "a table with at least one of u, phi, theta";
+    let section = root.require("exact", allowed)?.section()?;
+    section.allow(&["u", "phi", "theta"])?;
+    let exact = Manufactured {
+        u: products(&section, "u", t_end)?,
+        phi: products(&section, "phi", t_end)?,
+        theta: products(&section, "theta", t_end)?,
+    };
+    if exact.u.is_empty() && exact.phi.is_empty() && exact.theta.is_empty() {
+        return Err(root.refuse("exact", "an empty table", allowed));
+    }
+    for (x, expected) in [(0.0, beam.theta_a), (1.0, 0.0)] {
+        temperature_meets(&section, &exact.theta, x, expected, t_end)?;
+    }
+    Ok(exact)
+}
+
+/// The products of a field, if it has any; u and φ vanish at x = 0.
+fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>, InputError> {
+    let allowed = "a list of at least one { x = \"...\", t = \"...\" }";
+    let product = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["x", "t"])?;
+        let factor = |key: &str, variable: Variable, end: f64| {
+            let field = section.require(key, &format!("a function of {} in quotes", variable.name()))?;
+            let function = field.expression(variable)?;
+            field.finite(&function, end, DERIVATIVES)?;
+            Ok::<Factor, InputError>(function.into())
+        };
+        let product = Product { x: factor("x", Variable::X, 1.0)?, t: factor("t", Variable::T, t_end)? };
+        let found = product.x.eval(0.0);
+        if key != "theta" && found.abs() > product.x.roundoff(1.0) {
+            return Err(section.refuse("x", format!("{found:?} at x = 0"), "0 at x = 0, the clamped end"));
+        }
+        Ok(product)
+    };
+    section.get(key).map_or(Ok(vec![]), |_| section.list(key, allowed, product, |list| !list.is_empty()))
+}
+
+/// θ(x, t) = `expected` at an end of the beam, at some times, up to round-off.
+fn temperature_meets(
+    section: &Section<'_>,
+    theta: &[Product],
+    x: f64,
+    expected: f64,
+    t_end: f64,
+) -> Result<(), InputError> {
+    // Not a number of periods that a study is likely to last.
+    const TIMES: u32 = 7;
+    // A value of X is as wrong as X is large, and T magnifies it; the other way round, too.
+    let slack: f64 = theta.iter().map(|p| 2.0 * p.x.roundoff(1.0) * p.t.size(t_end)).sum();
+    for time in (0..=TIMES).map(|i| t_end * f64::from(i) / f64::from(TIMES)) {
+        // `sum` of nothing is -0, which would be shown.
+        let found = theta.iter().fold(0.0, |sum, p| sum + p.x.eval(x) * p.t.eval(time));
+        if (found - expected).abs() > slack {
+            let found = format!("theta = {found:?} at x = {x}, t = {time:?}");
+            let end = if x == 0.0 { "beam.theta_a at x = 0" } else { "0 at x = 1" };
+            return Err(section.refuse("theta", found, format!("theta = {expected:?}: it must be {end} at all times")));
+        }
+    }
+    Ok(())
+}
 
 /// All tables `[[expect]]`: in which norm which order.
 pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
@@ -22,27 +91,24 @@ pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, Inp
 /// All tables `[[expect]]`: of what which order, each once.
 ///
 /// * `key`: the key that says of what; `choices`: what it may be.
-pub(crate) fn claims<T: Copy + PartialEq>(
+pub(crate) fn claims<T: Copy>(
     root: &Section<'_>,
     key: &str,
     choices: &[(&'static str, T)],
 ) -> Result<Vec<(T, Claim)>, InputError> {
-    let allowed = format!("at least one table [[expect]] with {key}, order and tolerance");
     let names = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
-    let field = root.require("expect", &allowed)?;
-    let mut claims: Vec<(T, Claim)> = vec![];
-    for item in field.items(&allowed)? {
-        let section = item.section()?;
+    let mut known = vec![];
+    root.tables("expect", &format!(" with {key}, order and tolerance"), |section| {
         section.allow(&[key, "order", "constant", "tolerance"])?;
-        let of = section.require(key, &names)?.choice(choices)?;
-        if claims.iter().any(|(earlier, _)| *earlier == of) {
-            let name = choices.iter().find(|(_, choice)| *choice == of).map_or("", |(name, _)| name);
+        let field = section.require(key, &names)?;
+        let (of, name) = (field.choice(choices)?, field.text()?);
+        if known.contains(&name) {
             return Err(section.refuse(key, format!("\"{name}\" a second time"), format!("each {key} once")));
         }
-        let claim = Claim::read(&section, "order")?;
-        claims.push((of, Claim { tolerance: section.positive("tolerance")?, ..claim }));
-    }
-    if claims.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(claims) }
+        known.push(name);
+        let claim = Claim::read(section, "order")?;
+        Ok((of, Claim { tolerance: section.positive("tolerance")?, ..claim }))
+    })
 }
 
 /// Errors in each norm over the levels of a refinement: a column for each norm, with the order that is expected in it.

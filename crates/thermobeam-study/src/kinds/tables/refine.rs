@@ -30,6 +30,47 @@ impl Perturbation {
     }
 }
 
+/// Where the nodes of a mesh are: equidistant, displaced, then mapped.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Layout {
+    /// Random displacement of the nodes.
+    pub perturbation: Option<Perturbation>,
+    /// A function of s.
+    pub map: Option<Expression>,
+}
+
+impl Layout {
+    /// The key `map`, tried out on every mesh.
+    pub(crate) fn read(
+        section: &Section<'_>,
+        elements: &[usize],
+        perturbation: Option<Perturbation>,
+    ) -> Result<Self, InputError> {
+        let mut layout = Self { perturbation, map: None };
+        if let Some(field) = section.get("map") {
+            let map = field.expression(Variable::S)?;
+            field.finite(&map, 1.0, 0)?;
+            layout.map = Some(map);
+            for &elements in elements {
+                tables::checked_mesh(layout.mesh(elements), &field)?;
+            }
+        }
+        Ok(layout)
+    }
+
+    /// The mesh of so many elements.
+    ///
+    /// # Errors
+    /// [`MeshError`] where its nodes do not increase from 0 to 1.
+    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
+        Mesh::mapped(elements, |s| {
+            let index = (s * elements as f64).round() as usize;
+            let s = self.perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
+            self.map.as_ref().map_or(s, |map| map.eval(s))
+        })
+    }
+}
+
 /// What is refined and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refine {
@@ -45,10 +86,8 @@ pub struct Refine {
     pub grid: bool,
     /// Final time.
     pub t_end: f64,
-    /// Mesh map, a function of s.
-    pub map: Option<Expression>,
-    /// Random displacement of the nodes, before the map.
-    pub perturbation: Option<Perturbation>,
+    /// Where the nodes of each mesh are.
+    pub layout: Layout,
     /// Time scheme.
     pub scheme: Scheme,
     /// How each step is solved.
@@ -88,12 +127,7 @@ impl Refine {
         Refinement::new(Self::label(elements, steps), &[("elements", elements), ("steps", steps)], step)
     }
 
-    /// The mesh of that many elements, displaced and mapped as the study says.
-    pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
-        mapped_mesh(elements, self.map.as_ref(), self.perturbation)
-    }
-
-    /// The time step, of which there are `steps`.
+    /// The length of a step.
     pub fn dt(&self, steps: usize) -> f64 {
         self.t_end / steps as f64
     }
@@ -110,7 +144,6 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
     let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
-    let perturbation = perturbation(&section)?;
     let grid = flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?;
     let node_steps = "a number of elements times time steps > 0";
     let refine = Refine {
@@ -120,8 +153,7 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
         grid,
         t_end: section.positive("t_end")?,
-        perturbation,
-        map: mesh_map(&section, &elements, perturbation)?,
+        layout: Layout::read(&section, &elements, perturbation(&section)?)?,
         elements,
         scheme: tables::scheme(&section)?,
         settings: tables::settings(&section)?,
@@ -186,35 +218,4 @@ fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputErro
     let amount = field.number_where("a number >= 0 and < 1", |amount| (0.0..1.0).contains(&amount))?;
     let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
     Ok(Some(Perturbation { amount, seed }))
-}
-
-/// The key `map`, a function of s, tried out on every level.
-pub(crate) fn mesh_map(
-    section: &Section<'_>,
-    elements: &[usize],
-    perturbation: Option<Perturbation>,
-) -> Result<Option<Expression>, InputError> {
-    let Some(field) = section.get("map") else { return Ok(None) };
-    let map = field.expression(Variable::S)?;
-    field.finite(&map, 1.0, 0)?;
-    for &elements in elements {
-        tables::checked_mesh(mapped_mesh(elements, Some(&map), perturbation), &field)?;
-    }
-    Ok(Some(map))
-}
-
-/// The mesh of so many elements, displaced and then mapped.
-///
-/// # Errors
-/// [`MeshError`] where its nodes do not increase from 0 to 1.
-pub(crate) fn mapped_mesh(
-    elements: usize,
-    map: Option<&Expression>,
-    perturbation: Option<Perturbation>,
-) -> Result<Mesh, MeshError> {
-    Mesh::mapped(elements, |s| {
-        let index = (s * elements as f64).round() as usize;
-        let s = perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
-        map.map_or(s, |map| map.eval(s))
-    })
 }

@@ -107,8 +107,7 @@ fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
 }
 
 fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
-    let read = |item: &Field<'_>| {
-        let section = item.section()?;
+    root.tables("mode", " with index and amplitude or velocity", |section| {
         section.allow(&["index", "amplitude", "velocity"])?;
         let index = section.count("index", indices(refine, 2 * refine.elements[0]))? - 1;
         let number = |key: &str| section.get(key).map_or(Ok(0.0), |field| field.number());
@@ -118,15 +117,10 @@ fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, 
             return Err(section.refuse("amplitude", "a mode that does not move", allowed));
         }
         Ok((index, start))
-    };
-    let allowed = "at least one table [[mode]] with index and amplitude or velocity";
-    root.list("mode", allowed, read, |modes| !modes.is_empty())
+    })
 }
 
 fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputError> {
-    if root.get("heat").is_none() {
-        return Ok(vec![]);
-    }
     let read = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&["index", "amplitude"])?;
@@ -134,7 +128,8 @@ fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputE
         let k = section.count("index", indices(refine, refine.elements[0].saturating_sub(1).max(1)))?;
         Ok((k, section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?))
     };
-    root.list("heat", "tables [[heat]] with index and amplitude", read, |_| true)
+    let allowed = "tables [[heat]] with index and amplitude";
+    root.get("heat").map_or(Ok(vec![]), |_| root.list("heat", allowed, read, |_| true))
 }
 
 impl Kind for Vibration {
@@ -155,7 +150,7 @@ impl Kind for Vibration {
     /// Compares the solver with the motion that it has to give.
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
         let Refine { scheme, settings, .. } = self.refine;
-        let (dt, mesh) = (self.refine.dt(steps), self.refine.mesh(elements)?);
+        let (dt, mesh) = (self.refine.dt(steps), self.refine.layout.mesh(elements)?);
         let of_mesh = self.refine.isolates(Axis::Time);
         let modes = if of_mesh { Modes::of_mesh(self, &mesh)? } else { Modes::of_beam(self)? };
         let by = self.refine.isolates(Axis::Space).then_some(scheme);
@@ -200,7 +195,7 @@ impl Kind for Vibration {
         // Over dt where only time is refined, else over h.
         let step = |elements: usize, steps: usize| match self.refine.axis {
             Axis::Time => self.refine.dt(steps),
-            Axis::Space | Axis::Both => self.refine.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+            Axis::Space | Axis::Both => self.refine.layout.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
         };
         let errors = ran.iter().map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
         let levels = norm_levels(&self.refine, &self.expect, step, errors);

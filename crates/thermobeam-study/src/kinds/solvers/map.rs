@@ -17,10 +17,7 @@
 //! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is enough, with the buckling force B and
 //! the mean axial force m >= β.
 
-mod figures;
-mod judge;
-
-use super::{FixedPointStep, SolverTask, factors};
+use super::{FixedPointStep, SolverTask, factors, iterate};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::{Watched, Worst, watched};
 
@@ -47,19 +44,19 @@ const CONSECUTIVE: usize = 8;
 /// The table `[map]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
-    over: Parameter,
-    dt: [f64; 2],
-    range: [f64; 2],
-    points: usize,
+    pub(super) over: Parameter,
+    pub(super) dt: [f64; 2],
+    pub(super) range: [f64; 2],
+    pub(super) points: usize,
     lines: Vec<f64>,
     elements: usize,
     steps: usize,
-    agreement: f64,
+    pub(super) agreement: f64,
 }
 
 /// The second parameter of a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Parameter {
+pub(super) enum Parameter {
     Epsilon,
     Beta,
     Zeta,
@@ -75,17 +72,17 @@ impl Parameter {
         ("h", Parameter::Width),
     ];
 
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    fn is_linear(self) -> bool {
+    pub(super) fn is_linear(self) -> bool {
         self == Parameter::Beta
     }
 }
 
 /// Values from the first to the last of `range`, equally spaced on a linear or logarithmic scale.
-fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
+pub(super) fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
     let at = |k: usize| k as f64 / (points - 1) as f64;
     let value = |s: f64| if linear { low + (high - low) * s } else { low * (high / low).powf(s) };
     (0..points).map(|k| value(at(k))).collect()
@@ -121,17 +118,12 @@ impl Map {
     }
 
     /// The time steps of every row.
-    fn time_steps(&self) -> Vec<f64> {
+    pub(super) fn time_steps(&self) -> Vec<f64> {
         spaced(self.dt, self.points, false)
     }
 
-    /// The values of the second parameter, one for each row.
-    fn row_values(&self) -> Vec<f64> {
-        spaced(self.range, self.points, self.over.is_linear())
-    }
-
     /// The coefficients at a value of the second parameter.
-    fn beam(&self, value: f64) -> Beam {
+    pub(super) fn beam(&self, value: f64) -> Beam {
         let mut beam = Beam { theta_a: HEAT, ..Beam::default() };
         match self.over {
             Parameter::Beta => beam.beta = value,
@@ -165,14 +157,14 @@ impl Map {
             Case { label: format!("{name} = {value:.3e}"), cost, data: SolverTask::Row(value) }
         };
         let line = |&value: &f64| {
-            let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
-            Case {
-                label: format!("boundary at {name} = {}", plain_text(value)),
-                cost,
-                data: SolverTask::Boundary(value),
-            }
+            let label = format!("boundary at {name} = {}", plain_text(value));
+            Case { label, cost: (2 * HALVINGS * SETTLED) as f64 * elements(value), data: SolverTask::Boundary(value) }
         };
-        self.row_values().into_iter().map(row).chain(self.lines.iter().map(line)).collect()
+        spaced(self.range, self.points, self.over.is_linear())
+            .into_iter()
+            .map(row)
+            .chain(self.lines.iter().map(line))
+            .collect()
     }
 }
 
@@ -201,21 +193,11 @@ fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], 
     Ok([ends[0], ends[1]])
 }
 
-/// Results, each with its value of the second parameter.
-type MapRows<'r> = [(f64, &'r [Point])];
-type Lines<'r> = [(f64, &'r Boundary)];
-
 /// Both solvers with one time step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// The time step.
-    pub dt: f64,
-    /// Predicted factor of the contact; infinite where its operator is not definite.
-    pub alpha: f64,
-    /// Predicted factor of the coupling; infinite where its operator is not definite.
-    pub gamma: f64,
     /// The first step by the fixed point.
-    pub fixed_point: FixedPointStep,
+    pub step: FixedPointStep,
     /// Whether Newton's method did all steps.
     pub newton_completes: bool,
     /// The steps that it did; `None` where the first one failed.
@@ -235,10 +217,10 @@ pub struct NewtonSteps {
 
 impl Point {
     pub(super) fn not_finite(&self) -> Vec<String> {
-        let contraction = self.fixed_point.contraction.filter(|_| self.fixed_point.converged).unwrap_or(0.0);
+        let FixedPointStep { alpha, gamma, converged, contraction, .. } = self.step;
+        let contraction = contraction.filter(|_| converged).unwrap_or(0.0);
         // A predicted factor may be infinite.
-        let predicted = |factor: f64| if factor.is_infinite() { 0.0 } else { factor };
-        let [alpha, gamma] = [self.alpha, self.gamma].map(predicted);
+        let [alpha, gamma] = [alpha, gamma].map(|factor| if factor.is_infinite() { 0.0 } else { factor });
         let mut numbers = vec![("alpha", alpha), ("gamma", gamma), ("the contraction", contraction)];
         if let Some(NewtonSteps { contact_force, worst, .. }) = self.newton {
             numbers.push(("the contact force", contact_force));
@@ -254,9 +236,8 @@ impl Map {
         let n_value = axial_force(&problem);
         let newton = newton(&problem, &dts, self.steps)?;
         let point = |(dt, (newton_completes, newton)): (f64, (bool, Option<NewtonSteps>))| {
-            let fixed_point = FixedPointStep::run(&problem, dt, TOLERANCE, ITERATIONS)?;
-            let [alpha, gamma] = factors(&problem, dt, n_value);
-            Ok(Point { dt, alpha, gamma, fixed_point, newton_completes, newton })
+            let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
+            Ok(Point { step, newton_completes, newton })
         };
         dts.iter().copied().zip(newton).map(point).collect()
     }
@@ -310,12 +291,7 @@ impl Map {
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let (problem, [low, high]) = (self.problem(value)?, self.dt);
         let n_value = axial_force(&problem);
-        let alpha_is_below = |limit: f64| {
-            bisect(low, high, |dt| {
-                let [alpha, _] = factors(&problem, dt, n_value);
-                Ok(alpha < limit)
-            })
-        };
+        let alpha_is_below = |limit: f64| bisect(low, high, |dt| Ok(factors(&problem, dt, n_value)[0] < limit));
         let predicted = alpha_is_below(1.0)?;
         let far = alpha_is_below(FAR)?.unwrap_or(high);
         let found = bisect(low, far, |dt| contracts(&problem, dt))?.map(|dt| {
@@ -329,9 +305,9 @@ impl Map {
 /// Whether the increments shrink, however slowly.
 fn contracts(problem: &Problem, dt: f64) -> Result<bool, CaseFailure> {
     for iterations in SETTLED - CONSECUTIVE..SETTLED {
-        let step = FixedPointStep::run(problem, dt, TOLERANCE, iterations)?;
-        if step.converged || !step.contraction.is_some_and(|ratio| ratio < 1.0) {
-            return Ok(step.converged);
+        let (converged, _, contraction) = iterate(problem, dt, TOLERANCE, iterations)?;
+        if converged || !contraction.is_some_and(|ratio| ratio < 1.0) {
+            return Ok(converged);
         }
     }
     Ok(true)
@@ -348,11 +324,7 @@ fn bisect(
     }
     for _ in 0..HALVINGS {
         let middle = (low * high).sqrt();
-        if holds(middle)? {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        *(if holds(middle)? { &mut low } else { &mut high }) = middle;
     }
     Ok(Some((low * high).sqrt()))
 }

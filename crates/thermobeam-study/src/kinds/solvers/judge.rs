@@ -1,6 +1,9 @@
-//! Claims, the table of boundaries, and what the baseline guards.
+//! The maps: claims, the table of boundaries, what the baseline guards, and the figures.
 
-use super::{Boundary, Lines, Map, MapRows, NewtonSteps, Point, figures};
+use convergence_study::plots::{Axis, Series, Surface};
+
+use super::FixedPointStep;
+use super::map::{Boundary, Map, NewtonSteps, Parameter, Point, spaced};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
@@ -10,14 +13,25 @@ const SLOW: f64 = 0.8;
 const ALONE: f64 = 0.01;
 /// Iterations that Newton's method may take in a step.
 const MOST: usize = 30;
+/// Contractions below are shown as this: after a few iterations the ratio says no more.
+const FASTEST: f64 = 1e-6;
+/// Residuals below are shown as this, a hundredth of a rounding error.
+const EXACT: f64 = 1e-18;
+
+/// Results, each with its value of the second parameter.
+type MapRows<'r> = [(f64, &'r [Point])];
+type Lines<'r> = [(f64, &'r Boundary)];
+
+/// What a map shows at a point.
+type Value<'v> = dyn Fn(&Point) -> Option<f64> + 'v;
 
 impl Map {
-    pub(in super::super) fn judge(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
+    pub(super) fn judge(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
         checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
         checks.extend(energy(rows));
         checks.extend(lines.iter().map(|(value, line)| self.check_boundary(*value, line)));
-        let converged = points(rows).filter(|point| point.fixed_point.converged).count();
+        let converged = points(rows).filter(|point| point.step.converged).count();
         let completes = points(rows).filter(|point| point.newton_completes).count();
         let ratio = |line: &Boundary| {
             let crossing = line.found.filter(|crossing| crossing.gamma <= ALONE)?;
@@ -34,7 +48,7 @@ impl Map {
                 "boundary within {worst:.2} % of alpha = 1, residual at most {residual:.1e} of the energy"
             ),
             tables: vec![self.boundaries(lines)],
-            figures: figures::all(self, id, rows, lines),
+            figures: self.figures(id, rows, lines),
             quantities: self.quantities(lines, converged as f64),
             ..Outcome::new(summary, vec![], checks)
         }
@@ -52,7 +66,7 @@ impl Map {
             let beam = self.beam(*value);
             for point in *row {
                 failed += usize::from(!point.newton_completes);
-                if BUCKLING * (beam.zeta + 0.5 * point.dt) + 0.5 * beam.beta * point.dt > 0.0 {
+                if BUCKLING * (beam.zeta + 0.5 * point.step.dt) + 0.5 * beam.beta * point.step.dt > 0.0 {
                     known += 1;
                     wrong += usize::from(!point.newton_completes);
                 }
@@ -144,14 +158,14 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
 /// The map against α and γ: convergence where both are well below 1, none where α exceeds 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
-    for &Point { alpha, gamma, fixed_point, .. } in points(rows) {
+    for FixedPointStep { alpha, gamma, converged, .. } in points(rows).map(|point| point.step) {
         if alpha < SLOW && gamma < SLOW {
             fast += 1;
-            wrong += usize::from(!fixed_point.converged);
+            wrong += usize::from(!converged);
         } else if alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW) {
             // Where α is infinite, the operator A_u of the step is not definite.
             beyond += 1;
-            wrong += usize::from(fixed_point.converged);
+            wrong += usize::from(converged);
         }
     }
     Check::that(
@@ -186,4 +200,110 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
             |newton| newton.worst.open,
         ),
     ]
+}
+
+impl Map {
+    fn figures(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
+        let over = self.over.name();
+        // Where there is no value, the solver fails, and the map is hatched; smaller ones are shown as `least`.
+        let draw = |file: &str, caption: String, (z, least), fails: &str, value: &Value<'_>, boundaries| {
+            let cell = |point: &Point| match value(point) {
+                // `max` would replace NaN by the least value.
+                Some(value) if !value.is_nan() => f64::max(value, least),
+                _ => f64::NAN,
+            };
+            let map = Surface {
+                title: None,
+                x: Axis::log("time step dt"),
+                y: self.second_axis(),
+                z,
+                x_values: self.time_steps(),
+                y_values: rows.iter().map(|(value, _)| *value).collect(),
+                values: rows.iter().map(|(_, row)| row.iter().map(cell).collect()).collect(),
+                marked: rows.iter().map(|(_, row)| row.iter().map(|point| value(point).is_none()).collect()).collect(),
+                marked_label: fails.to_owned(),
+                boundaries,
+            };
+            Figure::new(id, file, caption, plots::parameter_map(&map))
+        };
+        let fixed_point = |file: &str, caption: String, z, value: &dyn Fn(&FixedPointStep) -> f64| {
+            let value = |point: &Point| point.step.converged.then(|| value(&point.step));
+            draw(file, caption, z, "the fixed point fails", &value, vec![predicted(rows), self.found(lines)])
+        };
+        let newton = |file: &str, caption: String, z, value: &dyn Fn(&NewtonSteps) -> f64, boundaries| {
+            let value = |point: &Point| point.newton_completes.then(|| point.newton.as_ref().map_or(f64::NAN, value));
+            draw(file, caption, z, "operator not definite", &value, boundaries)
+        };
+        vec![
+            fixed_point(
+                "contraction",
+                format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
+                (Axis::log("contraction per iteration"), FASTEST),
+                &|step| step.contraction.unwrap_or(f64::NAN),
+            ),
+            fixed_point(
+                "iterations",
+                format!("Iterations of the fixed point in a step over dt and {over}."),
+                (Axis::log("iterations of the fixed point"), 1.0),
+                &|step| step.iterations as f64,
+            ),
+            newton(
+                "newton",
+                format!("Most iterations of Newton's method in a step over dt and {over}."),
+                (Axis::linear("most Newton iterations in a step"), 1.0),
+                &|steps| steps.iterations as f64,
+                self.definite(),
+            ),
+            newton(
+                "balance",
+                format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
+                (Axis::log("largest residual / energy"), EXACT),
+                &|steps| steps.worst.residual,
+                vec![predicted(rows)],
+            ),
+        ]
+    }
+
+    fn second_axis(&self) -> Axis {
+        match self.over {
+            Parameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
+            Parameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
+            Parameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
+            Parameter::Width => Axis::log("mesh width h (dimensionless)"),
+        }
+    }
+
+    /// The boundaries found, line by line.
+    fn found(&self, lines: &Lines<'_>) -> Series {
+        let mut points: Vec<(f64, f64)> =
+            lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value))).collect();
+        points.retain(|(_, value)| self.over.is_linear() || *value > 0.0);
+        points.sort_by(|a, b| a.1.total_cmp(&b.1));
+        Series { label: "found by bisection".to_owned(), points }
+    }
+
+    /// For β above this line the operator is definite.
+    fn definite(&self) -> Vec<Series> {
+        if self.over != Parameter::Beta {
+            return vec![];
+        }
+        let zeta = Beam::default().zeta;
+        let force = |&dt: &f64| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt));
+        let [low, high] = self.range;
+        let dts = spaced(self.dt, 400, false);
+        let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta)).collect();
+        vec![Series { label: "definite above: β = -B (1 + 2ζ/dt)".to_owned(), points }]
+    }
+}
+
+/// α = 1, row by row between the two time steps on either side, on logarithmic scales.
+fn predicted(rows: &MapRows<'_>) -> Series {
+    let crossing = |(value, row): &(f64, &[Point])| {
+        let finite: Vec<_> = row.iter().map(|point| point.step).filter(|step| step.alpha.is_finite()).collect();
+        let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
+        let [below, above] = [pair[0], pair[1]];
+        let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
+        Some((below.dt * (above.dt / below.dt).powf(share), *value))
+    };
+    Series { label: "predicted: α = 1".to_owned(), points: rows.iter().filter_map(crossing).collect() }
 }

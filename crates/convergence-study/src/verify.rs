@@ -21,6 +21,7 @@ use crate::store::record::{self, Record};
 use crate::store::work::Works;
 use crate::store::writing;
 use crate::study::{Header, Study, Tier};
+use crate::text::names::quoted;
 use crate::text::visible;
 
 /// Which studies were asked for. It decides where the report goes: one on a selection never replaces that on a tier.
@@ -77,16 +78,6 @@ impl Scope {
             Self::Selection(_) => local.join("partial"),
         };
         ReportFolder { folder, workshop }
-    }
-}
-
-/// A word quoted for a shell, which would otherwise resolve patterns.
-pub(crate) fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_' | '/');
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

@@ -9,8 +9,9 @@ use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
 use crate::store::record::json;
 use crate::study::{Study, StudyFile, Untested};
+use crate::text::names::quoted;
 use crate::text::visible::{self, visible};
-use crate::verify::{publish, quoted, record};
+use crate::verify::{publish, record};
 
 use super::exit::Outcome;
 use super::flags::Flags;

@@ -1,4 +1,4 @@
-//! The known name closest to a misspelt one.
+//! Names as messages have them: the known one closest to a misspelt one, and quoted for a shell.
 
 /// Longest name for which a suggestion is sought: the distance costs the product of both lengths.
 const LONGEST: usize = 40;
@@ -26,6 +26,13 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .filter(|&(distance, candidate)| distance <= granted && distance < candidate.chars().count())
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
+}
+
+/// A word as a shell takes it, which would otherwise resolve patterns.
+pub(crate) fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
+    let is_whole = !word.is_empty() && word.chars().all(is_plain);
+    if is_whole { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! `rates FILE`: errors of any code, judged by the rule of the studies.
 
-mod advice;
 mod shown;
 
 use std::path::PathBuf;
@@ -14,8 +13,7 @@ use crate::judge::claims::{Claim, order_from_text};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::project::Project;
-use crate::text::names::{did_you_mean, nearest};
-use crate::verify::quoted;
+use crate::text::names::{did_you_mean, nearest, quoted};
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
@@ -76,15 +74,10 @@ struct Claimed {
 fn claimed(text: &str) -> Result<Claimed, String> {
     let at = text.rfind(">=").or_else(|| text.rfind('=').map(|at| at + 1));
     let (name, order) = text.split_at(at.unwrap_or(0));
-    let name =
-        if name.is_empty() { Some(None) } else { name.trim_end().strip_suffix('=').map(|name| Some(name.to_owned())) };
-    let claimed = name.zip(order_from_text(order)).map(|(name, (order, at_least))| Claimed {
-        text: text.to_owned(),
-        name,
-        order,
-        at_least,
-    });
-    claimed.ok_or_else(|| "expected a number > 0, or NAME= and a number > 0".to_owned())
+    let name = name.trim_end();
+    let order = order_from_text(order).filter(|_| name.is_empty() || name.ends_with('='));
+    let (order, at_least) = order.ok_or("expected a number > 0, or NAME= and a number > 0")?;
+    Ok(Claimed { text: text.to_owned(), name: name.strip_suffix('=').map(str::to_owned), order, at_least })
 }
 
 fn dimension(text: &str) -> Result<f64, String> {
@@ -126,6 +119,7 @@ struct Judgement<'t> {
 /// A table or claims that cannot be used, and a folder that cannot be written to.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
+    let estimator = Estimator::new(arguments.tolerance)?;
     let source = arguments.file.display().to_string();
     let claims: String = arguments.order.iter().map(|claimed| format!(" --order {}", quoted(&claimed.text))).collect();
     let choice = Choice {
@@ -138,16 +132,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         command: format!("{} rates {source}{claims}", project.command),
     };
     let table = RateTable::read_with(&arguments.file, &choice)?;
-    let mut columns = vec![];
-    for (k, (column, claim)) in all(&table).zip(claims_of(arguments, &table)?).enumerate() {
-        let is_value = k >= table.columns.len();
-        let estimate = match is_value {
-            true => Some(column.estimate(&Estimator::new(arguments.tolerance)?, claim.order)),
-            false => None,
-        };
+    let judged = |(k, (column, claim)): (usize, (_, Claim))| {
+        let column: &Column = column;
+        let estimate = (k >= table.columns.len()).then(|| column.estimate(&estimator, claim.order));
         let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, &claim), |estimate| estimate.judged.clone());
-        columns.push(JudgedColumn { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() });
-    }
+        JudgedColumn { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() }
+    };
+    let claims = claims_of(arguments, &table)?;
+    let columns: Vec<JudgedColumn<'_>> = all(&table).zip(claims).enumerate().map(judged).collect();
     let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
     let findings = Judgement { project, source, table: &table, columns, judge: &judge, verdict };
     let flags = &arguments.flags;
@@ -165,39 +157,39 @@ fn all(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
 
 /// What is claimed of each column; the order NaN for nothing.
 fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unusable> {
-    let (named, for_all): (Vec<&Claimed>, Vec<&Claimed>) =
-        arguments.order.iter().partition(|claimed| claimed.name.is_some());
-    if let [first, second, ..] = for_all[..] {
-        let expected = "expected one order for all columns, and --order NAME=P for others";
-        let found = format!("{expected}; found --order {} and --order {}", first.text, second.text);
-        return Err(Unusable::because(&found));
-    }
     let names: Vec<&str> = all(table).map(|column| column.name.as_str()).collect();
-    let mut of: Vec<Option<&Claimed>> = vec![None; names.len()];
-    for claimed in named {
-        let name = claimed.name.as_deref().unwrap_or_default();
-        let k = position(names.iter().copied(), name).ok_or_else(|| unknown(name, &claimed.text, &names))?;
-        if of[k].replace(claimed).is_some() {
-            let expected = format!("--order {}: expected each column once", claimed.text);
-            return Err(Unusable::because(&format!("{expected}; found `{}` a second time", names[k])));
+    // That for all columns is the last.
+    let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
+    for claimed in &arguments.order {
+        let text = &claimed.text;
+        let k = claimed.name.as_deref().map_or(Ok(names.len()), |name| {
+            position(names.iter().copied(), name).ok_or_else(|| unknown(name, text, &names))
+        })?;
+        if let Some(Claimed { text: first, .. }) = of[k].replace(claimed) {
+            let expected = "expected one order for all columns, and --order NAME=P for others";
+            return Err(Unusable::because(&match names.get(k) {
+                Some(name) => format!("--order {text}: expected each column once; found `{name}` a second time"),
+                None => format!("{expected}; found --order {first} and --order {text}"),
+            }));
         }
     }
-    let claim = |(k, of): (usize, &Option<&Claimed>)| {
-        let (order, at_least) =
-            of.or(for_all.first().copied()).map_or((f64::NAN, false), |one| (one.order, one.at_least));
-        if at_least && k >= table.columns.len() {
-            let expected = "expected an order alone for values";
-            return Err(Unusable::because(&format!("{expected}; found --order '>={order}' for `{}`", names[k])));
+    let claim = |(k, name): (usize, &&str)| match of[k].or(of[names.len()]) {
+        Some(Claimed { order, at_least: true, .. }) if k >= table.columns.len() => {
+            let found = format!("found --order '>={order}' for `{name}`");
+            Err(Unusable::because(&format!("expected an order alone for values; {found}")))
         }
-        Ok(Claim { at_least, ..Claim::new(order, arguments.tolerance) })
+        Some(&Claimed { order, at_least, .. }) => Ok(Claim { at_least, ..Claim::new(order, arguments.tolerance) }),
+        None => Ok(Claim::new(f64::NAN, arguments.tolerance)),
     };
-    of.iter().enumerate().map(claim).collect()
+    names.iter().enumerate().map(claim).collect()
 }
 
 /// What is wrong with a claim about a column that is not judged.
 fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
+    /// Most names that a message lists.
+    const LISTED: usize = 12;
     let more = if names.len() > LISTED { ", ..." } else { "" };
-    let hint = if name.contains('=') || name.contains(',') {
+    let hint = if name.contains(['=', ',']) {
         "; repeat --order for each column".to_owned()
     } else {
         did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned))
@@ -205,6 +197,3 @@ fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
     let known = names[..names.len().min(LISTED)].join(", ") + more;
     Unusable::because(&format!("--order {claim}: expected a column of errors: {known}; found `{name}`{hint}"))
 }
-
-/// Most names that a message lists.
-const LISTED: usize = 12;

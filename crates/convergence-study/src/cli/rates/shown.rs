@@ -1,25 +1,31 @@
 //! The result for people, programs and pages.
 
-use std::fmt::Write;
 use std::io;
 use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{JudgedColumn, Judgement, advice};
+use super::{JudgedColumn, Judgement};
 use crate::cli::{github, screen};
 use crate::explain::section;
+use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, SetAside, Verdict};
+use crate::judge::verdict::{Aside, Reason, SetAside, Verdict};
 use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit};
-use crate::text::number::{order_text, pair_text, short_text};
+use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would have the colours of the first.
 const DRAWN: usize = 8;
+/// Largest difference of two rates that are steady.
+const STEADY: f64 = 0.2;
+/// Least fall of a rate that has been steady, in orders, where the error stops.
+const STOP: f64 = 0.5;
+/// Most levels that are predicted.
+const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason where that is not a pass, and the limit of values.
@@ -51,41 +57,102 @@ impl JudgedColumn<'_> {
 
 /// The errors with the rates beside them, a verdict for each column, what to do, and the verdict on all.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
-    let mut text = String::new();
-    if !quiet || findings.table.is_guessed {
-        text += &format!("{}\n", findings.table.reading);
+    let (table, columns) = (findings.table, &findings.columns);
+    let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
+    let line = |judged: &JudgedColumn<'_>| {
+        format!("{}: {}: {}\n", judged.column.name, screen::verdict(judged.rate.verdict), judged.found())
+    };
+    let last = format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings));
+    let reading = format!("{}\n", table.reading);
+    if quiet {
+        let lines: String = columns.iter().filter(|judged| judged.decides && !is_pass(judged)).map(line).collect();
+        return if table.is_guessed { reading } else { String::new() } + &lines + &last;
     }
-    if !quiet {
-        let columns: Vec<Shown<'_>> = findings.columns.iter().map(JudgedColumn::shown).collect();
-        text += &(shown::table(&findings.table.step, &columns, findings.judge.floor()) + "\n");
-    }
-    for judged in
-        findings.columns.iter().filter(|judged| !quiet || (judged.decides && judged.rate.verdict != Verdict::Pass))
-    {
-        let _ = writeln!(text, "{}: {}: {}", judged.column.name, screen::verdict(judged.rate.verdict), judged.found());
-    }
-    if !quiet {
-        // The same words for several columns stand once.
-        let mut advice: Vec<(&str, String)> = vec![];
-        for judged in
-            findings.columns.iter().filter(|judged| judged.is_claimed() && judged.rate.verdict != Verdict::Pass)
-        {
-            let words = (judged.rate.kind.code(), advice::words(judged, findings));
-            if !advice.contains(&words) {
-                advice.push(words);
-            }
+    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::shown).collect();
+    let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
+    text.extend(columns.iter().map(line));
+    // The same words for several columns stand once.
+    let mut said = vec![];
+    for judged in columns.iter().filter(|judged| judged.is_claimed() && !is_pass(judged)) {
+        let words = (judged.rate.kind.code(), advice(judged, findings));
+        if !said.contains(&words) {
+            section(&mut text, words.0, &words.1);
+            said.push(words);
         }
-        advice.iter().for_each(|(reason, words)| section(&mut text, reason, words));
-        if findings.columns.iter().any(|judged| !judged.is_claimed()) {
-            let (command, source) = (findings.project.command, &findings.source);
-            let _ = writeln!(
-                text,
-                "\nclaim what theory says: {command} rates {source}: --order P for all columns, --order NAME=P for one"
-            );
-        }
-        text.push('\n');
     }
-    text + &format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings))
+    if !columns.iter().all(JudgedColumn::is_claimed) {
+        let command = format!("{} rates {}", findings.project.command, findings.source);
+        text += &format!("\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n");
+    }
+    text + "\n" + &last
+}
+
+/// What the reason means for a column, and what to do, from its numbers where they show more than the reason.
+fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
+    let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
+    let general = rate.kind.advice().to_owned();
+    let errors: Vec<f64> = judged.column.levels.iter().map(|level| level.error).collect();
+    let grows = |rates: &[f64]| rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0);
+    let stays = matches!(rate.kind, Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError);
+    if judged.estimate.is_some() || !(stays || rate.kind.wants_a_level()) {
+        general
+    } else if errors.iter().position(|error| *error == 0.0).is_some_and(|zero| zero + 1 == errors.len()) {
+        format!("{name} is zero on the finest level only. Is that level its own reference? Leave it out.")
+    } else if findings.columns.iter().all(|column| !column.is_claimed() || grows(&column.rate.pairwise)) {
+        format!("The errors fall as `{step}` grows. Do they stand beside their own steps?")
+    } else if let Some(level) = stop(&rate.pairwise) {
+        let (rate, error) = (rate.pairwise[level - 1], error_text(errors[level]));
+        let causes =
+            "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
+        format!("{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}")
+    } else if let Some(limit) = limit(&errors).map(plain_text) {
+        format!("{name} tends to {limit}, not to zero. If it is a value and no error: --values '{name}'. {general}")
+    } else {
+        general + &next_level(judged, findings).unwrap_or_default()
+    }
+}
+
+/// The level down to which the error falls at a steady rate, where it does not on any finer one.
+fn stop(rates: &[f64]) -> Option<usize> {
+    let last = rates.last()?;
+    (2..rates.len()).find(|&k| {
+        let steady = rates[k - 1];
+        let stops = rates[k..].iter().all(|rate| *rate < steady - STOP) && *last < 0.5 * steady && steady > STOP;
+        stops && (rates[k - 2] - steady).abs() <= STEADY
+    })
+}
+
+/// Which level would decide, were the rates to go on as they do: their changes shrink as the last two did.
+fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
+    let (mut levels, rates) = (judged.column.levels.clone(), &judged.rate.pairwise);
+    let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else { return None };
+    let (ratio, finest, mut rate) = (before.step / finest.step, finest.step, *last);
+    let changes: Vec<f64> = rates.windows(2).map(|two| two[1] - two[0]).collect();
+    let mut change = *changes.last()?;
+    let shrinks = changes.iter().rev().nth(1).map(|before| change / before);
+    let shrinks = shrinks.filter(|share| *share > 0.0 && *share < 1.0).unwrap_or(0.5);
+    if !judged.rate.kind.wants_a_level() || !rates.iter().all(|rate| *rate > 0.0) {
+        return None;
+    }
+    for ahead in 1..=AHEAD {
+        let last = levels[levels.len() - 1];
+        change *= shrinks;
+        rate += change;
+        levels.push(Level { step: last.step / ratio, error: last.error * ratio.powf(-rate) });
+        let next = findings.judge.judge(&levels, judged.rate.order);
+        if next.verdict == Verdict::Inconclusive {
+            continue;
+        }
+        let (name, step, parts) = (&judged.column.name, &findings.table.step, ratio.powi(ahead) / finest);
+        let is_part = step == "h" && (parts - parts.round()).abs() < 1e-9 * parts;
+        let at = if is_part { format!("1/{}", parts.round()) } else { plain_text(1.0 / parts) };
+        let (which, are) = if ahead == 1 { ("Another level,", "is") } else { ("Levels down to", "are") };
+        let half = |interval: [f64; 2]| short_text(0.5 * (interval[1] - interval[0]));
+        let now = judged.rate.interval.map_or(String::new(), |now| format!("interval ± {} now, ", half(now)));
+        let then = format!("{name}: {now}about ± {} then", next.interval.map_or(String::new(), half));
+        return Some(format!(" {which} {step} = {at}, {are} likely to decide ({then})."));
+    }
+    None
 }
 
 /// The overall verdict in words.

@@ -31,6 +31,7 @@ use std::path::Path;
 use crate::input::{self, InputError};
 use crate::judge::claims::Claim;
 use crate::judge::verdict::{Judge, RateVerdict};
+use crate::text::names::quoted;
 pub use digits::Column;
 pub use table::limit;
 
@@ -116,14 +117,11 @@ impl Choice {
         if choice.command.is_empty() {
             return String::new();
         }
-        let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
-        let quoted =
-            |text: String| if text.chars().all(is_plain) { text } else { format!("'{}'", text.replace('\'', "'\\''")) };
         let list = |list: Vec<String>| Some(list.join(",")).filter(|list| !list.is_empty());
         let [names, columns] = [choice.names, choice.columns].map(|names| names.and_then(list));
         let (dim, values) = (choice.dim.map(|dim| dim.to_string()), list(choice.values));
         let options = [("names", names), ("step", choice.step), ("dim", dim), ("columns", columns), ("values", values)];
-        let given = options.into_iter().filter_map(|(name, value)| Some((name, quoted(value?))));
+        let given = options.into_iter().filter_map(|(name, value)| Some((name, quoted(&value?))));
         let given: String = given.map(|(name, value)| format!(" --{name} {value}")).collect();
         format!("\n  {}{given}", choice.command)
     }

@@ -35,18 +35,16 @@ mod journal;
 mod lines;
 mod reader;
 mod run;
-mod share;
 
 use std::path::Path;
 
 use crate::scene::{Scene, limits};
 use convergence_study::input::{self, InputError};
 
-pub use case::{Key, SweepCase};
+pub use case::{Key, Share, SweepCase};
 pub use error::SweepError;
 pub use journal::{Journal, Manifest, Merged, RESULTS, merge};
 pub use run::{InOrder, Line, run};
-pub use share::Share;
 
 use design::Design;
 

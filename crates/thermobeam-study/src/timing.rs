@@ -1,6 +1,6 @@
 //! Error over seconds, for benchmarks: measured on this machine and only where runs were done, nothing extrapolated.
 //!
-//! Every method of a study of what errors cost, and dG beside a general integrator on the same elements.
+//! Every method of a study of what errors cost, and dG against a general integrator on the same elements.
 
 use convergence_study::plots;
 use convergence_study::study::{CaseFailure, Kind, Table};
@@ -15,13 +15,13 @@ use crate::run::dg::nodal;
 use crate::run::family::Family;
 use crate::scene::Scene;
 
-/// Errors of which the cost is shown, where a run reaches them.
+/// Errors whose cost is shown, where a run reaches them.
 const TARGETS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// The same beside the integrator.
+/// The same against the integrator.
 const SMALL: [f64; 7] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
-/// Runs of which the fastest counts: other load on the machine only makes a run slower.
+/// Runs; the fastest counts, since other load on the machine only makes a run slower.
 const REPEATS: usize = 3;
-/// The same beside the integrator.
+/// The same against the integrator.
 const SHORT_REPEATS: usize = 5;
 
 /// A run with its time.
@@ -114,7 +114,7 @@ pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) ->
 /// Viscosity, nodes, and the degree at which dG's own error in space is gone.
 const CASES: [(f64, &[f64], usize); 2] = [(0.1, &[0.0, 1.0], 32), (0.01, &[0.0, 0.8, 1.0], 32)];
 
-/// Runs of dG, the errors of which fall from 1e-6 to 1e-13.
+/// Runs of dG whose errors fall from 1e-6 to 1e-13.
 const RUNS: [(usize, usize, f64); 13] = [
     (8, 1, 0.02),
     (10, 1, 0.02),
@@ -155,7 +155,7 @@ impl Rival {
         serde_json::from_str(text)
     }
 
-    /// Its runs with a viscosity, of which the answer is `exact`.
+    /// Its runs with a viscosity; the answer is `exact`.
     fn timed(&self, zeta: f64, exact: f64) -> Vec<Timed> {
         let timed = |run: &RivalRun| {
             let how = format!("p = {}, {:e}", run.degree, run.tolerance);

@@ -30,7 +30,7 @@ const ORDER: f64 = 2.0;
 /// What is left of the tip's error when it is extrapolated from two meshes: the next term of the expansion, and the motion.
 const EXTRAPOLATED: f64 = 1e-2;
 
-/// Beyond so many times the velocity at rest an error is known: below, it is motion.
+/// An error is known above this multiple of the velocity at rest: below, it is motion.
 const MOTION: f64 = 10.0;
 
 /// Relative changes that the baseline tolerates in the tips of discrete and of exact states.

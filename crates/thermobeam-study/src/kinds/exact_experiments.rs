@@ -99,7 +99,7 @@ impl FromFile for ExactExperiments {
     }
 }
 
-/// Refuses scenes of which the times of comparison are no time levels: a difference in time would pass for an error.
+/// Refuses scenes whose time levels do not include the times of comparison: a difference in time would pass for an error.
 fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
     for scene in scenes {
         let steps = |t: &f64| t / scene.dt();

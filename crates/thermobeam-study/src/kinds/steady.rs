@@ -130,18 +130,20 @@ const QUIET: f64 = 5.0;
 /// # Errors
 /// A step that cannot be done, or motion that lasts longer than `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
-    let mut moved = 0.0;
-    let rest = simulate::driver(scene)?.run(usize::MAX, |step| {
-        let t = step.simulation.t();
-        if !step.new.is_slow(speed) {
+    let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
+    loop {
+        let Step { new, simulation, .. } = driver.stepped()?;
+        let t = simulation.t();
+        if !new.is_slow(speed) {
             moved = t;
         } else if t - moved >= QUIET {
-            return ControlFlow::Break(Some((t, step.new.clone())));
+            return Ok((t, new.clone()));
         }
-        if t < t_max { ControlFlow::Continue(()) } else { ControlFlow::Break(None) }
-    })?;
-    let moving = || CaseFailure { reason: format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name) };
-    rest.flatten().ok_or_else(moving)
+        if !(t < t_max) {
+            let reason = format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name);
+            return Err(CaseFailure { reason });
+        }
+    }
 }
 
 /// All exact steady states of the scene.

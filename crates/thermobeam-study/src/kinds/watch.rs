@@ -9,7 +9,7 @@ use crate::run::together::EnsembleDriver;
 /// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
 pub(super) const SOLVED: f64 = 1e-14;
 
-/// Share of the energy within which the balance of a step closes, but for what rounding errors explain.
+/// Share of the energy within which the balance of a step closes, unless rounding errors explain more.
 pub(super) const CLOSED: f64 = 1e-12;
 
 /// Largest rise of the energy and largest residual of its balance, over the steps of one run or of several; NaN stays.
@@ -95,7 +95,7 @@ impl EnergyWatch {
     }
 }
 
-/// A problem after it was run beside others.
+/// A problem after it was run in a group.
 pub(super) struct Watched {
     /// Rise of the energy and residual of its balance, over the steps that were done.
     pub(super) worst: Worst,
@@ -122,7 +122,8 @@ pub(super) fn watched(
         (EnergyWatch::new(driver.ensemble().energy_scale(k, &level)), level)
     };
     let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
-    driver.run(steps, |ensemble, balances| {
+    for _ in 0..steps {
+        let Some((ensemble, balances)) = driver.stepped()? else { break };
         for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
             let Ok(report) = ensemble.report(k) else { continue };
             ensemble.observe(k, &mut new);
@@ -130,11 +131,10 @@ pub(super) fn watched(
             watch.step(balance, ensemble.energy_scale(k, &new), || ensemble.rounding(k, old, &new));
             std::mem::swap(old, &mut new);
         }
-        ControlFlow::Continue(())
-    })?;
-    let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| {
-        let failure = driver.ensemble().report(k).err();
-        Watched { worst: watch.worst, failure }
+    }
+    let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| Watched {
+        worst: watch.worst,
+        failure: driver.ensemble().report(k).err(),
     };
     Ok(runs.iter().enumerate().map(ended).collect())
 }

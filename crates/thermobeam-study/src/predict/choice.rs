@@ -164,14 +164,17 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
         reason,
     };
     for _ in 0..ROUNDS {
-        let outcome = work.leaves(node_steps(&scene)).and_then(|()| Own::run(&scene, quantity, work)).and_then(|own| {
-            let error = own.error(&reference, work)?;
-            // A law for the first run, and for each that has missed the target.
-            if law.is_none() || error > target {
-                law = Some(Law::of(&scene, &own, work)?);
-            }
-            Ok((own, error))
-        });
+        let outcome = work
+            .leaves(size(&scene).iter().product())
+            .and_then(|()| Own::run(&scene, quantity, work))
+            .and_then(|own| {
+                let error = own.error(&reference, work)?;
+                // A law for the first run, and for each that has missed the target.
+                if law.is_none() || error > target {
+                    law = Some(Law::of(&scene, &own, work)?);
+                }
+                Ok((own, error))
+            });
         let finer = match (outcome, &law) {
             (Ok((own, error)), Some(law)) if error <= target => {
                 let parts = law.parts(size(&scene));
@@ -212,11 +215,7 @@ fn size(scene: &Scene) -> [f64; 2] {
     [scene.mesh.elements() as f64, scene.steps() as f64]
 }
 
-fn node_steps(scene: &Scene) -> f64 {
-    size(scene).iter().product()
-}
-
-/// The scene with so many elements and steps; `None` where there is no such mesh.
+/// The scene with these numbers of elements and steps; `None` where there is no such mesh.
 fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
     let mesh = resampled(&scene.mesh, elements.ceil() as usize).ok()?;
     Some(at(scene, mesh, steps.ceil() as usize, scene.t_end))

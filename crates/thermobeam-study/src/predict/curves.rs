@@ -1,7 +1,6 @@
 //! Runs by their curves alone: numbers over time, of any method, and how far two such runs are apart.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use convergence_study::text::number::max_or_nan;
 use thermobeam::dg::{self, Field};
@@ -10,6 +9,7 @@ use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
 use crate::run::dg::DgMotion;
+use crate::run::driver::Step;
 use crate::run::motion::Motion;
 use crate::run::simulate;
 use crate::scene::{Method, Scene};
@@ -231,9 +231,9 @@ fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
-    let broken = driver.run(steps, |step| {
-        let (simulation, n) = (step.simulation, step.simulation.step());
-        curves.include([step.new.u[elements]; 2]);
+    for n in 1..=steps {
+        let Step { new, simulation, .. } = driver.stepped().map_err(Reason::of_run)?;
+        curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
             None => n % every == 0 || n == steps,
@@ -242,13 +242,9 @@ fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'
         };
         if is_read {
             curves.times.push(Instance { t, since: 0.0, early: false });
-            let energy = || simulation.energy(step.new).total();
-            rows.of_one_step(&scene.mesh, step.new, energy, &mut curves.values);
+            rows.of_one_step(&scene.mesh, new, || simulation.energy(new).total(), &mut curves.values);
         }
-        work.add(elements as f64).map_or_else(ControlFlow::Break, ControlFlow::Continue)
-    });
-    if let Some(reason) = broken.map_err(Reason::of_run)? {
-        return Err(reason);
+        work.add(elements as f64)?;
     }
     curves.cost = Cost { work: (elements * steps) as f64, seconds: driver.wall().as_secs_f64(), runs: 1 };
     Ok(curves)

@@ -42,7 +42,7 @@ const START_RATE: f64 = 1.5;
 /// What `restart_dt` is divided by in one go, at least and at most.
 const SHORTENED: [f64; 2] = [2.0, 32.0];
 
-/// A layer at x = 1 is resolved if its width is so many times that of the finest detail an element shows there, its length / p².
+/// A layer at x = 1 is resolved if its width is at least this multiple of the finest detail an element shows there, its length / p².
 const RESOLVED: f64 = 12.0;
 
 /// What all steps are multiplied by in one go, at least and at most: a difference that is too large tells no more.

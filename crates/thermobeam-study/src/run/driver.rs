@@ -1,6 +1,5 @@
 //! A simulation by a one-step scheme under way: time limit, loads, step, levels shown to an observer.
 
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::Patience;
@@ -15,7 +14,7 @@ use super::error::RunError;
 use super::motion::{Motion, Report, Sample, Solves};
 use super::tally::EnergySummary;
 
-/// A step that was done, as an observer sees it.
+/// A step that was done.
 pub(crate) struct Step<'s> {
     /// Iterations and contraction of the step.
     pub(crate) report: StepReport,
@@ -27,7 +26,7 @@ pub(crate) struct Step<'s> {
     pub(crate) simulation: &'s Simulation,
 }
 
-/// Steps from one look at the energy to the next in [`Driver::run`]: an energy costs a fifth of a step, one in sixteen a hundredth.
+/// Steps from one look at the energy to the next in [`Driver::stepped`]: an energy costs a fifth of a step, one in sixteen a hundredth.
 const CHECKED: usize = 16;
 
 /// A simulation under way.
@@ -37,6 +36,8 @@ pub(crate) struct Driver {
     old: Level,
     /// The last level that was shown.
     new: Level,
+    /// The energy at t = 0.
+    initial: f64,
     middle: Middle,
     patience: Patience,
     wall: Duration,
@@ -53,7 +54,8 @@ impl Driver {
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
         let middle = Middle::of(&simulation.problem().mesh);
-        Ok(Self { simulation, old, new, middle, patience, wall: Duration::ZERO, is_timed: false })
+        let initial = simulation.energy(&old).total();
+        Ok(Self { simulation, old, new, initial, middle, patience, wall: Duration::ZERO, is_timed: false })
     }
 
     /// Reads the clock before and after each step, which takes some 50 ns.
@@ -101,37 +103,25 @@ impl Driver {
         Ok(outcome?)
     }
 
-    /// Does up to `steps` steps without loads and shows each to `observe`, which may end the run.
+    /// Does a step without loads and shows it.
     ///
-    /// A u(1) that is not finite ends it at that step, and so does an energy that has risen or is not finite, which is looked at
+    /// A u(1) that is not finite is refused, and so is an energy that has risen since t = 0 or is not finite, which is looked at
     /// after 1, 2, 4, 8 steps and every [`CHECKED`]: no exactly solved step raises it.
-    ///
-    /// * Returns what `observe` broke off with; `None` after all steps.
     ///
     /// # Errors
     /// [`RunError`]; the simulation then stands at the last level shown.
-    pub(crate) fn run<B>(
-        &mut self,
-        steps: usize,
-        mut observe: impl FnMut(Step<'_>) -> ControlFlow<B>,
-    ) -> Result<Option<B>, RunError> {
-        let initial = self.simulation.energy(&self.new).total();
-        for _ in 0..steps {
-            let report = self.shown()?;
-            let (u_tip, n) = (self.new.u[self.new.u.len() - 1], self.simulation.step());
-            if !u_tip.is_finite() || n.is_multiple_of(CHECKED) || n.is_power_of_two() {
-                self.check(initial)?;
-            }
-            let step = Step { report, old: &self.old, new: &self.new, simulation: &self.simulation };
-            if let ControlFlow::Break(found) = observe(step) {
-                return Ok(Some(found));
-            }
+    pub(crate) fn stepped(&mut self) -> Result<Step<'_>, RunError> {
+        let report = self.shown()?;
+        let (u_tip, n) = (self.new.u[self.new.u.len() - 1], self.simulation.step());
+        if !u_tip.is_finite() || n.is_multiple_of(CHECKED) || n.is_power_of_two() {
+            self.check()?;
         }
-        Ok(None)
+        Ok(Step { report, old: &self.old, new: &self.new, simulation: &self.simulation })
     }
 
     /// Refuses an energy that is not finite, or larger than it was.
-    fn check(&self, initial: f64) -> Result<(), RunError> {
+    fn check(&self) -> Result<(), RunError> {
+        let initial = self.initial;
         let last = self.simulation.energy(&self.new).total();
         let energy = EnergySummary { initial, last, largest_increase: last - initial, largest_balance_residual: 0.0 };
         let (step, t, dt) = (self.simulation.step(), self.simulation.t(), self.simulation.dt());
@@ -146,7 +136,7 @@ impl Driver {
         Ok(report)
     }
 
-    /// Every so many steps there is a row of a history, or a frame.
+    /// Steps from one row of a history, or frame, to the next.
     fn stride(&self, t_end: f64, count: usize) -> usize {
         let steps = (t_end / self.simulation.dt()).round() as usize;
         steps.div_ceil(count).max(1)
@@ -306,14 +296,19 @@ mod tests {
         let mut driver = driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");
         let initial = driver.simulation.energy(&driver.new).total();
         let mut risen = usize::MAX;
-        let ended = driver.run(usize::MAX, |step| {
-            let rise = step.simulation.energy(step.new).total() - initial;
-            if rise > 1e-3 * initial.max(1.0) {
-                risen = risen.min(step.simulation.step());
+        let ended = loop {
+            match driver.stepped() {
+                Err(error) => break error,
+                Ok(step) => {
+                    let rise = step.simulation.energy(step.new).total() - initial;
+                    if rise > 1e-3 * initial.max(1.0) {
+                        risen = risen.min(step.simulation.step());
+                    }
+                    assert!(step.simulation.step() < 1000, "risen at {risen}");
+                }
             }
-            if step.simulation.step() < 1000 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-        let Err(RunError::Unsound { step, t, dt, .. }) = ended else { panic!("{ended:?}") };
+        };
+        let RunError::Unsound { step, t, dt, .. } = ended else { panic!("{ended:?}") };
         assert!(step <= risen.saturating_add(CHECKED), "{step}, risen at {risen}");
         assert!((t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
     }

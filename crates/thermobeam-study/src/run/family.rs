@@ -122,7 +122,7 @@ impl Family {
         Ok(DgMotion::of(simulation, &beam, obstacles, stepping))
     }
 
-    /// The problem on a mesh of so many elements, graded as the scene's.
+    /// The problem on a mesh of `elements` elements, graded as the scene's.
     ///
     /// # Errors
     /// [`CaseFailure`] where there is no such mesh.
@@ -168,7 +168,7 @@ impl OnMesh<'_> {
         sources.fill(factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
     }
 
-    /// Stands at t = 0 with a scheme and so many steps to go.
+    /// Stands at t = 0 with a scheme and `steps` steps to go.
     ///
     /// # Errors
     /// [`CaseFailure`] where the solver refuses the numbers.

@@ -77,7 +77,7 @@ pub trait Motion {
     fn at(&mut self, t: f64) -> Sample;
 
     /// Shows those of `count` equal parts of the time to `t_end` that end in the last step: the first time is `t_end / count`. A
-    /// one-step scheme shows the level at each whole number of steps of which there are at most `count`.
+    /// one-step scheme shows levels at equal numbers of steps, at most `count` of them.
     fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64));
 
     /// Times of a history.

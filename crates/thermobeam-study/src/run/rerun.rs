@@ -1,7 +1,6 @@
 //! A scene run again, on another mesh or with other time steps.
 
-use std::ops::ControlFlow;
-
+use crate::run::driver::Step;
 use crate::run::error::RunError;
 use crate::run::simulate;
 use crate::scene::Scene;
@@ -19,7 +18,7 @@ pub(crate) struct Trace<S> {
     pub(crate) samples: Vec<S>,
 }
 
-/// The scene on another mesh, with so many steps to a final time.
+/// The scene on another mesh, with `steps` steps to a final time.
 pub(crate) fn at(scene: &Scene, mesh: Mesh, steps: usize, t_end: f64) -> Scene {
     Scene { t_end, ..scene.at(mesh, t_end / steps as f64) }
 }
@@ -39,14 +38,14 @@ pub(crate) fn traced<S>(
     let last = scene.mesh.elements();
     let mut trace = Trace { tip: [driver.level().u[last]; 2], samples: Vec::with_capacity(samples) };
     let stride = scene.steps() / samples;
-    driver.run(scene.steps(), |step| {
-        let tip = step.new.u[last];
+    for n in 1..=scene.steps() {
+        let Step { new, simulation, .. } = driver.stepped()?;
+        let tip = new.u[last];
         trace.tip = [min_or_nan(trace.tip[0], tip), max_or_nan(trace.tip[1], tip)];
-        if step.simulation.step() % stride == 0 {
-            trace.samples.push(sample(step.simulation, step.new));
+        if n % stride == 0 {
+            trace.samples.push(sample(simulation, new));
         }
-        ControlFlow::<()>::Continue(())
-    })?;
+    }
     Ok(trace)
 }
 
@@ -60,7 +59,7 @@ pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError>
     }
     let (nodes, n) = (mesh.nodes(), mesh.elements());
     let node = |j: usize| {
-        // In whole numbers: a rounded j/m would put nested nodes a bit beside each other.
+        // In whole numbers: a rounded j/m would put nested nodes a bit apart.
         let (index, rest) = (j * n / elements, j * n % elements);
         if rest == 0 {
             return nodes[index];

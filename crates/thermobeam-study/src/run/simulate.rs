@@ -38,13 +38,13 @@ use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
-/// What to keep beside the summary.
+/// What to keep in addition to the summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// So many rows at equal distances of time, without pictures; of a one-step scheme at most so many, at its levels.
+    /// This number of rows at equal distances of time, without pictures; of a one-step scheme at most this number, at its levels.
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,

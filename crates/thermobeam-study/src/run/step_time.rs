@@ -1,10 +1,9 @@
 //! Time per element and step: of the ways to solve a step, of what a scene has, and over the number of elements.
 //!
-//! Times vary, so nothing of this enters a committed record; the counts of work beside them are exact. Every time is the
+//! Times vary, so nothing of this enters a committed record; the counts of work next to them are exact. Every time is the
 //! best of several runs: other load on the machine only makes a run slower.
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use convergence_study::study::Table;
@@ -20,7 +19,7 @@ use crate::scene::Scene;
 
 /// Elements times steps of one timed run: some ten milliseconds.
 const RUN: usize = 500_000;
-/// Runs of which the best counts.
+/// Runs; the best one counts.
 const REPEATS: usize = 9;
 /// Cases in lanes.
 const LANES: usize = 4;
@@ -75,26 +74,28 @@ impl Timed {
             let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
             let mut driver = EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
             let start = Instant::now();
-            let observe = |_: &_, balances: &_| {
-                black_box(balances);
-                ControlFlow::Continue(())
-            };
-            let _ =
-                if self.balanced { driver.run(steps, observe) } else { (0..steps).try_for_each(|_| driver.advance()) };
+            for _ in 0..steps {
+                let done =
+                    if self.balanced { driver.stepped().map(|shown| _ = black_box(shown)) } else { driver.advance() };
+                if done.is_err() {
+                    break;
+                }
+            }
             let seconds = start.elapsed().as_secs_f64();
             return Ok((seconds, driver.ensemble().step().max(1), driver.ensemble().work()));
         }
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
         let start = Instant::now();
-        let _ = if self.balanced {
-            let observed = driver.run(steps, |step| {
-                black_box(step.simulation.balance(step.old, step.new));
-                ControlFlow::<()>::Continue(())
-            });
-            observed.map(drop)
-        } else {
-            (0..steps).try_for_each(|_| driver.advance(|_, _| ()).map(drop))
-        };
+        for _ in 0..steps {
+            let done = if self.balanced {
+                driver.stepped().map(|step| _ = black_box(step.simulation.balance(step.old, step.new)))
+            } else {
+                driver.advance(|_, _| ()).map(drop)
+            };
+            if done.is_err() {
+                break;
+            }
+        }
         Ok((start.elapsed().as_secs_f64(), driver.simulation().step().max(1), driver.simulation().work()))
     }
 }
@@ -128,7 +129,7 @@ fn cold(setting: &mut Timed) {
     setting.problem.initial.theta.fill(0.0);
 }
 
-/// The ways to solve a step, and what a scene pays for, with so many elements.
+/// The ways to solve a step, and what a scene pays for, with `elements` elements.
 ///
 /// # Errors
 /// [`SetupError`] where the scene cannot be set up on that mesh.

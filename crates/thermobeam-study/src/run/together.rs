@@ -1,6 +1,5 @@
 //! Scenes that run side by side in lanes, twice as fast as one after the other, each with the bits that it gets alone.
 
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::{Patience, TimeUp};
@@ -50,12 +49,15 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let mut level = Level::new(common.elements + 1);
     let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
     let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
-    driver.run(common.steps, |ensemble, balances| {
+    for _ in 0..common.steps {
+        let Some((ensemble, balances)) = driver.stepped()? else { break };
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
         }
-        if lanes.iter().all(|lane| lane.ended.is_some()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })?;
+        if lanes.iter().all(|lane| lane.ended.is_some()) {
+            break;
+        }
+    }
     let share = driver.wall() / scenes.len() as u32;
     lanes.iter_mut().for_each(|lane| lane.end(common.steps, None, driver.ensemble(), &mut level));
     Ok(lanes.into_iter().filter_map(|lane| Some(Run { wall: share, ..lane.ended? })).collect())
@@ -96,7 +98,7 @@ impl<'s> LaneRun<'s> {
         }
     }
 
-    /// Ends the run after so many steps, unless it has ended.
+    /// Ends the run after `steps` steps, unless it has ended.
     fn end(&mut self, steps: usize, failure: Option<RunError>, ensemble: &Ensemble, level: &mut Level) {
         let (k, first) = (self.k, self.first);
         if self.ended.is_none() {
@@ -164,24 +166,16 @@ impl EnsembleDriver {
         Ok(())
     }
 
-    /// Does up to `steps` steps and shows each with the energy balances to `observe`, which may end the run; it ends
-    /// where every simulation has failed.
+    /// Does one step of every simulation that has not failed and shows it with the energy balances; `None` where all have failed.
     ///
     /// # Errors
     /// As [`EnsembleDriver::advance`].
-    pub(crate) fn run(
-        &mut self,
-        steps: usize,
-        mut observe: impl FnMut(&Ensemble, &[Balance]) -> ControlFlow<()>,
-    ) -> Result<(), TimeUp> {
-        for _ in 0..steps {
-            self.advance()?;
-            self.ensemble.balances(&mut self.balances);
-            let is_over = observe(&self.ensemble, &self.balances).is_break();
-            if is_over || (0..self.ensemble.cases()).all(|k| self.ensemble.report(k).is_err()) {
-                break;
-            }
+    pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
+        if self.ensemble.step() > 0 && (0..self.ensemble.cases()).all(|k| self.ensemble.report(k).is_err()) {
+            return Ok(None);
         }
-        Ok(())
+        self.advance()?;
+        self.ensemble.balances(&mut self.balances);
+        Ok(Some((&self.ensemble, &self.balances)))
     }
 }

@@ -90,7 +90,7 @@ pub(crate) fn any_order_memory(
         .refuse(found, format!("a mesh that takes at most {} GiB with degree p = {p} and q = {q}", RUN_BYTES >> 30)))
 }
 
-/// What a run with so many elements takes, in words.
+/// The memory that a run with `elements` elements takes, in words.
 pub(crate) fn memory_of_elements(elements: f64) -> String {
     memory(elements * BYTES_PER_ELEMENT as f64)
 }

@@ -124,7 +124,7 @@ impl Scene {
         Self::from_tables(root, name)
     }
 
-    /// The scene of the tables in a section, which may hold other keys besides.
+    /// The scene of the tables in a section, which may hold other keys.
     pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         let Coefficients { beam, obstacles } = Coefficients::read(root)?;
         let (method, t_end) = method::read(root, &beam, obstacles.as_ref())?;

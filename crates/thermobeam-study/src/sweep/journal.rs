@@ -126,7 +126,7 @@ pub struct Journal {
 impl Journal {
     /// Opens the folder of a share, and creates it if necessary.
     ///
-    /// * `resume`: whether to continue what the folder holds, every line of which must be one of a case of this share.
+    /// * `resume`: whether to continue what the folder holds; every line must belong to a case of this share.
     ///
     /// # Errors
     /// [`SweepError`]; nothing has been written then, except where the disk fails.
@@ -178,7 +178,7 @@ impl Journal {
             if share.holds(case.hash()) { Ok(()) } else { Err(of_another()) }
         };
         let (places, end) = lines::places(std::slice::from_ref(source), self.done.len(), is_of_the_share)?;
-        // A process killed after writing the results leaves a journal beside them, all of which they hold.
+        // A process killed after writing the results leaves a journal; the results hold all of it.
         self.file.set_len(if is_complete { 0 } else { end }).map_err(|error| atomic::naming(&self.path, &error))?;
         places.iter().for_each(|place| self.count(place.case, place.passed));
         Ok(())

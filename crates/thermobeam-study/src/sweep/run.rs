@@ -166,7 +166,7 @@ pub fn run(
 /// Writes lines in the order of their cases; those that come early are kept until their turn.
 pub struct InOrder<W> {
     output: W,
-    /// Cases of which the line has not been written, in order.
+    /// Cases whose lines have not been written, in order.
     expected: std::vec::IntoIter<usize>,
     next: Option<usize>,
     early: BTreeMap<usize, String>,

@@ -1,6 +1,7 @@
 //! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
 //! and guarded numbers.
 
+use convergence_study::judge::richardson;
 use convergence_study::text::number::decimals;
 
 use super::branches;
@@ -195,7 +196,7 @@ fn list(betas: impl Iterator<Item = f64>) -> String {
 /// The discrete buckling force for vanishing mesh width, from the last two meshes.
 fn extrapolated(forces: &[(usize, f64)]) -> f64 {
     let &[.., (coarse, before), (fine, last)] = forces else { return f64::NAN };
-    last + (last - before) / ((fine as f64 / coarse as f64).powi(2) - 1.0)
+    last + richardson::correction(before, last, fine as f64 / coarse as f64, 2.0)
 }
 
 fn discrete_limit(forces: &[(usize, f64)]) -> Check {

@@ -53,7 +53,7 @@ pub struct BifurcationStudy {
 pub enum DiagramTask {
     /// The branches of a scene, by its place in the list.
     Diagram(usize),
-    /// The buckling force of so many elements.
+    /// The buckling force of this number of elements.
     Buckling(usize),
     /// A moving beam until it rests: scene and β, by their places in the lists.
     Rest(usize, usize),

@@ -39,7 +39,7 @@ use crate::scene;
 /// Samples of a run, about.
 const SAMPLES: usize = 400;
 
-/// The size of the energy is computed every so many steps.
+/// Steps from one computation of the energy's size to the next.
 const SCALED: usize = 8;
 
 /// A study of this kind.
@@ -98,7 +98,7 @@ pub struct Found {
     pub samples: Vec<EnergyAt>,
 }
 
-/// A run after so many steps.
+/// A run after a number of steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyAt {
     /// Number of the step.
@@ -207,7 +207,7 @@ impl Kind for EnergyRuns {
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // Observing a step costs three times its solution, and a step some 100 ns beside its elements.
+        // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
         let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.elements as f64 + 4.0);
         let case = |(data, run): (usize, &EnergyRun)| Case { label: run.name.clone(), cost: cost(run), data };
         self.runs.iter().enumerate().map(case).collect()
@@ -246,11 +246,15 @@ impl EnergyRun {
     fn run(&self) -> Result<Found, CaseFailure> {
         let mut driver = Driver::new((self.problem)(), self.stepping)?;
         let mut log = EnergyLog::new(&mut driver, self.steps);
-        let ended = driver.run(self.steps, |step| {
-            log.add(&step);
-            ControlFlow::<()>::Continue(())
-        });
-        log.found.end = End::of(ended.err().as_ref())?;
+        for _ in 0..self.steps {
+            match driver.stepped() {
+                Ok(step) => log.add(&step),
+                Err(error) => {
+                    log.found.end = End::of(Some(&error))?;
+                    break;
+                }
+            }
+        }
         Ok(Found { worst: log.watch.worst, drift: log.watch.drift, ..log.found })
     }
 

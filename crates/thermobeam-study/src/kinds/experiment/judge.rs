@@ -133,7 +133,7 @@ fn time(t: Option<f64>) -> String {
     t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
 }
 
-/// All checks of the text, but for the number of steady states.
+/// All checks of the text except the number of steady states.
 fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check> {
     let all = OfGroup::of(study, ran, |_| true);
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First);

@@ -76,22 +76,23 @@ pub(super) fn run(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure>
     let mut log = MotionLog::new(scene, &mut driver);
     let window = (until.window / scene.dt()).round().max(1.0) as usize;
     let mut fall = 0.0;
-    let end = driver.run(usize::MAX, |step| {
+    loop {
+        let Step { old, new, simulation, .. } = driver.stepped()?;
         // Summed up from differences: the total's round-off would hide a slow fall.
-        let change = step.simulation.energy_change(step.old, step.new);
+        let change = simulation.energy_change(old, new);
         log.largest_increase = max_or_nan(log.largest_increase, change);
-        log.add(step.simulation, step.new);
+        log.add(simulation, new);
         fall -= change;
-        if step.simulation.step() % window == 0 {
+        if simulation.step() % window == 0 {
             if fall <= until.rate * until.window {
-                return ControlFlow::Break(Some(step.new.clone()));
+                return log.finish(simulation, new);
             }
             fall = 0.0;
         }
-        if step.simulation.t() < until.t_max { ControlFlow::Continue(()) } else { ControlFlow::Break(None) }
-    })?;
-    let end = end.flatten().ok_or_else(|| CaseFailure { reason: format!("not steady by t = {}", until.t_max) })?;
-    log.finish(driver.simulation(), &end)
+        if !(simulation.t() < until.t_max) {
+            return Err(CaseFailure { reason: format!("not steady by t = {}", until.t_max) });
+        }
+    }
 }
 
 /// What a run has shown so far.

@@ -221,13 +221,13 @@ fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
     let end = scene.mesh.elements();
     let (velocity, mut tip) = (driver.level().v[end], vec![(0.0, driver.level().u[end])]);
     let (mut force, mut iterations, mut most_iterations) = (0.0, 0, 0);
-    driver.run::<()>(scene.steps(), |Step { report, new, simulation, .. }| {
+    for _ in 0..scene.steps() {
+        let Step { report, new, simulation, .. } = driver.stepped()?;
         iterations += report.iterations;
         most_iterations = most_iterations.max(report.iterations);
         force = max_or_nan(force, new.contact_force.abs());
         tip.push((simulation.t(), new.u[end]));
-        ControlFlow::Continue(())
-    })?;
+    }
     Ok(ShownImpact {
         force: Some(force),
         penetration: Some(epsilon * force),
@@ -245,24 +245,25 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
     let settings = Settings { solver: Solver::FixedPoint, max_iterations, ..stepping.settings };
     let method = Method::OneStep(Stepping { settings, ..stepping });
     let mut driver = driver(&Scene { method, ..scene.clone() })?;
-    let (mut contraction, mut iterations) = (None, 0);
-    let ended = driver.run::<()>(scene.steps(), |Step { report, old, new, .. }| {
-        iterations += report.iterations;
-        // While the tip comes or goes the law is not linear, and two increments tell nothing.
-        let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
-        if let Some(found) = report.contraction.filter(|_| in_contact) {
-            contraction = Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
+    let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);
+    for _ in 0..scene.steps() {
+        match driver.stepped() {
+            Ok(Step { report, old, new, .. }) => {
+                iterations += report.iterations;
+                // While the tip comes or goes the law is not linear, and two increments tell nothing.
+                let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
+                if let Some(found) = report.contraction.filter(|_| in_contact) {
+                    contraction = Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
+                }
+            }
+            Err(RunError::Step(error)) => {
+                contraction = contraction_of(&error);
+                failed_at = Some(error.step as f64 * error.dt);
+                break;
+            }
+            Err(other) => return Err(other.into()),
         }
-        ControlFlow::Continue(())
-    });
-    let failed_at = match ended {
-        Ok(_) => None,
-        Err(RunError::Step(error)) => {
-            contraction = contraction_of(&error);
-            Some(error.step as f64 * error.dt)
-        }
-        Err(other) => return Err(other.into()),
-    };
+    }
     let mean_iterations = Some(iterations as f64 / driver.simulation().step().max(1) as f64);
     Ok(ShownImpact {
         alpha: Some(alpha(scene, &stepping)),

@@ -167,19 +167,18 @@ impl Kind for Vibration {
         let zero = Level::new(elements + 1);
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
         let mut tip = vec![(0.0, driver.level().u[elements])];
-        driver.run(steps, |step| {
-            let n = step.simulation.step();
+        for n in 1..=steps {
+            let Step { new, .. } = driver.stepped()?;
             if let Some(closed) = &mut closed {
                 closed(n, &mut factors);
                 let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
-                deviation = max_or_nan(deviation, distance(step.new));
+                deviation = max_or_nan(deviation, distance(new));
                 size = max_or_nan(size, distance(&zero));
             }
             reference(n, &mut factors);
-            errors = errors.max(&meter.measure(step.new, &factors));
-            tip.push((n as f64 * dt, step.new.u[elements]));
-            ControlFlow::<()>::Continue(())
-        })?;
+            errors = errors.max(&meter.measure(new, &factors));
+            tip.push((n as f64 * dt, new.u[elements]));
+        }
         Ok(Vibrated { errors, closed_form: closed.map(|_| deviation / size), tip })
     }
 

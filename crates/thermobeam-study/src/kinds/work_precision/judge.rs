@@ -9,9 +9,9 @@ use crate::kinds::prelude::*;
 /// Results of all cases.
 type AllRuns = [Ran<Runs, Vec<Measurement>>];
 
-/// Errors of which the cost is shown.
+/// Errors whose cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-/// The error of a single run may lie below the law by so many times the misfit allowed: there errors of space and time
+/// The error of a single run may lie below the law by this multiple of the misfit allowed: there errors of space and time
 /// happen to cancel, as they do not in neighbouring runs, with which the fit must agree.
 const UNDERCUT: f64 = 2.5;
 /// Relative change of a cost that is tolerated: rates enter its exponent.

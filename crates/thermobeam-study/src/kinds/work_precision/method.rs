@@ -1,7 +1,7 @@
 //! The methods compared, and one run of each.
 //!
 //! The errors of dG fall faster than any power of h and dt, so no law is fitted: an error costs what the cheapest run costs that
-//! has it. The unit is the node-solve of `midpoint`, of two 3 x 3 blocks a row. A solve of dG(q) on so many blocks has 3 (q + 1)
+//! has it. The unit is the node-solve of `midpoint`, of two 3 x 3 blocks a row. A solve of dG(q) has 3 (q + 1)
 //! unknowns a block and costs (q + 1)² as much for each; a factorisation counts as 3 (q + 1) solves.
 
 use thermobeam::dg;
@@ -60,12 +60,12 @@ pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
 }
 
 impl OneStep {
-    /// Steps of unit size per step of the coarse run: 3 where a second run goes beside it with half the step.
+    /// Steps of unit size per step of the coarse run: 3 where a second run has half the step.
     pub(super) fn runs(&self) -> f64 {
         if self.extrapolated { 3.0 } else { 1.0 }
     }
 
-    /// Runs `steps` steps, measured at `observations` equidistant times, of which `steps` must be a multiple.
+    /// Runs `steps` steps, measured at `observations` equidistant times; `steps` must be a multiple of their number.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's own words.
@@ -130,7 +130,7 @@ impl std::fmt::Display for Degrees {
 }
 
 impl Degrees {
-    /// Runs a problem on the elements between these nodes. `observe` is shown the level at each of so many equidistant times,
+    /// Runs a problem on the elements between these nodes. `observe` is shown the level at each of the `times` equidistant times,
     /// numbered from 0; most of them lie inside steps.
     ///
     /// # Errors

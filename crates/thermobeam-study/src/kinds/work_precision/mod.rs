@@ -55,7 +55,7 @@ pub const ROW: KindRow = KindRow {
 /// Times of observation where u(1, t) alone is measured.
 const OBSERVED: usize = 250;
 
-/// A claim that one method is so many times cheaper than another.
+/// A claim that one method is `times` times cheaper than another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advantage {
     /// The error is measured in this quantity.
@@ -66,7 +66,7 @@ pub struct Advantage {
     pub of: NamedMethod,
     /// The more expensive one.
     pub over: NamedMethod,
-    /// At least so many times.
+    /// At least.
     pub times: f64,
 }
 
@@ -107,7 +107,7 @@ enum Yardstick {
 /// Runs of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Runs {
-    /// A one-step method on a mesh of so many elements: one run for each number of steps.
+    /// A one-step method on a mesh with this number of elements: one run for each number of steps.
     OnMesh(NamedMethod, OneStep, usize),
     /// One run by dG.
     Dg(Degrees),

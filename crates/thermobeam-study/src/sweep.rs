@@ -30,7 +30,6 @@
 
 mod case;
 mod design;
-mod error;
 mod journal;
 mod lines;
 mod reader;
@@ -42,8 +41,8 @@ use crate::scene::{Scene, limits};
 use convergence_study::input::{self, InputError};
 
 pub use case::{Key, Share, SweepCase};
-pub use error::SweepError;
 pub use journal::{Journal, Manifest, Merged, RESULTS, merge};
+pub use lines::SweepError;
 pub use run::{InOrder, Line, run};
 
 use design::Design;

@@ -7,7 +7,7 @@ use convergence_study::run::time_limit::within;
 use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
-use thermobeam_study::run::error::RunError;
+use thermobeam_study::run::motion::RunError;
 use thermobeam_study::run::motion::{Motion, Report};
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};

@@ -27,7 +27,7 @@ pub(crate) use crate::exact::norm::{Norm, Norms};
 pub(crate) use crate::exact::solution::{Manufactured, Product};
 pub(crate) use crate::expression::Expression;
 pub(crate) use crate::run::driver::{Driver, Step};
-pub(crate) use crate::run::error::RunError;
+pub(crate) use crate::run::motion::RunError;
 pub(crate) use crate::run::rerun::resampled;
 pub(crate) use crate::run::simulate;
 pub(crate) use crate::scene::{Method, Scene, limits, tables};

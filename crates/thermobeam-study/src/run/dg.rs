@@ -10,8 +10,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
-use super::error::RunError;
-use super::motion::{Motion, Report, Sample, Solves};
+use super::motion::{Motion, Report, RunError, Sample, Solves};
 use crate::scene::Scene;
 
 /// Times of a history by dG: more than a figure has columns.

@@ -10,8 +10,7 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
-use super::error::RunError;
-use super::motion::{Motion, Report, Sample, Solves};
+use super::motion::{Motion, Report, RunError, Sample, Solves};
 use super::tally::EnergySummary;
 
 /// A step that was done.

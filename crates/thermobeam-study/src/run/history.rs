@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::error::RunError;
-use super::motion::{Motion, Report, Sample, Watch};
+use super::motion::{Motion, Report, RunError, Sample, Watch};
 
 /// Frames at most: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;

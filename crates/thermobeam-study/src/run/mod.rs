@@ -2,7 +2,6 @@
 
 pub(crate) mod dg;
 pub mod driver;
-pub mod error;
 pub mod family;
 pub mod history;
 pub mod motion;

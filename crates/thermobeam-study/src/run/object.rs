@@ -4,8 +4,7 @@ use serde::Serialize;
 use thermobeam::dg::{self, ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
 
-use super::error::RunError;
-use super::motion::{Sample, Solves};
+use super::motion::{RunError, Sample, Solves};
 use super::simulate::Run;
 use super::tally::{EnergySummary, Extremes, Iterations};
 use crate::scene::Scene;

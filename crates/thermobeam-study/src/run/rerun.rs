@@ -1,7 +1,7 @@
 //! A scene run again, on another mesh or with other time steps.
 
 use crate::run::driver::Step;
-use crate::run::error::RunError;
+use crate::run::motion::RunError;
 use crate::run::simulate;
 use crate::scene::Scene;
 use convergence_study::text::number::{max_or_nan, min_or_nan};

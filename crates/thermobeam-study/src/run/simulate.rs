@@ -31,9 +31,8 @@ use thermobeam::simulation::{self, Problem};
 
 use super::dg::DgMotion;
 use super::driver::Driver;
-use super::error::RunError;
 use super::history::RunHistory;
-use super::motion::{Motion, Report, Sample, Solves, Watch, run};
+use super::motion::{Motion, Report, RunError, Sample, Solves, Watch, run};
 use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};

@@ -6,8 +6,7 @@ use convergence_study::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::energy::Balance;
 
-use super::error::{RunError, Unsound};
-use super::motion::{Motion, Report, Sample, Watch};
+use super::motion::{Motion, Report, RunError, Sample, Unsound, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]

@@ -11,8 +11,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::driver::Middle;
-use super::error::RunError;
-use super::motion::{Report, Sample};
+use super::motion::{Report, RunError, Sample};
 use super::simulate::{Run, problem};
 use super::tally::Tally;
 use crate::scene::Scene;

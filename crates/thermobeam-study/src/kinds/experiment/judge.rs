@@ -1,7 +1,6 @@
 //! The sentences of Section 5, each a check with its numbers.
 
-use super::run::straight_energy;
-use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup};
+use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup, straight_energy};
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
 

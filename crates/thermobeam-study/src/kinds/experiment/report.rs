@@ -1,8 +1,9 @@
 //! Tables, figures and guarded numbers.
 
 use super::judge::{self, OfGroup};
-use super::run::{SPAN, straight_energy};
-use super::{CurvePoint, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup};
+use super::{
+    CurvePoint, Experiment, ExperimentTask, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy,
+};
 use crate::figures;
 use crate::kinds::prelude::*;
 

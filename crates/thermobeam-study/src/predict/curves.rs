@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
@@ -152,7 +152,7 @@ impl Curves {
     }
 
     fn include(&mut self, [low, high]: [f64; 2]) {
-        self.range = [-max_or_nan(-self.range[0], -low), max_or_nan(self.range[1], high)];
+        self.range = [min_or_nan(self.range[0], low), max_or_nan(self.range[1], high)];
     }
 }
 

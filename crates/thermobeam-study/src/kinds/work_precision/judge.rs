@@ -204,15 +204,6 @@ fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
     (ratio, check)
 }
 
-/// Node-solves and name of each method whose cost is known, the cheapest first.
-fn ranking(rows: &[MethodRow], quantity: ErrorMeasure, error: f64) -> Vec<(f64, &'static str)> {
-    let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
-    let mut costs: Vec<_> = of_quantity.map(|row| (row.cost(error)[1], row.method.name)).collect();
-    costs.retain(|(cost, _)| cost.is_finite());
-    costs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    costs
-}
-
 fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
     let of_quantity: Vec<&MethodRow> = rows.iter().filter(|row| row.quantity == quantity).collect();
     let line = |&error: &f64| {
@@ -222,9 +213,11 @@ fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
                 format!("{steps:.2e} / {solves:.2e}{}", if row.is_extrapolated(error) { "*" } else { "" })
             }
         };
-        let ranking = ranking(rows, quantity, error);
-        let cheapest = ranking.first().map_or("-", |(_, name)| name).to_owned();
-        let ahead = match ranking[..] {
+        let mut solves: Vec<_> = of_quantity.iter().map(|row| (row.cost(error)[1], row.method.name)).collect();
+        solves.retain(|(cost, _)| cost.is_finite());
+        solves.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let cheapest = solves.first().map_or("-", |(_, name)| name).to_owned();
+        let ahead = match solves[..] {
             [first, second, ..] => format!("{:.1}", second.0 / first.0),
             _ => "-".to_owned(),
         };

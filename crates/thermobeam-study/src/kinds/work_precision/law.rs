@@ -18,7 +18,7 @@
 //! ```
 
 use convergence_study::judge::fit::{self, fit_line};
-use convergence_study::text::number::max_or_nan;
+use convergence_study::text::number::{max_or_nan, min_or_nan};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::{DVector, Dyn, Matrix4, OMatrix, Owned, U4, Vector2, Vector4};
 
@@ -90,7 +90,7 @@ impl CostLaw {
         }
         let square = |p: &GridPoint| (self.error(p.h(), self.t_end / p.steps as f64) / p.error).ln().powi(2);
         self.fit.rms = (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt();
-        self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, |least, error| -max_or_nan(-least, -error));
+        self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, min_or_nan);
         Ok(self)
     }
 

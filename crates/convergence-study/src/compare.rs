@@ -21,17 +21,19 @@ use crate::judge::fit::Level;
 use crate::judge::verdict::{Judge, JudgeError, RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::record::Record;
+use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
+use crate::text::lists::distinct;
 use crate::text::number::plain_text;
 
 /// Rates that are closer are one order.
-pub const ORDER_SHIFT: f64 = 0.05;
+const ORDER_SHIFT: f64 = 0.05;
 
 /// Errors at the same step that differ by less, as a share, are the same; the default of `--within`.
 pub const WITHIN: f64 = 0.01;
 
 /// The same of the work for the same error.
-pub const WORK_WITHIN: f64 = 0.05;
+const WORK_WITHIN: f64 = 0.05;
 
 /// Logarithms of steps that differ by less are of one step: records may be rounded to six digits.
 const SAME_STEP: f64 = 1e-5;
@@ -127,146 +129,113 @@ pub struct Comparison {
 
 /// Compares two records; studies are matched by their ids.
 pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
-    let find = |record: &'_ Record, id: &str| record.studies.iter().position(|study| study.header.id == id);
-    let (mut findings, mut gained, mut studies) = (vec![], vec![], 0);
+    let mut found =
+        Comparison { within: settings.within, change: Shift::Same, studies: 0, findings: vec![], gained: vec![] };
     for was in &old.studies {
-        let id = was.header.id.as_str();
-        match find(new, id) {
-            Some(place) => {
-                studies += 1;
-                compare_study(was, &new.studies[place], settings, &mut findings, &mut gained);
+        let id = &was.header.id;
+        match new.studies.iter().find(|study| study.header.id == *id) {
+            Some(is) => found.add(was, is, settings),
+            None => {
+                found.findings.push(whole(id, Shift::Lost, "the new record does not have the study".to_owned()));
             }
-            None => findings.push(whole(id, Shift::Lost, "the new record does not have the study".to_owned())),
         }
     }
-    let more = new.studies.iter().map(|study| &study.header.id).filter(|id| find(old, id).is_none());
-    gained.extend(more.map(|id| format!("the study {id}")));
-    let change = findings.iter().map(|finding| finding.change).max().unwrap_or(Shift::Same);
-    Comparison { within: settings.within, change, studies, findings, gained }
+    let is_new = |id: &&String| old.studies.iter().all(|study| study.header.id != **id);
+    let gained = new.studies.iter().map(|study| &study.header.id).filter(is_new);
+    found.gained.extend(gained.map(|id| format!("the study {id}")));
+    found.change = found.findings.iter().map(|finding| finding.change).max().unwrap_or(Shift::Same);
+    found
 }
 
 fn whole(study: &str, change: Shift, reason: String) -> Finding {
     Finding { study: study.to_owned(), norm: None, change, reason, orders: [None; 2] }
 }
 
-fn compare_study(
-    was: &Finished,
-    is: &Finished,
-    settings: &Settings,
-    findings: &mut Vec<Finding>,
-    gained: &mut Vec<String>,
-) {
-    let id = &was.header.id;
-    let [known, found] = [was, is].map(|study| names(&study.outcome));
-    gained.extend(found.iter().filter(|name| !known.contains(name)).map(|name| format!("{id}: {name}")));
-    let before = findings.len();
-    for name in known {
-        let pair = [was, is].map(|study| ErrorSequence::new(&study.outcome, name));
-        let (change, reason) = pair[1].lost(&pair[0]).map_or_else(|| settings.judged(&pair), |why| (Shift::Lost, why));
-        let orders = pair.each_ref().map(|series| series.order(settings));
-        findings.push(Finding { study: id.clone(), norm: Some(name.clone()), change, reason, orders });
-    }
-    let own = findings[before..].iter().map(|finding| finding.change).max();
-    let words =
-        || format!("the verdict was {}, is {}: {}", was.outcome.verdict, is.outcome.verdict, is.outcome.summary);
-    match (was.outcome.verdict, is.outcome.verdict) {
-        (was, is) if is > was && own < Some(Shift::Worse) => findings.push(whole(id, Shift::Worse, words())),
-        (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => {
-            findings.push(whole(id, Shift::Better, words()));
+impl Comparison {
+    /// Adds a study that both records have.
+    fn add(&mut self, was: &Finished, is: &Finished, settings: &Settings) {
+        self.studies += 1;
+        let id = &was.header.id;
+        let [known, found] = [was, is].map(|study| names(&study.outcome));
+        self.gained.extend(found.iter().filter(|name| !known.contains(name)).map(|name| format!("{id}: {name}")));
+        let before = self.findings.len();
+        for name in known {
+            let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, settings));
+            let orders = [old.order, new.order];
+            let (change, reason) = Both { old, new, settings }.judged();
+            self.findings.push(Finding { study: id.clone(), norm: Some(name.clone()), change, reason, orders });
         }
-        _ => {}
+        let own = self.findings[before..].iter().map(|finding| finding.change).max();
+        let [before, after] = [was, is].map(|study| study.outcome.verdict);
+        let change = match (before, after) {
+            _ if after > before && own < Some(Shift::Worse) => Shift::Worse,
+            (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => Shift::Better,
+            _ => return,
+        };
+        let reason = format!("the verdict was {before}, is {after}: {}", is.outcome.summary);
+        self.findings.push(whole(id, change, reason));
     }
 }
 
 /// The errors of all levels and the rates, each name once.
 fn names(outcome: &Outcome) -> Vec<&String> {
     let errors = outcome.levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name));
-    let mut names: Vec<&String> = vec![];
-    for name in errors.chain(outcome.rates.iter().map(|(name, _)| name)) {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
+    distinct(errors.chain(outcome.rates.iter().map(|(name, _)| name)))
 }
 
-/// One error on the levels of one record, and its rate.
+/// One error on the levels of one record that have it, and its rate.
 struct ErrorSequence<'r> {
-    points: Vec<AtLevel<'r>>,
+    points: Vec<(&'r LevelErrors, Level)>,
     /// Whether the steps fall from level to level; a grid of parameters has no one step.
     is_sequence: bool,
     rate: Option<&'r RateVerdict>,
-}
-
-/// One level.
-#[derive(Debug, Clone, Copy)]
-struct AtLevel<'r> {
-    at: &'r [(String, f64)],
-    level: Level,
-    work: Option<f64>,
+    /// The rate that was judged, or one that is read off the errors.
+    order: Option<Order>,
 }
 
 impl<'r> ErrorSequence<'r> {
-    fn new(outcome: &'r Outcome, name: &str) -> Self {
-        let point = |level: &'r crate::study::LevelErrors| {
+    fn new(outcome: &'r Outcome, name: &str, settings: &Settings) -> Self {
+        let point = |level: &'r LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
-            let level_at = Level { step: level.step.unwrap_or(f64::NAN), error: *error };
-            Some(AtLevel { at: &level.parameters, level: level_at, work: level.work.filter(|work| *work > 0.0) })
+            Some((level, Level { step: level.step.unwrap_or(f64::NAN), error: *error }))
         };
-        let points: Vec<AtLevel<'r>> = outcome.levels.iter().filter_map(point).collect();
-        let falls = |pair: &[AtLevel<'_>]| pair[1].level.step < pair[0].level.step;
-        let is_sequence = points.iter().all(|point| point.level.step > 0.0) && points.windows(2).all(falls);
-        Self { points, is_sequence, rate: outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate) }
+        let points: Vec<(&LevelErrors, Level)> = outcome.levels.iter().filter_map(point).collect();
+        let levels: Vec<Level> = points.iter().map(|(_, level)| *level).collect();
+        let is_sequence =
+            levels.iter().all(|level| level.step > 0.0) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
+        let rate = outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate);
+        let read = || is_sequence.then(|| settings.judge.judge(&levels, 1.0)).and_then(|rate| order_of(&rate));
+        Self { points, is_sequence, rate, order: rate.and_then(order_of).or_else(read) }
     }
 
-    /// What this series lacks that another has.
-    fn lost(&self, old: &Self) -> Option<String> {
-        if self.points.is_empty() && !old.points.is_empty() {
-            return Some("the new record does not have the error".to_owned());
-        }
-        if old.rate.is_some() && self.rate.is_none() {
-            return Some("the new record does not judge its rate".to_owned());
-        }
-        let (finest, reached) = (old.points.last()?, self.points.last()?);
-        let is_lost = if old.is_sequence && self.is_sequence {
-            (reached.level.step / finest.level.step).ln() > SAME_STEP
-        } else {
-            !self.points.iter().any(|point| point.at == finest.at)
-        };
-        is_lost.then(|| format!("the new record does not have the finest level, {}", label(finest.at)))
+    /// The error at the level with these parameters.
+    fn at(&self, level: &LevelErrors) -> Option<f64> {
+        self.points.iter().find(|(known, _)| known.parameters == level.parameters).map(|(_, level)| level.error)
     }
 
-    /// The rate that was judged, or one that is read off the errors.
-    fn order(&self, settings: &Settings) -> Option<Order> {
-        let levels: Vec<Level> = self.points.iter().map(|point| point.level).collect();
-        let read = || self.is_sequence.then(|| settings.judge.judge(&levels, 1.0)).and_then(|rate| interval(&rate));
-        self.rate.and_then(interval).or_else(read)
-    }
-
-    /// The logarithm of the error at the level of a point, and how far off it may be.
-    fn error_at(&self, point: &AtLevel<'_>, floor: f64) -> Option<[f64; 2]> {
-        if let Some(same) = self.points.iter().find(|known| known.at == point.at) {
-            return Some([same.level.error.max(floor).ln(), 0.0]);
-        }
-        let place = |known: &AtLevel<'_>| Some([known.level.step.ln(), known.level.error.max(floor).ln()]);
-        between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, point.level.step.ln())
+    /// Interpolates linearly in logarithms: y over x, and how far off it may be.
+    fn interpolated(&self, place: impl Fn(&LevelErrors, &Level) -> Option<[f64; 2]>, x: f64) -> Option<[f64; 2]> {
+        let place = |(level, at): &(&LevelErrors, Level)| Some(place(level, at)?.map(f64::ln));
+        between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, x.ln())
     }
 
     /// The logarithm of the work that an error takes, and how far off it may be.
     fn work_at(&self, error: f64) -> Option<[f64; 2]> {
-        let place = |point: &AtLevel<'_>| Some([point.level.error.ln(), point.work?.ln()]);
-        between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, error.ln())
+        self.interpolated(|level, at| Some([at.error, work(level)?]), error)
     }
 }
 
-fn interval(rate: &RateVerdict) -> Option<Order> {
+fn order_of(rate: &RateVerdict) -> Option<Order> {
     let (order, interval) = (rate.fitted?, rate.interval?);
     order.is_finite().then_some(Order { order, interval })
 }
 
-fn label(parameters: &[(String, f64)]) -> String {
-    let named: Vec<String> = parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-    named.join(", ")
+fn work(level: &LevelErrors) -> Option<f64> {
+    level.work.filter(|work| *work > 0.0)
+}
+
+fn label(level: &LevelErrors) -> String {
+    level.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Linear interpolation between points whose x falls, and the doubt about it.
@@ -282,17 +251,45 @@ fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
     Some([points[k][1] + here * (x - points[k][0]), 0.25 * change * (points[k][0] - points[k + 1][0])])
 }
 
-impl Settings {
-    /// What became of an error that both records have, and why.
-    fn judged(&self, pair: &[ErrorSequence<'_>; 2]) -> (Shift, String) {
-        let order = self.order(pair);
+/// One error in both records.
+struct Both<'r> {
+    old: ErrorSequence<'r>,
+    new: ErrorSequence<'r>,
+    settings: &'r Settings,
+}
+
+impl Both<'_> {
+    /// What became of it, and why.
+    fn judged(&self) -> (Shift, String) {
+        let worse = |reason| (Shift::Worse, reason);
+        let lost = self.lost().map(|reason| (Shift::Lost, reason));
+        let order = self.order();
         let lower = order.clone().filter(|(change, _)| *change == Shift::Worse);
-        lower.or_else(|| self.broken(pair)).or_else(|| self.larger(pair)).or(order).unwrap_or_else(|| self.cost(pair))
+        let found = lost.or(lower).or_else(|| self.broken().map(worse)).or_else(|| self.larger().map(worse)).or(order);
+        found.unwrap_or_else(|| self.cost())
     }
 
-    fn order(&self, pair: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
-        let orders = pair.each_ref().map(|series| series.order(self));
-        if let [Some(old), Some(new)] = orders {
+    /// What the new record lacks.
+    fn lost(&self) -> Option<String> {
+        let Self { old, new, .. } = self;
+        if new.points.is_empty() && !old.points.is_empty() {
+            return Some("the new record does not have the error".to_owned());
+        }
+        if old.rate.is_some() && new.rate.is_none() {
+            return Some("the new record does not judge its rate".to_owned());
+        }
+        let ((level, finest), (_, reached)) = (old.points.last()?, new.points.last()?);
+        let is_lost = if old.is_sequence && new.is_sequence {
+            (reached.step / finest.step).ln() > SAME_STEP
+        } else {
+            new.at(level).is_none()
+        };
+        is_lost.then(|| format!("the new record does not have the finest level, {}", label(level)))
+    }
+
+    fn order(&self) -> Option<(Shift, String)> {
+        let Self { old, new, .. } = self;
+        if let (Some(old), Some(new)) = (old.order, new.order) {
             let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
             if apart && (new.order - old.order).abs() > ORDER_SHIFT {
                 let change = if new.order < old.order { Shift::Worse } else { Shift::Better };
@@ -300,51 +297,52 @@ impl Settings {
                 return Some((change, format!("order {} → {}", words(old), words(new))));
             }
         }
-        let [old, new] = [pair[0].rate?, pair[1].rate?];
+        let (old, new) = (old.rate?, new.rate?);
         let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
         failed.then(|| (Shift::Worse, format!("the claimed order was pass, is {}: {}", new.verdict, new.reason)))
     }
 
     /// Levels whose error has become negative, infinite or NaN.
-    fn broken(&self, [old, new]: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
+    fn broken(&self) -> Option<String> {
         let is_error = |error: f64| error >= 0.0 && error.is_finite();
-        let was =
-            |point: &AtLevel<'_>| old.points.iter().any(|known| known.at == point.at && is_error(known.level.error));
-        let broken: Vec<String> = new
+        let broken = self
+            .new
             .points
             .iter()
-            .filter(|point| !is_error(point.level.error) && was(point))
-            .map(|point| label(point.at))
-            .collect();
-        let reason = || format!("no longer a finite number >= 0 at {}", broken.join("; "));
-        (!broken.is_empty()).then(|| (Shift::Worse, reason()))
+            .filter(|(level, at)| !is_error(at.error) && self.old.at(level).is_some_and(is_error));
+        let broken: Vec<String> = broken.map(|(level, _)| label(level)).collect();
+        (!broken.is_empty()).then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
     }
 
     /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its doubt.
-    fn ratios<'p>(&self, [old, new]: &'p [ErrorSequence<'_>; 2]) -> Vec<(&'p AtLevel<'p>, [f64; 2])> {
-        let floor = self.judge.floor();
-        let ratio = |point: &'p AtLevel<'p>| {
-            let [before, doubt] = old.error_at(point, floor)?;
-            let ratio = point.level.error.max(floor).ln() - before;
+    fn ratios(&self) -> Vec<(&LevelErrors, [f64; 2])> {
+        let floor = self.settings.judge.floor();
+        let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
+            let same = self.old.at(level).map(|error| [error.max(floor).ln(), 0.0]);
+            let over_step = || self.old.interpolated(|_, at| Some([at.step, at.error.max(floor)]), at.step);
+            let [before, doubt] = same.or_else(over_step)?;
+            let ratio = at.error.max(floor).ln() - before;
             // Two zeros without a floor are the same.
-            Some((point, [if ratio.is_nan() { 0.0 } else { ratio }, doubt]))
+            Some([if ratio.is_nan() { 0.0 } else { ratio }, doubt])
         };
-        new.points.iter().filter(|point| point.level.error >= 0.0).filter_map(ratio).collect()
+        let sound = self.new.points.iter().filter(|(_, at)| at.error >= 0.0);
+        sound.filter_map(|point| Some((point.0, ratio(point)?))).collect()
     }
 
-    fn larger(&self, pair: &[ErrorSequence<'_>; 2]) -> Option<(Shift, String)> {
-        let (ratios, limit) = (self.ratios(pair), self.within.ln_1p());
+    fn larger(&self) -> Option<String> {
+        let (ratios, limit) = (self.ratios(), self.settings.within.ln_1p());
         let larger: Vec<_> = ratios.iter().filter(|(_, [ratio, doubt])| ratio - doubt > limit).collect();
-        let (point, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
-        let times = plain_text(ratio.exp());
+        let (level, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
         let levels = format!("{} of {} levels that both have", larger.len(), ratios.len());
-        Some((Shift::Worse, format!("errors larger at {levels}: {}: {times} times", label(point.at))))
+        Some(format!("errors larger at {levels}: {}: {} times", label(level), plain_text(ratio.exp())))
     }
 
-    fn cost(&self, pair: &[ErrorSequence<'_>; 2]) -> (Shift, String) {
-        let (ratios, limit) = (self.ratios(pair), self.within.ln_1p());
-        if ratios.is_empty() {
-            let why = if pair.iter().all(|series| series.points.is_empty()) {
+    fn cost(&self) -> (Shift, String) {
+        let (ratios, limit) = (self.ratios(), self.settings.within.ln_1p());
+        let count = ratios.len();
+        if count == 0 {
+            let is_empty = self.old.points.is_empty() && self.new.points.is_empty();
+            let why = if is_empty {
                 "no errors are recorded, only rates"
             } else {
                 "no level is at a step that both have reached"
@@ -353,34 +351,28 @@ impl Settings {
         }
         if ratios.iter().all(|(_, [ratio, doubt])| ratio + doubt < -limit) {
             let most = ratios.iter().map(|(_, [ratio, _])| *ratio).fold(f64::NEG_INFINITY, f64::max);
-            return (
-                Shift::Better,
-                format!("errors smaller: {} times or less at {} levels", plain_text(most.exp()), ratios.len()),
-            );
+            let times = plain_text(most.exp());
+            return (Shift::Better, format!("errors smaller: {times} times or less at {count} levels"));
         }
         if !ratios.iter().all(|(_, [ratio, doubt])| ratio.abs() + doubt <= limit) {
-            return (Shift::NotProven, format!("no difference of errors is proven at {} levels", ratios.len()));
+            return (Shift::NotProven, format!("no difference of errors is proven at {count} levels"));
         }
-        let work = self.work(pair).filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
-        match work {
-            Some([ratio, _]) => {
-                let change = if ratio > 0.0 { Shift::Worse } else { Shift::Better };
-                (change, format!("the same error takes {:.3} times the work", ratio.exp()))
-            }
-            None => (Shift::Same, format!("errors the same at {} levels", ratios.len())),
-        }
+        let work = self.work().filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
+        let Some([ratio, _]) = work else { return (Shift::Same, format!("errors the same at {count} levels")) };
+        let change = if ratio > 0.0 { Shift::Worse } else { Shift::Better };
+        (change, format!("the same error takes {:.3} times the work", ratio.exp()))
     }
 
     /// The logarithm of the new work over the old one for the smallest error that both have reached, and its doubt: an error within the
     /// limit is taken for the same, so the work is known no better than it grows with the accuracy.
-    fn work(&self, [old, new]: &[ErrorSequence<'_>; 2]) -> Option<[f64; 2]> {
-        let error = old.points.last()?.level.error.max(new.points.last()?.level.error);
-        if !(error > self.judge.floor()) {
+    fn work(&self) -> Option<[f64; 2]> {
+        let error = self.old.points.last()?.1.error.max(self.new.points.last()?.1.error);
+        if !(error > self.settings.judge.floor()) {
             return None;
         }
-        let [before, after] = [old.work_at(error)?, new.work_at(error)?];
-        let [.., coarse, fine] = new.points.as_slice() else { return None };
-        let growth = (fine.work? / coarse.work?).ln() / (coarse.level.error / fine.level.error).ln();
-        Some([after[0] - before[0], before[1] + after[1] + self.within.ln_1p() * growth.abs()])
+        let [before, after] = [self.old.work_at(error)?, self.new.work_at(error)?];
+        let [.., (coarse, large), (fine, small)] = self.new.points.as_slice() else { return None };
+        let growth = (work(fine)? / work(coarse)?).ln() / (large.error / small.error).ln();
+        Some([after[0] - before[0], before[1] + after[1] + self.settings.within.ln_1p() * growth.abs()])
     }
 }

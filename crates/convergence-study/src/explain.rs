@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::judge::verdict::Reason;
 use crate::project::Project;
 use crate::study::{KindRow, Study};
+use crate::text::lists::grouped;
 use crate::text::names::nearest;
 
 /// The code of a case that was stopped at its limit of work.
@@ -48,22 +49,16 @@ pub fn terms(project: &Project) -> Vec<&'static str> {
 pub fn contents(project: &Project) -> String {
     let mut text = "what can be explained\n".to_owned();
     for (title, names) in groups(project) {
-        section(&mut text, &title, &names.join(", "));
+        section(&mut text, title, &names.join(", "));
     }
     text
 }
 
-fn groups(project: &Project) -> Vec<(String, Vec<&'static str>)> {
-    let mut groups: Vec<(String, Vec<&'static str>)> = vec![];
-    for term in project.terms {
-        match groups.iter_mut().find(|(what, _)| *what == term.what) {
-            Some((_, names)) => names.push(term.name),
-            None => groups.push((term.what.to_owned(), vec![term.name])),
-        }
-    }
-    groups.push(("reasons for a verdict".to_owned(), Reason::ALL.map(Reason::code).to_vec()));
-    groups.push(("reasons for which a case fails".to_owned(), vec![WORK]));
-    groups.push(("kinds of study".to_owned(), project.kinds.iter().map(|kind| kind.name).collect()));
+fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
+    let mut groups = grouped(project.terms.iter().map(|term| (term.what, term.name)));
+    groups.push(("reasons for a verdict", Reason::ALL.map(Reason::code).to_vec()));
+    groups.push(("reasons for which a case fails", vec![WORK]));
+    groups.push(("kinds of study", project.kinds.iter().map(|kind| kind.name).collect()));
     groups
 }
 

@@ -11,15 +11,15 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, SeeAlso};
 use crate::run::{self, Effort, Finished, Progress, RunError};
-use crate::store::StoreError;
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, Change, Refusal};
 use crate::store::diagnosis::{Diagnosis, Fingerprints, diagnose};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
-use crate::store::record::{self, Record};
+use crate::store::record::Record;
 use crate::store::work::Works;
 use crate::store::writing;
+use crate::store::{StoreError, json, write_json};
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use crate::text::visible;
@@ -107,9 +107,6 @@ impl Request {
     }
 
     /// Waits for other processes that write the baseline, and keeps them waiting. The lock is in the project, wherever the reports go.
-    ///
-    /// # Errors
-    /// [`VerificationError::Reports`].
     fn lock_baseline(&self) -> Result<File, VerificationError> {
         lock_reports(&self.root.join("reports"))
     }
@@ -220,12 +217,12 @@ pub fn verify(
     let record = verification.record(&request.scope, &command).committed();
     let see_also = see_also(&record, folder);
     let files = Findings { project, record: &record, see_also, provenance: Some(&provenance) }.files().map_err(fail)?;
-    let provenance = record::json(&provenance).map_err(|error| fail(error.into()))?;
+    let provenance = json(&provenance).map_err(fail)?;
     if let Some(Ok(())) = &verification.blessing {
         baseline.write(&baseline_file)?;
         works.take(&verification.finished);
         if !works.is_empty() {
-            works.write(&works_file).map_err(fail)?;
+            write_json(&works_file, &works)?;
         }
     }
     target.publish(&files).map_err(fail)?;
@@ -267,9 +264,6 @@ fn bless(
 /// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-///
-/// # Errors
-/// [`VerificationError::Reports`].
 pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result<(), VerificationError> {
     publish(project, record(project, finished, project.command), run::available().get(), folder)
 }
@@ -285,9 +279,6 @@ pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record
 /// Writes the report on them into a folder of their own; missing folders are made.
 ///
 /// * `jobs`: threads that they ran on.
-///
-/// # Errors
-/// [`VerificationError::Reports`].
 pub fn publish(project: &Project, record: Record, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
     let here = Provenance::collect(Path::new("."), record.command.clone(), jobs, &record.studies);
     rebuild(project, record, Some(&here), folder)
@@ -296,9 +287,6 @@ pub fn publish(project: &Project, record: Record, jobs: usize, folder: &Path) ->
 /// Writes the report on a record, whose studies are not run. In a folder of reports it is the report of that record's scope.
 ///
 /// * `provenance`: where the run comes from, if that is known.
-///
-/// # Errors
-/// [`VerificationError::Reports`].
 pub fn rebuild(
     project: &Project,
     record: Record,

@@ -14,8 +14,8 @@ use convergence_study::cli::flags::Flags;
 use convergence_study::cli::interrupt;
 use convergence_study::cli::running;
 use convergence_study::cli::running::seconds;
-use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::run;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
@@ -111,7 +111,7 @@ struct SweepObject<'a> {
 }
 
 fn jobs(arguments: &Arguments) -> usize {
-    screen::jobs(arguments.flags.jobs).get()
+    arguments.flags.jobs.unwrap_or_else(run::available).get()
 }
 
 fn journaled(

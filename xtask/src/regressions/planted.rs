@@ -10,8 +10,8 @@ use std::time::Instant;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::report::not_passed;
-use convergence_study::store::record::{self, Record};
-use convergence_study::store::{atomic, content_hash};
+use convergence_study::store::record::Record;
+use convergence_study::store::{atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
 
 /// What the copy leaves out: what is built, what is written by the program, and what is hidden, but for `.cargo`. No run is to know
@@ -111,7 +111,7 @@ impl Copy {
         }
         let found = find(key)?;
         fs::create_dir_all(self.folder.join("records"))?;
-        atomic::write(&kept, record::json(&found).map_err(io::Error::from)?)?;
+        atomic::write(&kept, json(&found)?)?;
         Ok(found)
     }
 

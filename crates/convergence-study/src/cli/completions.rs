@@ -17,9 +17,6 @@ pub struct Arguments {
 }
 
 /// Prints the script for the program of that command line.
-///
-/// # Errors
-/// Standard output that cannot be written to.
 pub(super) fn run(program: Command, name: &str, arguments: &Arguments) -> Outcome {
     let mut script = vec![];
     generate(arguments.shell, &mut program.clone().bin_name(name), name, &mut script);

@@ -11,8 +11,8 @@ use serde::Serialize;
 use super::output::{self, Format};
 use super::screen;
 use crate::judge::verdict::Verdict;
-use crate::run::Effort;
-use crate::store::atomic;
+use crate::run::{self, Effort};
+use crate::store::{atomic, json};
 
 /// Number of the form of [`Printed`]: higher where a key of any command has changed its meaning or is gone.
 const SCHEMA: u32 = 2;
@@ -49,13 +49,13 @@ struct Printed<'a, T> {
 }
 
 fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
-    output::json(&Printed { schema: SCHEMA, verdict: verdict.name(), found })
+    json(&Printed { schema: SCHEMA, verdict: verdict.name(), found })
 }
 
 impl Flags {
     /// Threads and time of a run; as many threads as the machine has where no number is given.
     pub fn effort(&self, case_limit: Option<Duration>) -> Effort {
-        Effort { jobs: screen::jobs(self.jobs), case_limit, fail_fast: false }
+        Effort { jobs: self.jobs.unwrap_or_else(run::available), case_limit, fail_fast: false }
     }
 
     /// What a command found, for people: all of it, or with `--quiet` the verdict in a sentence.
@@ -66,9 +66,6 @@ impl Flags {
     /// Prints what a command found, as words or as JSON object.
     ///
     /// * `verdict`: [`Verdict::Pass`] where the command judges nothing and ended well.
-    ///
-    /// # Errors
-    /// That of the operating system.
     pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
         match self.format {
             Format::Json => output::print(&object(verdict, found)?),
@@ -77,9 +74,6 @@ impl Flags {
     }
 
     /// The same, and writes the object as `COMMAND.json` to the folder that was named.
-    ///
-    /// # Errors
-    /// As [`Flags::print`].
     pub fn show(&self, command: &str, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
         if let Some(folder) = &self.out {
             atomic::prepare_folder(folder)?;

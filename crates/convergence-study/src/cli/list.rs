@@ -2,10 +2,10 @@
 
 use serde_json::json;
 
-use super::earlier::Earlier;
 use super::exit::{Ended, Outcome};
 use super::flags::Flags;
-use crate::cli::{screen, selection, workspace};
+use crate::cli::workspace::{self, Earlier};
+use crate::cli::{screen, selection};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use super::{output, screen};
+use super::output;
+use crate::run;
 use crate::store::provenance::Provenance;
 
 /// A command that takes minutes, and writes the page that says how many.
@@ -42,7 +43,7 @@ impl LongRun {
     ///
     /// * `root`: the project's folder.
     pub fn ended(&self, root: &Path) -> String {
-        let here = Provenance::collect(root, String::new(), screen::jobs(None).get(), &[]);
+        let here = Provenance::collect(root, String::new(), run::available().get(), &[]);
         let took = sentence(self.started.elapsed().as_secs_f64());
         here.sentences().into_iter().chain([took]).collect::<Vec<_>>().join(" ")
     }

@@ -6,7 +6,6 @@
 
 mod compare;
 mod completions;
-mod earlier;
 pub mod exit;
 mod explain;
 pub mod flags;

@@ -3,7 +3,6 @@
 use std::io::{self, ErrorKind, Write};
 
 use clap::ValueEnum;
-use serde::Serialize;
 
 use crate::text::visible;
 
@@ -20,9 +19,6 @@ pub enum Format {
 /// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
 ///
 /// No line is a command to GitHub Actions, whatever names and claims it holds.
-///
-/// # Errors
-/// That of the operating system.
 pub fn print(text: &str) -> io::Result<()> {
     print_as_is(&visible::without_commands(text))
 }
@@ -34,11 +30,6 @@ pub(super) fn print_as_is(text: &str) -> io::Result<()> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         outcome => outcome,
     }
-}
-
-/// An object as text; a number that is not finite becomes `null`, for JSON has none.
-pub(super) fn json(object: &impl Serialize) -> io::Result<String> {
-    Ok(serde_json::to_string_pretty(object)? + "\n")
 }
 
 /// Prints an error to standard error.

@@ -44,7 +44,7 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
     })?;
     let missing = add_pictures(&mut record, beside)?;
     let times = reports_around(beside).join("local/provenance.json");
-    let provenance = Provenance::read(&times).map_err(|error| Unusable::file(&times, &error))?;
+    let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
     let verdict = record.verdict;
     let sentence = sentence(&record.studies, record.changes.as_deref());

@@ -2,8 +2,6 @@
 
 use std::env;
 use std::io::{self, IsTerminal};
-use std::num::NonZeroUsize;
-use std::thread;
 
 use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
@@ -57,11 +55,6 @@ fn cut(text: &str, room: usize) -> String {
 /// A verdict as a word, in its colour.
 pub fn verdict(verdict: Verdict) -> String {
     if colours() { coloured(verdict.to_string()) } else { verdict.to_string() }
-}
-
-/// Number of threads: as asked for, or as many as the machine has.
-pub fn jobs(asked: Option<NonZeroUsize>) -> NonZeroUsize {
-    asked.or_else(|| thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
 }
 
 /// Columns of the terminal; `None` where standard output is none.

@@ -7,7 +7,7 @@ use crate::project::Project;
 use crate::report::{Findings, summary, tables, text_of_diagnosis, text_of_failures};
 use crate::run::{self, Effort, Finished, time_limit};
 use crate::store::atomic;
-use crate::store::record::json;
+use crate::store::json;
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::{self, visible};

@@ -7,13 +7,14 @@ use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::output::Format;
 use crate::cli::running::{Limits, Watched, kept};
-use crate::cli::{earlier, github, output, screen, selection, workspace};
+use crate::cli::{github, output, screen, selection, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished};
 use crate::store::baseline::Change;
-use crate::store::record::{self, Record};
+use crate::store::json;
+use crate::store::record::Record;
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -93,7 +94,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let record = verification.record(&request.scope, &request.scope.command(project));
     output::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments, started.elapsed()),
-        Format::Json => record::json(&record)?,
+        Format::Json => json(&record)?,
     })?;
     github::announce(&Findings { project, record: &record, see_also: None, provenance: None }, flags.format);
     Ok(verification.verdict.into())
@@ -101,7 +102,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
 /// The studies that did not pass, or of which a number moved, in the newest record.
 fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
-    let Some(Record { changes, studies, .. }) = earlier::records(root)?.pop() else {
+    let Some(Record { changes, studies, .. }) = workspace::records(root)?.pop() else {
         return Err(Unusable::because("--failed: found no record of a run; expected reports/results.json"));
     };
     let moved = |id: &str| changes.iter().flatten().any(|change| change.study == id);

@@ -3,8 +3,21 @@
 //! Plotters' SVG backend places everything on whole pixels and knows neither dashes nor clipping. So the page is drawn
 //! on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives
 //! it the dash pattern, the clip rectangle or the halo, which SVG lets its children inherit.
+//!
+//! Names and values stand in the picture, for a page that reads them: a viewer alone shows nothing of it.
+//!
+//! | attribute | on | holds |
+//! | --- | --- | --- |
+//! | `data-plot` | the picture | left, top, right, bottom of the plot on the page's grid |
+//! | `data-x`, `data-y` | the picture | `linear` or `log`, and the ends of the range, decimal logarithms for `log` |
+//! | `data-x-label`, `data-y-label` | the picture | what the axes measure |
+//! | `data-series` | what is drawn of a series | its name |
+//! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines tell as much |
+//! | `data-entry` | an entry of the legend | the name of the series |
 
+use super::Scale;
 use super::rect::{Point, Rect, keep_inside};
+use super::ruler::Ruler;
 use super::style::{self, Dash};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -227,6 +240,26 @@ impl Pen<'_> {
         self.write(text, at, size, Anchor::Center, FontTransform::Rotate270, style::INK);
     }
 
+    /// A tick of an axis: a thin stroke.
+    pub fn tick(&self, from: Point, to: Point) {
+        self.line(&[from, to], style::INK, style::THIN);
+    }
+
+    /// Diagonal strokes over a rectangle, continuing those of its neighbours.
+    pub fn hatch(&self, r: Rect) {
+        const SPACING: f64 = 9.0;
+        // A stroke is where x + y is a multiple of the spacing.
+        let first = ((r.left + r.top) / SPACING).ceil() as i32;
+        let last = ((r.right + r.bottom) / SPACING).floor() as i32;
+        for k in first..=last {
+            let sum = f64::from(k) * SPACING;
+            let (x0, x1) = ((sum - r.bottom).max(r.left), (sum - r.top).min(r.right));
+            if x1 > x0 {
+                self.line(&[(x0, sum - x0), (x1, sum - x1)], style::MUTED, 1.1);
+            }
+        }
+    }
+
     fn write(&self, text: &str, at: Point, size: f64, anchor: Anchor, turn: FontTransform, colour: RGBColor) {
         let font = (style::FONT, f64::from(grid(size)) * PLOTTERS_FONT_FACTOR)
             .into_text_style(&self.area)
@@ -239,4 +272,43 @@ impl Pen<'_> {
 
 fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(grid(width).max(1) as u32)
+}
+
+/// A series with more points than this is read off its line, to the tenth of a pixel: values would cost more than they
+/// tell.
+const MOST_POINTS: usize = 200;
+
+/// The attributes of a picture with axes.
+pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
+    let [left, top, right, bottom] = [plot.left, plot.top, plot.right, plot.bottom].map(grid);
+    let mut attributes = format!(" data-plot=\"{left} {top} {right} {bottom}\"");
+    for (name, (label, ruler)) in ["x", "y"].into_iter().zip(axes) {
+        let scale = if ruler.scale == Scale::Log { "log" } else { "linear" };
+        let _ = write!(attributes, " data-{name}=\"{scale} {} {}\"", ruler.lo, ruler.hi);
+        let _ = write!(attributes, " data-{name}-label=\"{}\"", escape_attribute(label));
+    }
+    attributes
+}
+
+/// The attributes of what is drawn of a series; `points` where they are data.
+pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
+    let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
+    if let Some(points) = points {
+        let finite = || points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+        let listed = if finite().count() > MOST_POINTS { 0 } else { MOST_POINTS };
+        let pairs: Vec<String> =
+            finite().take(listed).map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y))).collect();
+        let _ = write!(attributes, " data-points=\"{}\"", pairs.join(" "));
+    }
+    attributes
+}
+
+/// The attributes of a legend's entry.
+pub(super) fn entry(name: &str) -> String {
+    format!(" data-entry=\"{}\"", escape_attribute(name))
+}
+
+/// To five digits, so that the last bits of a result, which vary between machines, are not to be seen.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -2,10 +2,9 @@
 
 use super::Scale;
 use super::canvas::{Anchor, Layer};
-use super::marker::tick;
 use super::rect::Rect;
 use super::ruler::{Ruler, Ticks, on_scale, power_of_ten};
-use super::sheet::Page;
+use super::sheet::{Page, elide};
 use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};
 use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap, ViridisRGB};
@@ -93,7 +92,7 @@ impl ColourScale {
             pen.frame(bar, style::INK, style::THIN);
             for t in &ticks.major {
                 let y = ruler.px_of(t.at);
-                tick(pen, (bar.right, y), (bar.right + 5.0, y));
+                pen.tick((bar.right, y), (bar.right + 5.0, y));
                 pen.text(&t.label, (bar.right + 9.0, y), TICK_SIZE, Anchor::Left, style::INK);
             }
             let end = bar.right + 9.0 + self.widest_label() + 9.0 + 0.5 * LABEL_SIZE;
@@ -106,6 +105,6 @@ impl ColourScale {
             0 => self.label.clone(),
             e => format!("{} / {}", self.label, power_of_ten(e)),
         };
-        super::legend::elide(&label, LABEL_SIZE, style::PLOT_HEIGHT)
+        elide(&label, LABEL_SIZE, style::PLOT_HEIGHT)
     }
 }

@@ -1,16 +1,139 @@
-//! Coloured cells, written compactly: one path per colour, one piece per run of equal neighbours.
+//! Values over two parameters as coloured cells: with the numbers in them where there is room, or with marks and boundary curves on top.
+//!
+//! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
-use super::Scale;
-use super::canvas::{Canvas, Pen, grid};
-use super::rect::Rect;
-use super::ruler::on_scale;
-use super::style;
+use super::canvas::{self, Anchor, Canvas, Layer, Pen, grid};
+use super::colour::ColourScale;
+use super::look::{Look, Marks, look};
+use super::rect::{Point, Rect};
+use super::ruler::{Ruler, on_scale};
+use super::sheet::{Entry, Layout, Page, Swatch};
+use super::style::{self, Dash, NOTE_SIZE, WHITE, text_width};
+use super::xy::left_out;
+use super::{Axis, Scale, Series};
 use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+/// Half the width of the only cell of an axis with one value, in decades (or units, on a linear axis).
+const ALONE: f64 = 0.25;
+
+/// Values over two parameters, as coloured cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Above the plot.
+    pub title: Option<String>,
+    /// Horizontal axis, `dt` say.
+    pub x: Axis,
+    /// Vertical axis, `h` say.
+    pub y: Axis,
+    /// What the colours show; logarithmic as a rule.
+    pub z: Axis,
+    /// Values along the horizontal axis, in any order.
+    pub x_values: Vec<f64>,
+    /// Values along the vertical axis, in any order.
+    pub y_values: Vec<f64>,
+    /// `values[k][j]` belongs to `y_values[k]` and `x_values[j]`.
+    pub values: Vec<Vec<f64>>,
+    /// `marked[k][j]`: hatched, and grey if it has no value; cells that are not there are not marked.
+    pub marked: Vec<Vec<bool>>,
+    /// What the mark means, `"diverged"` say.
+    pub marked_label: String,
+    /// Boundary curves on top: the first solid, the second dashed, and so on; the predicted one first, say.
+    pub boundaries: Vec<Series>,
+}
+
+/// Draws values over two parameters.
+pub fn surface(figure: &Surface) -> String {
+    let (x, columns): (Vec<f64>, Vec<usize>) = in_order(figure.x.scale, &figure.x_values).into_iter().unzip();
+    let (y, rows): (Vec<f64>, Vec<usize>) = in_order(figure.y.scale, &figure.y_values).into_iter().unzip();
+    let values = sorted(&figure.values, &rows, &columns, f64::NAN);
+    let marked = sorted(&figure.marked, &rows, &columns, false);
+    let plan = Layout {
+        title: figure.title.clone(),
+        x: span(figure.x.scale, &edges(&x, ALONE)),
+        y: span(figure.y.scale, &edges(&y, ALONE)),
+        x_label: figure.x.label.clone(),
+        y_label: figure.y.label.clone(),
+        right: 0.0,
+        above: None,
+        legend: entries(figure),
+        notes: notes(figure.z.scale, &values, &marked),
+    };
+    let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, values.iter().flatten().copied());
+    let cells = HeatMap { x: edges(&x, ALONE), y: edges(&y, ALONE), values, colours };
+    cells.draw(plan, |sheet, place| {
+        // Of errors, say: a bar shows small counts as well. Nothing is drawn over them.
+        if figure.z.scale == Scale::Log && figure.boundaries.is_empty() {
+            write_values(sheet, &cells.values, place);
+        }
+        draw_marks(sheet, &marked, place);
+        draw_boundaries(sheet, figure);
+    })
+}
+
+/// A picture of cells, each with a value.
+pub(super) struct HeatMap {
+    /// Edges on the scale, one more than there are cells in a row.
+    pub(super) x: Vec<f64>,
+    /// Edges on the scale, one more than there are rows.
+    pub(super) y: Vec<f64>,
+    /// Row by row; NaN where there is none.
+    pub(super) values: Vec<Vec<f64>>,
+    pub(super) colours: ColourScale,
+}
+
+/// Where the cell of a row and a column is.
+type CellAt<'p> = &'p dyn Fn(usize, usize) -> Rect;
+
+impl HeatMap {
+    /// Draws them with the colour bar beside them.
+    ///
+    /// * `on_top`: draws on the cells.
+    pub(super) fn draw(&self, plan: Layout, on_top: impl FnOnce(&mut Page, CellAt<'_>)) -> String {
+        let mut sheet = Layout { right: self.colours.margin(), ..plan }.lay_out();
+        let px = |ruler: &Ruler, edges: &[f64]| edges.iter().map(|&edge| ruler.px_of(edge)).collect::<Vec<_>>();
+        let (x, y) = (px(&sheet.x, &self.x), px(&sheet.y, &self.y));
+        let place = |k: usize, j: usize| Rect { left: x[j], right: x[j + 1], top: y[k + 1], bottom: y[k] };
+        self.paint(&mut sheet.canvas, &place);
+        on_top(&mut sheet, &place);
+        self.colours.draw_bar(&mut sheet);
+        sheet.finish()
+    }
+
+    fn paint(&self, canvas: &mut Canvas, place: CellAt<'_>) {
+        let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
+        for (k, row) in self.values.iter().enumerate() {
+            let colours: Vec<_> = row.iter().map(|&value| self.colours.colour(value)).collect();
+            for (from, to, colour) in runs(&colours) {
+                let (first, last) = (place(k, from), place(k, to - 1));
+                let [left, top, right, bottom] = [first.left, first.top, last.right, first.bottom].map(f64::round);
+                let (width, height) = (right - left, bottom - top);
+                let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
+                let _ = write!(path, "M{left} {top}h{width}v{height}h-{width}z");
+            }
+        }
+        // Whole px, scaled to the page's grid: a third fewer digits.
+        let mut layer = format!("<g transform=\"scale({})\" shape-rendering=\"crispEdges\">\n", grid(1.0));
+        for ((r, g, b), path) in paths {
+            let _ = writeln!(layer, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>");
+        }
+        canvas.raw(&(layer + "</g>\n"));
+    }
+}
+
+/// `(first, one past last, colour)` of equal neighbours; cells without a colour are grey.
+fn runs(row: &[Option<RGBColor>]) -> Vec<(usize, usize, RGBColor)> {
+    let mut end = 0;
+    let place = |run: &[Option<RGBColor>]| {
+        end += run.len();
+        (end - run.len(), end, run[0].unwrap_or(style::NO_VALUE))
+    };
+    row.chunk_by(|a, b| a == b).map(place).collect()
+}
+
 /// Edges of cells around positions in ascending order: half way between neighbours.
-pub(super) fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
+fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
     let (Some(&first), Some(&last)) = (positions.first(), positions.last()) else { return Vec::new() };
     let between: Vec<f64> = positions.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
     let first_half = between.first().map_or(alone, |e| e - first);
@@ -20,7 +143,7 @@ pub(super) fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
 }
 
 /// The values of an axis that it can show: position on the scale and index, ascending, each position once.
-pub(super) fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
+fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     let mut order: Vec<(f64, usize)> =
         values.iter().enumerate().filter_map(|(k, &v)| Some((on_scale(scale, v)?, k))).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -28,77 +151,110 @@ pub(super) fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     order
 }
 
-/// Cells between the edges (in px), row by row; cells without a colour are grey.
-pub(super) fn paint(canvas: &mut Canvas, x_edges: &[f64], y_edges: &[f64], rows: &[Vec<Option<RGBColor>>]) {
-    let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
-    let mut add = |x: Option<(f64, f64)>, y: Option<(f64, f64)>, colour: RGBColor| {
-        let (Some((left, right)), Some((top, bottom))) = (x, y) else { return };
-        let (width, height) = (right - left, bottom - top);
-        let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
-        let _ = write!(path, "M{left} {top}h{width}v{height}h-{width}z");
+/// The cells of these rows and columns; `none` for those that are not there.
+fn sorted<T: Copy>(cells: &[Vec<T>], rows: &[usize], columns: &[usize], none: T) -> Vec<Vec<T>> {
+    let cell = |k: usize, j: usize| cells.get(k).and_then(|row| row.get(j)).copied().unwrap_or(none);
+    rows.iter().map(|&k| columns.iter().map(|&j| cell(k, j)).collect()).collect()
+}
+
+/// The range from the first to the last edge, or any range if there is none.
+fn span(scale: Scale, edges: &[f64]) -> Ruler {
+    match (edges.first(), edges.last()) {
+        (Some(&lo), Some(&hi)) if lo < hi => Ruler::between(scale, lo, hi),
+        _ => Ruler::around(scale, [], 0.0),
+    }
+}
+
+/// Counts the cells that have neither colour nor mark.
+fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
+    let cells = values.iter().flatten().zip(marked.iter().flatten());
+    let unmarked: Vec<f64> = cells.filter(|(_, marked)| !**marked).map(|(value, _)| *value).collect();
+    let missing = |scale: Scale| unmarked.iter().filter(|value| on_scale(scale, **value).is_none()).count();
+    let non_finite = missing(Scale::Linear);
+    left_out(non_finite, missing(z) - non_finite)
+}
+
+/// Writes its value into each cell, where there is room for all of them.
+fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: CellAt<'_>) {
+    const CLEAR: f64 = 6.0;
+    let cells = values.iter().enumerate().flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
+    let written = cells.filter(|(.., value)| value.is_finite());
+    let texts: Vec<_> = written.map(|(k, j, value)| (format!("{value:.1e}"), place(k, j))).collect();
+    let has_room = |(text, cell): &(String, Rect)| {
+        text_width(text, NOTE_SIZE) + CLEAR <= cell.width() && NOTE_SIZE + CLEAR <= cell.height()
     };
-    let columns = transposed(rows);
-    if count_runs(rows) <= count_runs(&columns) {
-        for (k, row) in rows.iter().enumerate() {
-            runs(row).iter().for_each(|&(from, to, c)| add(span(x_edges, from, to), span(y_edges, k, k + 1), c));
-        }
-    } else {
-        for (k, column) in columns.iter().enumerate() {
-            runs(column).iter().for_each(|&(from, to, c)| add(span(x_edges, k, k + 1), span(y_edges, from, to), c));
-        }
+    if texts.iter().all(has_room) {
+        sheet.canvas.draw(Layer { halo: true, ..Layer::default() }, |pen| {
+            texts.iter().for_each(|(text, cell)| {
+                pen.text(text, cell.centre(), NOTE_SIZE, Anchor::Center, style::INK);
+            });
+        });
     }
-    // Whole px, scaled to the page's grid: a third fewer digits.
-    let mut layer = format!("<g transform=\"scale({})\" shape-rendering=\"crispEdges\">\n", grid(1.0));
-    for ((r, g, b), path) in paths {
-        let _ = writeln!(layer, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>");
+}
+
+/// A boundary with fewer points is drawn as points.
+const FEWEST_FOR_A_LINE: usize = 6;
+
+fn entries(figure: &Surface) -> Vec<Entry> {
+    let boundary = |(k, series): (usize, &Series)| {
+        let (width, marks) = if is_sparse(series) { (0.0, Marks::Open) } else { (3.0, Marks::None) };
+        Entry { swatch: Swatch::Line { look: boundary_look(k), width, marks }, label: series.label.clone() }
+    };
+    let mut entries: Vec<Entry> = figure.boundaries.iter().enumerate().map(boundary).collect();
+    if figure.marked.iter().flatten().any(|&m| m) {
+        entries.push(Entry { swatch: Swatch::Hatch(style::NO_VALUE), label: figure.marked_label.clone() });
     }
-    canvas.raw(&(layer + "</g>\n"));
+    entries
 }
 
-/// Whole px between two edges, in ascending order.
-fn span(edges: &[f64], from: usize, to: usize) -> Option<(f64, f64)> {
-    let (a, b) = (edges.get(from)?.round(), edges.get(to)?.round());
-    Some((a.min(b), a.max(b)))
+/// Whether a boundary is known at a few points only: a line between them would suggest points that were not computed.
+fn is_sparse(series: &Series) -> bool {
+    series.points.len() < FEWEST_FOR_A_LINE
 }
 
-fn transposed(rows: &[Vec<Option<RGBColor>>]) -> Vec<Vec<Option<RGBColor>>> {
-    let columns = rows.iter().map(Vec::len).min().unwrap_or(0);
-    (0..columns).map(|j| rows.iter().map(|row| row[j]).collect()).collect()
+/// Black or vermilion on a white rim: both stand out on all of the colour scale.
+fn boundary_look(k: usize) -> Look {
+    let colour = if k == 0 { style::INK } else { look(k).colour };
+    Look { colour, ..look(k) }
 }
 
-fn count_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
-    rows.iter().map(|row| runs(row).len()).sum()
-}
-
-/// Pieces that [`paint`] writes: it merges along rows or along columns, whichever gives fewer.
-pub(super) fn fewest_runs(rows: &[Vec<Option<RGBColor>>]) -> usize {
-    count_runs(rows).min(count_runs(&transposed(rows)))
-}
-
-/// `(first, one past last, colour)` of equal neighbours.
-fn runs(row: &[Option<RGBColor>]) -> Vec<(usize, usize, RGBColor)> {
-    let mut runs: Vec<(usize, usize, RGBColor)> = Vec::new();
-    for (k, colour) in row.iter().enumerate() {
-        let colour = colour.unwrap_or(style::NO_VALUE);
-        match runs.last_mut() {
-            Some(run) if run.2 == colour => run.1 = k + 1,
-            _ => runs.push((k, k + 1, colour)),
+fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: CellAt<'_>) {
+    sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
+        for (k, row) in marked.iter().enumerate() {
+            let mut j = 0;
+            for run in row.chunk_by(|a, b| a == b) {
+                if run[0] {
+                    pen.hatch(Rect { right: place(k, j + run.len() - 1).right, ..place(k, j) });
+                }
+                j += run.len();
+            }
         }
-    }
-    runs
+    });
 }
 
-/// Diagonal strokes over a rectangle, continuing those of its neighbours.
-pub fn hatch(pen: &Pen<'_>, r: Rect) {
-    const SPACING: f64 = 9.0;
-    // A stroke is where x + y is a multiple of the spacing.
-    let first = ((r.left + r.top) / SPACING).ceil() as i32;
-    let last = ((r.right + r.bottom) / SPACING).floor() as i32;
-    for k in first..=last {
-        let sum = f64::from(k) * SPACING;
-        let (x0, x1) = ((sum - r.bottom).max(r.left), (sum - r.top).min(r.right));
-        if x1 > x0 {
-            pen.line(&[(x0, sum - x0), (x1, sum - x1)], style::MUTED, 1.1);
+/// All rims before all lines: where two boundaries agree, the gaps of the dashed one show the other.
+fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
+    for rim in [true, false] {
+        for (k, series) in figure.boundaries.iter().enumerate() {
+            let look = boundary_look(k);
+            let (dash, colour, width) = if rim { (Dash::Solid, WHITE, 6.0) } else { (look.dash, look.colour, 3.0) };
+            let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
+            let layer = Layer::clipped(sheet.plot).dashed(dash);
+            let data = (!rim).then_some(series.points.as_slice());
+            sheet.canvas.group(&canvas::series(&series.label, data), |canvas| {
+                if is_sparse(series) {
+                    // Open markers have their own rim.
+                    let at = || positions.iter().flatten().filter(|_| !rim);
+                    let mark = |pen: &Pen<'_>, at| look.marker.draw(pen, at, colour, Marks::Open);
+                    return canvas.draw(Layer::default(), |pen| at().for_each(|at| mark(pen, *at)));
+                }
+                canvas.draw(layer, |pen| {
+                    for line in positions.split(Option::is_none) {
+                        let line: Vec<Point> = line.iter().flatten().copied().collect();
+                        pen.line(&line, colour, width);
+                    }
+                });
+            });
         }
     }
 }
@@ -124,5 +280,14 @@ mod tests {
     #[test]
     fn an_axis_without_order_is_sorted() {
         assert_eq!(in_order(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]), [(0.0, 2), (1.0, 0)]);
+    }
+
+    #[test]
+    fn a_boundary_without_cells_is_still_a_document() {
+        let figure = Surface {
+            boundaries: vec![Series { label: "b".into(), points: vec![(f64::NAN, 1.0), (0.5, 0.5)] }],
+            ..Default::default()
+        };
+        assert!(surface(&figure).ends_with("</svg>\n"));
     }
 }

@@ -1,6 +1,6 @@
 //! Quantities over time, and errors over their cost.
 
-use super::marker::Marks;
+use super::look::Marks;
 use super::xy::{Curve, Xy};
 use super::{Axis, Guide, Phases, Scale, Series};
 

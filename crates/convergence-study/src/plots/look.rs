@@ -1,8 +1,87 @@
-//! Colour, marker and dashes of the k-th series of a figure.
+//! What sets one series of a figure apart: its colour, its dashes, and the shape of its markers.
 
-use super::marker::Marker;
-use super::style::Dash;
+use super::canvas::Pen;
+use super::rect::Point;
+use super::style::{Dash, WHITE};
 use plotters::style::RGBColor;
+
+/// Shapes that stay distinct when small and without colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// A disc.
+    Circle,
+    /// A square on its side.
+    Square,
+    /// A triangle pointing up.
+    Triangle,
+    /// A square on its corner.
+    Diamond,
+    /// A triangle pointing down.
+    Inverted,
+    /// Two diagonal strokes.
+    Cross,
+    /// A horizontal and a vertical stroke.
+    Plus,
+    /// Three strokes.
+    Star,
+}
+
+/// How a series' points are marked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Marks {
+    /// No markers.
+    #[default]
+    None,
+    /// In the colour of the series.
+    Filled,
+    /// Outline on white.
+    Open,
+}
+
+/// Half the height of a circle; the others are sized to look equally heavy.
+const RADIUS: f64 = 5.5;
+
+impl Marker {
+    /// Draws the marker centred at `at`.
+    pub fn draw(self, pen: &Pen<'_>, at: Point, colour: RGBColor, marks: Marks) {
+        match marks {
+            Marks::None => {}
+            Marks::Filled => self.fill(pen, at, RADIUS, colour),
+            Marks::Open => {
+                self.fill(pen, at, RADIUS + 1.0, colour);
+                if !self.is_strokes() {
+                    self.fill(pen, at, RADIUS - 1.4, WHITE);
+                }
+            }
+        }
+    }
+
+    /// Made of strokes: there is no inside to leave white.
+    fn is_strokes(self) -> bool {
+        matches!(self, Marker::Cross | Marker::Plus | Marker::Star)
+    }
+
+    fn fill(self, pen: &Pen<'_>, (x, y): Point, r: f64, colour: RGBColor) {
+        let shape = |corners: &[Point]| {
+            let path: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + r * dx, y + r * dy)).collect();
+            pen.polygon(&path, colour);
+        };
+        let stroke = |dx: f64, dy: f64| {
+            let (dx, dy) = (r * dx, r * dy);
+            pen.line(&[(x - dx, y - dy), (x + dx, y + dy)], colour, 2.4);
+        };
+        match self {
+            Marker::Circle => pen.disc((x, y), r, colour),
+            Marker::Square => shape(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
+            Marker::Triangle => shape(&[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)]),
+            Marker::Inverted => shape(&[(0.0, 1.25), (1.15, -0.8), (-1.15, -0.8)]),
+            Marker::Diamond => shape(&[(0.0, -1.3), (1.2, 0.0), (0.0, 1.3), (-1.2, 0.0)]),
+            Marker::Cross => [(0.9, 0.9), (0.9, -0.9)].iter().for_each(|&(a, b)| stroke(a, b)),
+            Marker::Plus => [(1.2, 0.0), (0.0, 1.2)].iter().for_each(|&(a, b)| stroke(a, b)),
+            Marker::Star => [(1.2, 0.0), (0.6, 1.04), (0.6, -1.04)].iter().for_each(|&(a, b)| stroke(a, b)),
+        }
+    }
+}
 
 /// Okabe and Ito's palette, distinct for all common kinds of colour vision; for its yellow, too pale on white, Tol's olive.
 const COLOURS: [RGBColor; 8] = [

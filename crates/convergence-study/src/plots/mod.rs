@@ -7,15 +7,14 @@
 //! | figure | shows |
 //! | --- | --- |
 //! | [`convergence`] | errors against `h` or `dt`, fitted lines, slope triangles, a baseline |
-//! | [`surface`] | an error over a grid of two parameters, with iso lines |
+//! | [`surface`] | a value and a category over two parameters, with boundary curves |
 //! | [`history`] | quantities over time, with limits and shaded phases |
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
-//! | [`parameter_map`] | a value and a category over two parameters, with boundary curves |
 //! | [`forest`] | all judged rates relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
-//! What is drawn can be read back: `readable` writes names and values into the picture, for a page that shows them.
+//! What is drawn can be read back: `canvas` writes names and values into the picture, for a page that shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
 //! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
@@ -33,26 +32,21 @@ pub mod canvas;
 mod colour;
 mod convergence;
 mod forest;
-pub mod heat;
+mod heat;
 mod history;
-pub mod legend;
 pub mod look;
-pub mod marker;
-mod readable;
 pub mod rect;
 pub mod ruler;
-mod sheet;
-mod slopes;
+pub mod sheet;
 mod space_time;
 pub mod style;
-mod surface;
 pub mod xy;
 
 pub use convergence::{Convergence, ErrorSeries, convergence};
 pub use forest::{Forest, ForestRate, ForestRow, forest};
+pub use heat::{Surface, surface};
 pub use history::{History, history, iterations, work_precision};
 pub use space_time::{SpaceTime, space_time};
-pub use surface::{Surface, parameter_map, surface};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

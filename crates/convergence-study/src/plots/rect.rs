@@ -1,4 +1,4 @@
-//! Points and rectangles; the parts of lines inside and outside of a rectangle.
+//! Points and rectangles; the parts of lines inside of a rectangle.
 
 /// A position in px, `y` downwards.
 pub type Point = (f64, f64);
@@ -73,17 +73,6 @@ pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     kept
 }
 
-/// What remains of a segment outside a rectangle: up to two pieces.
-pub(super) fn keep_outside([a, b]: [Point; 2], r: &Rect) -> Vec<[Point; 2]> {
-    match inside(a, b, r) {
-        None => vec![[a, b]],
-        Some((enter, leave)) => {
-            let pieces = [(0.0, enter), (leave, 1.0)].into_iter().filter(|(s, t)| t > s);
-            pieces.map(|(s, t)| [along(a, b, s), along(a, b, t)]).collect()
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,14 +86,5 @@ mod tests {
             [vec![(0.5, 0.5), (1.0, 0.5)], vec![(1.0, 0.9), (0.5, 0.9)]]
         );
         assert!(keep_inside(&[(-1.0, 2.0), (2.0, 2.0)], &UNIT).is_empty());
-    }
-
-    #[test]
-    fn a_segment_across_leaves_two_pieces_outside() {
-        assert_eq!(
-            keep_outside([(-1.0, 0.5), (3.0, 0.5)], &UNIT),
-            [[(-1.0, 0.5), (0.0, 0.5)], [(1.0, 0.5), (3.0, 0.5)]]
-        );
-        assert!(keep_outside([(0.2, 0.2), (0.8, 0.8)], &UNIT).is_empty());
     }
 }

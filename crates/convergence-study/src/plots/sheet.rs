@@ -1,13 +1,12 @@
-//! A laid-out page: plot area, axes, grid, legend and notes, each in its own place.
+//! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned columns, never on the data.
 
 use super::Guide;
-use super::canvas::{Anchor, Canvas, Layer, Pen};
-use super::legend::{Entry, Legend, elide};
-use super::marker::tick;
-use super::readable;
+use super::canvas::{self, Anchor, Canvas, Layer, Pen};
+use super::look::{Look, Marks};
 use super::rect::{Point, Rect};
 use super::ruler::{Ruler, Ticks, power_of_ten};
 use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
+use plotters::style::RGBColor;
 
 const EDGE: f64 = 16.0;
 const NOTE_HEIGHT: f64 = 24.0;
@@ -16,6 +15,11 @@ const TICK_LABEL_DROP: f64 = 19.0;
 const AXIS_LABEL_DROP: f64 = 48.0;
 /// Guide labels closer than this would overlap.
 const GUIDE_SPACING: f64 = 21.0;
+/// Of the legend.
+const ROW_HEIGHT: f64 = 27.0;
+const SWATCH_WIDTH: f64 = 46.0;
+const SWATCH_GAP: f64 = 9.0;
+const COLUMN_GAP: f64 = 26.0;
 
 /// What a page is to hold.
 #[derive(Clone, Debug)]
@@ -139,7 +143,7 @@ impl Page {
         });
         self.draw_foot();
         let Layout { title, x_label, y_label, .. } = self.plan;
-        let attributes = readable::axes(&self.plot, (&x_label, &self.x), (&y_label, &self.y));
+        let attributes = canvas::axes(&self.plot, [(&x_label, &self.x), (&y_label, &self.y)]);
         self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")), &attributes)
     }
 
@@ -162,7 +166,7 @@ impl Page {
 fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
         let x = ruler.px_of(t.at);
-        tick(pen, (x, plot.bottom), (x, plot.bottom - 6.0));
+        pen.tick((x, plot.bottom), (x, plot.bottom - 6.0));
         pen.text(&t.label, (x, plot.bottom + TICK_LABEL_DROP), TICK_SIZE, Anchor::Center, style::INK);
     }
     let row = plot.bottom + AXIS_LABEL_DROP;
@@ -177,7 +181,7 @@ fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
 fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
         let y = ruler.px_of(t.at);
-        tick(pen, (plot.left, y), (plot.left + 6.0, y));
+        pen.tick((plot.left, y), (plot.left + 6.0, y));
         pen.text(&t.label, (plot.left - 9.0, y), TICK_SIZE, Anchor::Right, style::INK);
     }
     if ticks.exponent != 0 {
@@ -215,6 +219,114 @@ fn spread_out(heights: &[f64], plot: Rect) -> Vec<f64> {
         lowest = *y - GUIDE_SPACING;
     }
     spread
+}
+
+/// The sample before the text of an entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Swatch {
+    /// A line with markers.
+    Line {
+        /// Colour, dashes and marker.
+        look: Look,
+        /// Width of the line in px; 0 for markers alone.
+        width: f64,
+        /// How the marker is drawn.
+        marks: Marks,
+    },
+    /// A patch of colour.
+    Fill(RGBColor),
+    /// A patch with diagonal strokes.
+    Hatch(RGBColor),
+}
+
+/// A line of the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The sample before the text.
+    pub swatch: Swatch,
+    /// The text; one that is too long is cut.
+    pub label: String,
+}
+
+/// Entries arranged for a page of given width.
+#[derive(Clone, Debug)]
+pub(super) struct Legend {
+    entries: Vec<Entry>,
+    columns: usize,
+    column_width: f64,
+}
+
+impl Legend {
+    /// As many equal columns as fit, rows filled evenly.
+    pub(super) fn arrange(entries: Vec<Entry>, width: f64) -> Self {
+        let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
+        let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
+        let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
+        let rows = entries.len().div_ceil(most).max(1);
+        Self { columns: entries.len().div_ceil(rows).max(1), column_width, entries }
+    }
+
+    /// Height of all rows in px.
+    pub(super) fn height(&self) -> f64 {
+        self.entries.len().div_ceil(self.columns) as f64 * ROW_HEIGHT
+    }
+
+    /// Draws the legend centred on `centre`, its first row below `top`.
+    pub(super) fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
+        let width = self.columns as f64 * self.column_width - COLUMN_GAP;
+        // Centred on the plot, but on the page in any case.
+        let left = (centre - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
+        for (k, entry) in self.entries.iter().enumerate() {
+            let x = left + (k % self.columns) as f64 * self.column_width;
+            let y = top + ((k / self.columns) as f64 + 0.5) * ROW_HEIGHT;
+            canvas.group(&canvas::entry(&entry.label), |canvas| self.draw_entry(canvas, entry, x, y));
+        }
+    }
+
+    fn draw_entry(&self, canvas: &mut Canvas, entry: &Entry, x: f64, y: f64) {
+        let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
+        let room = self.column_width - SWATCH_WIDTH - SWATCH_GAP;
+        let label = elide(&entry.label, TICK_SIZE, room);
+        let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
+        let patch = Rect { left: x + 6.0, top: y - 8.0, right: x + SWATCH_WIDTH - 2.0, bottom: y + 8.0 };
+        match entry.swatch {
+            Swatch::Line { look, width, marks } => {
+                if width > 0.0 {
+                    let ends = [(x, y), (x + SWATCH_WIDTH, y)];
+                    canvas.draw(Layer::default().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
+                }
+                canvas.draw(Layer::default(), |pen| {
+                    look.marker.draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
+                    write(pen);
+                });
+            }
+            Swatch::Fill(colour) => canvas.draw(Layer::default(), |pen| {
+                pen.rect(patch, colour);
+                pen.frame(patch, style::GRID, 1.0);
+                write(pen);
+            }),
+            Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
+                pen.rect(patch, colour);
+                pen.hatch(patch);
+                write(pen);
+            }),
+        }
+    }
+}
+
+/// A text of this size cut to fit a width, both in px, with an ellipsis where it was cut.
+pub fn elide(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        if text_width(&kept, size) + text_width("m…", size) > width {
+            break;
+        }
+        kept.push(c);
+    }
+    kept + "…"
 }
 
 #[cfg(test)]

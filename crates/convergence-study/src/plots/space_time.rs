@@ -2,17 +2,13 @@
 
 use super::Scale;
 use super::colour::ColourScale;
-use super::heat::{fewest_runs, paint};
+use super::heat::HeatMap;
 use super::ruler::{Ruler, on_scale};
 use super::sheet::Layout;
 use super::xy::left_out;
-use plotters::style::RGBColor;
 
-/// Cells of the picture along time and along space, finest first. Even noise, which merges nowhere, stays below
-/// 400 kB on the coarsest.
-const RESOLUTIONS: [(usize, usize); 3] = [(220, 140), (190, 120), (170, 105)];
-/// Runs of equal cells at most, of about 17 bytes each.
-const MOST_RUNS: usize = 17_900;
+/// Cells of the picture along time and along space, at most: even noise, in which no neighbours are equal, stays below 400 kB.
+const FINEST: (usize, usize) = (200, 110);
 
 /// A field over space and time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,43 +31,27 @@ pub fn space_time(figure: &SpaceTime) -> String {
     let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
     let values = figure.frames.iter().flatten().copied();
     let colours = ColourScale::diverging(&figure.label, values);
-    let picture = picture(figure, &t, &x, &colours);
     let non_finite = figure.frames.iter().flatten().filter(|&&v| on_scale(Scale::Linear, v).is_none()).count();
+    let values = raster(figure, &t, &x, FINEST);
+    let (columns, rows) = (values.first().map_or(0, Vec::len), values.len());
+    let cells = HeatMap { x: even(&t, columns), y: even(&x, rows), values, colours };
     let plan = Layout {
         title: figure.title.clone(),
         x: t,
         y: x,
         x_label: "time t".into(),
         y_label: "position x".into(),
-        right: colours.margin(),
+        right: 0.0,
         above: None,
         legend: Vec::new(),
         notes: left_out(non_finite, 0),
     };
-    let mut sheet = plan.lay_out();
-    let plot = sheet.plot;
-    let (x_edges, y_edges) =
-        (even(plot.left, plot.right, picture.first().map_or(0, Vec::len)), even(plot.bottom, plot.top, picture.len()));
-    paint(&mut sheet.canvas, &x_edges, &y_edges, &picture);
-    colours.draw_bar(&mut sheet);
-    sheet.finish()
+    cells.draw(plan, |_, _| {})
 }
 
-/// The finest picture that is small enough.
-fn picture(figure: &SpaceTime, t: &Ruler, x: &Ruler, colours: &ColourScale) -> Vec<Vec<Option<RGBColor>>> {
-    let mut picture = Vec::new();
-    for most in RESOLUTIONS {
-        let cells = raster(figure, t, x, most);
-        picture = cells.iter().map(|row| row.iter().map(|&v| colours.colour(v)).collect()).collect();
-        if fewest_runs(&picture) <= MOST_RUNS {
-            break;
-        }
-    }
-    picture
-}
-
-fn even(from: f64, to: f64, cells: usize) -> Vec<f64> {
-    (0..=cells).map(|k| from + (to - from) * k as f64 / cells.max(1) as f64).collect()
+/// Edges of so many cells from end to end.
+fn even(ruler: &Ruler, cells: usize) -> Vec<f64> {
+    (0..=cells).map(|k| ruler.lo + (ruler.hi - ruler.lo) * k as f64 / cells.max(1) as f64).collect()
 }
 
 /// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in

@@ -1,14 +1,13 @@
 //! The core of all figures with curves: ranges, layers in their order, notes on what was left out.
 
-use super::canvas::{Anchor, Layer};
-use super::legend::{Entry, Swatch};
-use super::look::{Look, look};
-use super::marker::Marks;
+use super::canvas::{self, Anchor, Layer};
+use super::look::{Look, Marks, look};
 use super::rect::{Point, Rect};
 use super::ruler::{Ruler, on_scale};
-use super::sheet::{Layout, Page, guide_margin};
-use super::style::TICK_SIZE;
-use super::{Axis, Guide, Phases, Scale, Series, readable, style};
+use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
+use super::style::{Dash, TICK_SIZE};
+use super::{Axis, Guide, Phases, Scale, Series, style};
+use crate::judge::power_law::PowerLaw;
 use crate::text::number::counted;
 
 /// Room left around the data, as a fraction of its range.
@@ -19,18 +18,18 @@ const ENVELOPE_COLUMNS: usize = 3200;
 /// A curve and how to draw it.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// The entry of the legend that it belongs to.
+    /// Its entry of the legend, which the first of several curves of one name makes.
     pub name: String,
     /// What notes call it, where its entry says more than its name.
     pub noted_as: Option<String>,
-    /// Whether that entry is to be made from the curve; several curves may share one.
-    pub is_listed: bool,
     /// `(x, y)` in data coordinates, in drawing order.
     pub points: Vec<(f64, f64)>,
     /// Colour, dashes and marker.
     pub look: Look,
     /// Line width in px; 0 for markers alone.
     pub width: f64,
+    /// What is drawn from end to end, solid, in place of the line through the points.
+    pub fit: Option<PowerLaw>,
     /// How the points are marked.
     pub marks: Marks,
     /// Whether the points are data: only those set the range and are counted when left out.
@@ -43,10 +42,10 @@ impl Curve {
         Self {
             name: series.label.clone(),
             noted_as: None,
-            is_listed: true,
             points: series.points.clone(),
             look: look(k),
             width: style::LINE,
+            fit: None,
             marks: Marks::None,
             is_data: true,
         }
@@ -55,6 +54,20 @@ impl Curve {
     /// What notes call it.
     pub fn noted(&self) -> &str {
         self.noted_as.as_deref().unwrap_or(&self.name)
+    }
+
+    /// As it is drawn: a fitted line ahead of the markers, which alone are data.
+    fn parts(&self) -> Vec<Self> {
+        let Some(fit) = self.fit else { return vec![self.clone()] };
+        let xs = || self.points.iter().map(|p| p.0).filter(|x| x.is_finite() && *x > 0.0);
+        let ends = [xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max)];
+        let points = ends.map(|x| (x, fit.error_at(x))).to_vec();
+        let line = Self { points, look: self.solid(), marks: Marks::None, is_data: false, fit: None, ..self.clone() };
+        vec![line, Self { width: 0.0, fit: None, ..self.clone() }]
+    }
+
+    fn solid(&self) -> Look {
+        Look { dash: Dash::Solid, ..self.look }
     }
 }
 
@@ -90,8 +103,6 @@ pub struct Xy {
     pub show_y: Vec<f64>,
     /// More values that the horizontal axis must show.
     pub show_x: Vec<f64>,
-    /// Entries ahead of the curves', after them those of the phases.
-    pub legend: Vec<Entry>,
     /// Lines under the legend, before those on curves that coincide and on points that were left out.
     pub notes: Vec<String>,
 }
@@ -153,11 +164,14 @@ impl Xy {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let mut entries = self.legend.clone();
-        entries.extend(self.curves.iter().filter(|c| c.is_listed).map(|c| {
-            let swatch = Swatch::Line { look: c.look, width: c.width, marks: c.marks };
-            Entry { swatch, label: c.name.clone() }
-        }));
+        let mut entries: Vec<Entry> = vec![];
+        for curve in &self.curves {
+            if entries.iter().all(|entry| entry.label != curve.name) {
+                let look = if curve.fit.is_some() { curve.solid() } else { curve.look };
+                let swatch = Swatch::Line { look, width: curve.width, marks: curve.marks };
+                entries.push(Entry { swatch, label: curve.name.clone() });
+            }
+        }
         if !self.phases.intervals.is_empty() {
             entries.push(Entry { swatch: Swatch::Fill(style::SHADE), label: self.phases.label.clone() });
         }
@@ -194,15 +208,15 @@ impl Xy {
     }
 
     fn draw_curves(&self, sheet: &mut Page) {
-        let share = ENVELOPE_COLUMNS / self.curves.len().max(1);
+        let share = ENVELOPE_COLUMNS / self.curves.iter().flat_map(Curve::parts).count().max(1);
         let columns = (sheet.plot.width() as usize).min(share).max(1);
-        for curve in &self.curves {
+        for curve in self.curves.iter().flat_map(Curve::parts) {
             let positions: Vec<Option<Point>> = curve.points.iter().map(|&p| sheet.px(p)).collect();
             let (alone, lines): (Vec<_>, Vec<_>) = match curve.width {
                 0.0 => Default::default(),
                 _ => lines(&positions, columns).into_iter().partition(|line| line.len() == 1),
             };
-            let attributes = readable::series(&curve.name, curve.is_data.then_some(&curve.points));
+            let attributes = canvas::series(&curve.name, curve.is_data.then_some(&curve.points));
             let line_layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
             sheet.canvas.group(&attributes, |canvas| {
                 canvas.draw(line_layer, |pen| {
@@ -285,7 +299,7 @@ fn coincide(a: &Curve, b: &Curve, x: &Ruler, y: &Ruler) -> bool {
     }
     let line = |curve: &Curve| {
         let points = curve.points.iter().map(|point| Some((x.px(point.0)?, y.px(point.1)?)));
-        let points: Vec<Point> = points.collect::<Option<_>>().filter(|_| curve.width > 0.0)?;
+        let points: Vec<Point> = points.collect::<Option<_>>().filter(|_| curve.width > 0.0 && curve.fit.is_none())?;
         points.is_sorted_by(|p, q| p.0 <= q.0).then_some(points)
     };
     let (Some(a), Some(b)) = (line(a), line(b)) else { return false };

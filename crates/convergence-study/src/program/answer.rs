@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
 use crate::input::shorten;
-use crate::study::CaseFailure;
+use crate::study::{CaseFailure, Claim};
 use crate::text::visible::visible;
 
 /// The numbers of one case; NaN where it answered that. Names are sorted, and harmless on a terminal.
@@ -34,17 +34,24 @@ pub struct Answer {
     pub kept: bool,
 }
 
-/// A number that a study needs of every answer.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Expected {
-    /// Its name.
+/// A table `[[expect]]`: a number that the study needs of every answer, and what is claimed of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Expectation {
     pub(super) name: String,
     /// Whether it is a value, of which no error is known.
     pub(super) is_value: bool,
+    /// Of a grid: the order in h.
+    pub(super) claim: Claim,
+    /// Of a grid: the order in dt.
+    pub(super) time: f64,
+    /// The order is that of a factor a degree, n being the degree.
+    pub(super) by_degree: bool,
+    /// No error is larger; nothing else is claimed.
+    pub(super) exact: Option<f64>,
 }
 
-impl Expected {
-    /// The key of `[[expect]]` that names it.
+impl Expectation {
+    /// The key that names it.
     pub(super) fn what(&self) -> &'static str {
         if self.is_value { "value" } else { "error" }
     }
@@ -172,18 +179,18 @@ impl Answer {
     }
 
     /// The number of that name; `None` where there is none.
-    pub(super) fn number(&self, expected: &Expected) -> Option<f64> {
+    pub(super) fn number(&self, expected: &Expectation) -> Option<f64> {
         let among = if expected.is_value { &self.values } else { &self.errors };
         among.iter().find(|(known, _)| *known == expected.name).map(|(_, number)| *number)
     }
 
     /// Refuses an answer that lacks a number that the study expects.
-    pub(super) fn require(&self, expected: &Expected) -> Result<(), String> {
+    pub(super) fn require(&self, expected: &Expectation) -> Result<(), String> {
         if self.number(expected).is_some() {
             return Ok(());
         }
         let (own, other) = if expected.is_value { (&self.values, "errors") } else { (&self.errors, "values") };
-        let is_other = self.number(&Expected { is_value: !expected.is_value, ..expected.clone() }).is_some();
+        let is_other = self.number(&Expectation { is_value: !expected.is_value, ..expected.clone() }).is_some();
         let there = match own[..] {
             _ if is_other => format!("it among its {other}"),
             [] => "none".to_owned(),
@@ -263,7 +270,11 @@ mod tests {
     #[test]
     fn a_missing_name_is_told_with_those_that_are_there() {
         let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
-        let require = |is_value: bool, name: &str| answer.require(&Expected { name: name.to_owned(), is_value });
+        let claim = Claim::new(2.0, 0.1);
+        let require = |is_value: bool, name: &str| {
+            let name = name.to_owned();
+            answer.require(&Expectation { name, is_value, claim, time: 2.0, by_degree: false, exact: None })
+        };
         let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();
         assert_eq!(missing(false, "L2"), "its answer has no error `L2`; it has it among its values");
         assert_eq!(missing(false, "max"), "its answer has no error `max`; it has H1");

@@ -39,11 +39,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::answer::Expected;
+use super::Program;
+use super::answer::Expectation;
+use super::command::filled;
 use super::kept::Store;
 use super::refine::{Parameter, refine};
-use super::template::filled;
-use super::{Expectation, More, Program};
 use crate::input::{Field, InputError, Section, visible};
 use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
@@ -130,14 +130,14 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
     for item in field.items(allowed)? {
         let section = item.section()?;
         let expectation = expectation(&section, grid)?;
-        if expectations.iter().any(|earlier| earlier.expected == expectation.expected) {
-            let found = format!("\"{}\" a second time", visible(&expectation.expected.name));
-            return Err(section.refuse(expectation.expected.what(), found, "each name once"));
+        let (name, what) = (&expectation.name, expectation.what());
+        if expectations.iter().any(|earlier| (&earlier.name, earlier.what()) == (name, what)) {
+            return Err(section.refuse(what, format!("\"{}\" a second time", visible(name)), "each name once"));
         }
         expectations.push(expectation);
     }
-    let by_degree = expectations.iter().filter(|expectation| expectation.more.by_degree).count();
-    let of_rates = expectations.iter().filter(|expectation| expectation.more.exact.is_none()).count();
+    let by_degree = expectations.iter().filter(|expectation| expectation.by_degree).count();
+    let of_rates = expectations.iter().filter(|expectation| expectation.exact.is_none()).count();
     if by_degree > 0 && by_degree < of_rates {
         return Err(field.refuse("factor in some tables and order in others", "one of the two in all of a study"));
     }
@@ -147,32 +147,32 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
 /// * `grid`: whether h and dt are refined apart; each error then has two orders.
 fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
     section.allow(&["error", "value", "order", "order_dt", "factor", "constant", "exact", "tolerance"])?;
-    let expected = match section.get("value") {
+    let (name, is_value) = match section.get("value") {
         Some(value) if section.get("error").is_some() => {
             return Err(value.refuse("value beside error", "one of the two in each table [[expect]]"));
         }
         Some(value) if grid => {
             return Err(value.refuse("value with grid = true", "error, the only one that a grid judges"));
         }
-        Some(value) => Expected { name: name(&value, "the name of a value that the program answers")?, is_value: true },
+        Some(value) => (name(&value, "the name of a value that the program answers")?, true),
         None => {
             let allowed = "the name of an error that the program answers, or `value` with the name of a value";
-            Expected { name: name(&section.require("error", allowed)?, allowed)?, is_value: false }
+            (name(&section.require("error", allowed)?, allowed)?, false)
         }
     };
-    let (claim, more) = claimed(section, grid || expected.is_value)?;
+    let (claim, by_degree, exact) = claimed(section, grid || is_value)?;
     let time = match section.get("order_dt") {
         Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
         Some(field) => field.positive()?,
         None => claim.order,
     };
-    Ok(Expectation { expected, claim, time, more })
+    Ok(Expectation { name, is_value, claim, time, by_degree, exact })
 }
 
-/// What is claimed, and of what: a rate over steps or over degrees, or no error at all.
+/// What is claimed: a rate over steps, or over degrees where the second is true; or the bound of an error that is to be none.
 ///
 /// * `plain`: whether nothing but an order can be claimed: of values, and of grids.
-fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, More), InputError> {
+fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {
     let claims = ["order", "factor", "exact"].map(|key| section.get(key));
     let other = claims[1..].iter().flatten().next().cloned().or(section.get("constant"));
     if let Some(field) = other.filter(|_| plain) {
@@ -186,7 +186,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, More), InputErr
             return Err(section.refuse(key, format!("{key} beside exact"), "exact alone"));
         }
         // There is no rate that a tolerance could be about.
-        return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), More { exact: Some(field.positive()?), ..More::default() }));
+        return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), false, Some(field.positive()?)));
     }
     if let Some(field) = claims[0].as_ref().filter(|_| plain) {
         field.positive()?;
@@ -202,7 +202,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, More), InputErr
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
     let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
     claim.tolerance = section.require("tolerance", &narrow)?.number_where(&narrow, is_narrow)?;
-    Ok((claim, More { by_degree: claims[1].is_some(), exact: None }))
+    Ok((claim, claims[1].is_some(), None))
 }
 
 /// A name as answers have it, which control characters are never part of.

@@ -82,9 +82,6 @@ pub(super) struct Group {
 #[cfg(unix)]
 impl Group {
     /// A group with its guard, where this executable has guards.
-    ///
-    /// # Errors
-    /// The guard cannot be started.
     pub(super) fn new() -> io::Result<Self> {
         let mark = new_mark();
         let Some(command) = GUARD.get() else { return Ok(Self { mark, guard: None, leader: None }) };
@@ -93,9 +90,6 @@ impl Group {
     }
 
     /// Starts the program in the group.
-    ///
-    /// # Errors
-    /// That of the operating system.
     pub(super) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
         use std::os::unix::process::CommandExt;
         let child =

@@ -87,9 +87,6 @@ impl Store {
     }
 
     /// The key of a case now. A file that a word of its command names is part of it, whether or not `files` lists it.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub(super) fn key(&self, invocation: &Invocation) -> io::Result<Key> {
         let hashed = |path: &PathBuf| {
             let bytes = regular::read(path).map_err(|error| atomic::naming(path, &error))?;
@@ -117,9 +114,6 @@ impl Store {
     }
 
     /// Keeps an answer. Where the files have changed while the program ran, nothing tells which of them it has read: it is not kept.
-    ///
-    /// # Errors
-    /// That of the operating system.
     pub(super) fn put(&self, key: &Key, invocation: &Invocation, answer: &Answer) -> io::Result<()> {
         if self.key(invocation)? != *key {
             return Ok(());

@@ -6,10 +6,10 @@
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `file.rs`, `refine.rs`, `template.rs` | the study file: tables, resolutions, placeholders |
-//! | `command.rs`, `output.rs`, `guard.rs` | a process: time limit, what it prints, its end |
+//! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
+//! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, what it prints, its end |
 //! | `answer.rs`, `kept.rs` | what it answered; what is kept of that |
-//! | `judge.rs`, `values.rs` | from answers to an outcome: errors, and values without an exact solution |
+//! | `judge.rs` | from answers to an outcome: errors, and values without an exact solution |
 
 mod answer;
 mod command;
@@ -19,8 +19,6 @@ mod judge;
 mod kept;
 mod output;
 mod refine;
-mod template;
-mod values;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -30,11 +28,10 @@ use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
-use answer::Expected;
-use command::Invocation;
+use answer::Expectation;
+use command::{Invocation, filled};
 use kept::Store;
 use refine::Refine;
-use template::filled;
 
 pub use answer::Answer;
 pub use refine::{Parameter, Resolution};
@@ -85,27 +82,6 @@ pub struct Program {
     expect: Vec<Expectation>,
 }
 
-/// What a table `[[expect]]` claims beside an order within a tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct More {
-    /// The order is that of a factor a degree, n being the degree.
-    by_degree: bool,
-    /// No error is larger; nothing else is claimed.
-    exact: Option<f64>,
-}
-
-/// A table `[[expect]]`.
-#[derive(Debug, Clone, PartialEq)]
-struct Expectation {
-    expected: Expected,
-    /// Of a grid: the order in h.
-    claim: Claim,
-    /// Of a grid: the order in dt.
-    time: f64,
-    /// What else is claimed.
-    more: More,
-}
-
 impl FromFile for Program {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         file::read(header, root, folder)
@@ -118,10 +94,8 @@ type Run = Ran<Resolution, Answer>;
 impl Program {
     /// The claims about rates, of errors or of values.
     fn claims(&self, of_values: bool) -> Vec<(String, Claim)> {
-        let is_meant =
-            |expectation: &&Expectation| expectation.expected.is_value == of_values && expectation.more.exact.is_none();
-        let claim = |expectation: &Expectation| (expectation.expected.name.clone(), expectation.claim);
-        self.expect.iter().filter(is_meant).map(claim).collect()
+        let meant = self.expect.iter().filter(|expected| expected.is_value == of_values && expected.exact.is_none());
+        meant.map(|expected| (expected.name.clone(), expected.claim)).collect()
     }
 
     /// The command of a case. Without placeholders the program reads the case from standard input.
@@ -159,18 +133,17 @@ impl Kind for Program {
     }
 
     fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
-        let expected: Vec<Expected> = self.expect.iter().map(|expectation| expectation.expected.clone()).collect();
         let invocation = self.invocation(case);
         let started = Instant::now();
         let run = || {
-            let answer = invocation.run(&expected)?;
+            let answer = invocation.run(&self.expect)?;
             Ok::<_, CaseFailure>(Answer { seconds: started.elapsed().as_secs_f64(), ..answer })
         };
         let Some(store) = &self.store else { return run() };
         let key = store.key(&invocation)?;
         // What was kept for other expectations may lack what is expected now.
         let kept = if self.anew { None } else { store.get(&key) };
-        let kept = kept.filter(|answer| expected.iter().all(|expected| answer.require(expected).is_ok()));
+        let kept = kept.filter(|answer| self.expect.iter().all(|expected| answer.require(expected).is_ok()));
         if let Some(answer) = kept {
             return Ok(Answer { kept: true, ..answer });
         }
@@ -200,12 +173,13 @@ impl Kind for Program {
 
     fn details(&self) -> Vec<(String, String)> {
         let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
-        let order = |Expectation { expected, claim, time, more }: &Expectation| {
+        let order = |expected: &Expectation| {
+            let Expectation { claim, time, by_degree, exact, .. } = expected;
             let name = format!("{} {}", expected.what(), expected.name);
             let least = if claim.at_least { "at least " } else { "" };
-            match more.exact {
+            match exact {
                 Some(bound) => format!("{name} at most {bound}"),
-                None if more.by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),
+                None if *by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),
                 None if self.refine.grid => format!("{name} {} in h, {time} in dt ± {}", claim.order, claim.tolerance),
                 None => format!("{name} {claim}"),
             }

@@ -12,7 +12,7 @@ use crate::judge::verdict::{Reason, Verdict};
 use crate::run::Finished;
 use crate::store::diagnosis::Diagnosis;
 use crate::store::record::Record;
-use crate::study::case::by_reason;
+use crate::study::kind::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
 

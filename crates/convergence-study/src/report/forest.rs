@@ -6,6 +6,7 @@ use crate::plots::{Forest, ForestRate, ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
+use crate::text::lists;
 use crate::text::number::order_text;
 
 /// The name of its file.
@@ -15,13 +16,11 @@ pub(super) const FILE: &str = "rates.svg";
 
 /// Every judged rate relative to its claim, studies in groups; `None` where no rate was judged.
 pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
-    let mut groups = vec![];
-    for (label, studies) in grouped(project, finished) {
-        let rows: Vec<ForestRow> = studies.iter().filter_map(|study| row(study)).collect();
-        if !rows.is_empty() {
-            groups.push((label.to_owned(), rows));
-        }
-    }
+    let group = |(label, studies): (&str, Vec<&Finished>)| {
+        let rows: Vec<ForestRow> = studies.into_iter().filter_map(row).collect();
+        (!rows.is_empty()).then(|| (label.to_owned(), rows))
+    };
+    let groups: Vec<_> = grouped(project, finished).into_iter().filter_map(group).collect();
     let rates: usize = groups.iter().flat_map(|(_, rows)| rows).map(|row| row.rates.len()).sum();
     if rates == 0 {
         return None;
@@ -36,14 +35,7 @@ pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure>
 
 /// Studies by what they claim, in the project's order of groups; those of no known group last.
 pub(super) fn grouped<'f>(project: &Project, finished: &'f [Finished]) -> Vec<(&'f str, Vec<&'f Finished>)> {
-    let mut groups: Vec<(&str, Vec<&Finished>)> = vec![];
-    for study in finished {
-        let label = study.header.group.as_str();
-        match groups.iter_mut().find(|(known, _)| *known == label) {
-            Some((_, studies)) => studies.push(study),
-            None => groups.push((label, vec![study])),
-        }
-    }
+    let mut groups = lists::grouped(finished.iter().map(|study| (study.header.group.as_str(), study)));
     let place = |label: &str| project.groups.iter().position(|group| *group == label).unwrap_or(usize::MAX);
     groups.sort_by_key(|(label, _)| place(label));
     groups
@@ -60,22 +52,12 @@ const MOST_CLAIMS: usize = 2;
 
 /// The rates that fail, those of one order together: `1.000 to 1.004, claimed 2`; empty where none does.
 fn failed(study: &Finished) -> String {
-    let failed = || study.outcome.rates.iter().map(|(_, rate)| rate).filter(|rate| is_a_failed_rate(rate));
-    let mut orders: Vec<f64> = vec![];
-    for rate in failed() {
-        if !orders.contains(&rate.order) {
-            orders.push(rate.order);
-        }
-    }
-    let one = |order: &f64| {
-        format!("{}, claimed {}", range(failed().filter(|rate| rate.order == *order)), order_text(*order))
-    };
+    let rates = study.outcome.rates.iter().map(|(_, rate)| (rate.order, rate));
+    let orders = lists::grouped(rates.filter(|(_, rate)| rate.verdict == Verdict::Fail && rate.fitted.is_some()));
+    let one =
+        |(order, rates): &(f64, Vec<_>)| format!("{}, claimed {}", range(rates.iter().copied()), order_text(*order));
     let more = if orders.len() > MOST_CLAIMS { "; \u{2026}" } else { "" };
     orders.iter().take(MOST_CLAIMS).map(one).collect::<Vec<_>>().join("; ").replace('-', "\u{2212}") + more
-}
-
-fn is_a_failed_rate(rate: &RateVerdict) -> bool {
-    rate.verdict == Verdict::Fail && rate.fitted.is_some()
 }
 
 /// A rate in units of its tolerance.

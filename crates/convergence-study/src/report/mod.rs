@@ -4,10 +4,8 @@
 //! given, and is not to be committed.
 
 mod changes;
-mod errors;
 mod failures;
 mod forest;
-mod front;
 mod html;
 mod markdown;
 mod page;
@@ -22,10 +20,12 @@ use crate::project::Project;
 use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::file_set::ReportSet;
+use crate::store::json;
 use crate::store::junit::junit;
 use crate::store::provenance::Provenance;
-use crate::store::record::{self, FIGURES, Record};
+use crate::store::record::{FIGURES, Record};
 use crate::study::outcome::Figure;
+use crate::text::lists::distinct;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
@@ -73,7 +73,7 @@ impl Findings<'_> {
         set.add("README.md", self.readme_with(rates.as_ref()))?;
         set.add("index.html", page::page(self, rates.as_ref()))?;
         set.add("summary.md", self.digest())?;
-        set.add("results.json", record::json(record)?)?;
+        set.add("results.json", json(record)?)?;
         set.add("junit.xml", junit(project.name, record).map_err(io::Error::other)?)?;
         set.add("errors.csv", self.errors_csv())?;
         for (file, name) in self.project.front_pictures {
@@ -120,7 +120,7 @@ impl Findings<'_> {
             failures::markdown(self.record, true),
             changes::parts(self, &link).concat()
         );
-        page += &front::front(self, &link).0;
+        page += &section::front(self, &link).0;
         page += &rates.map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         let mut seen = vec![];
@@ -222,17 +222,6 @@ impl Findings<'_> {
         }
         csv
     }
-}
-
-/// Each name once, in the order in which they are first met.
-fn distinct<'n>(names: impl Iterator<Item = &'n String>) -> Vec<&'n String> {
-    let mut distinct: Vec<&String> = vec![];
-    for name in names {
-        if !distinct.contains(&name) {
-            distinct.push(name);
-        }
-    }
-    distinct
 }
 
 /// A field of a CSV line, in quotes where it needs them (RFC 4180).

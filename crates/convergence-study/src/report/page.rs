@@ -5,7 +5,7 @@
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
 use super::{Findings, SeeAlso};
-use super::{changes, failures, forest, front, section};
+use super::{changes, failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::outcome::Figure;
@@ -55,7 +55,7 @@ fn head(findings: &Findings<'_>) -> String {
 fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
     let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
-    let (verified, plot) = front::front(findings, &|id| findings.linked(id, id));
+    let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)
         + &html(&changes, &[])

@@ -1,10 +1,13 @@
-//! The tables of one study, as plain text: the same ones for report and terminal.
+//! The tables of one study, as plain text, the same ones for report and terminal: rates, checks, and the errors of each level, each
+//! with the rate from the level before beside it.
 
-use super::errors;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
-use crate::study::outcome::{Check, Outcome, Table};
-use crate::text::number::{RATE_PLACES, decimals, interval_places, interval_text};
+use crate::study::outcome::{Check, LevelErrors, Outcome, Table};
+use crate::text::lists::distinct;
+use crate::text::number::{
+    RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
+};
 
 /// Title of the table of checks.
 pub(super) const CHECKS: &str = "Checks";
@@ -13,7 +16,7 @@ pub(super) const CHECKS: &str = "Checks";
 ///
 /// * `judged`: leave out errors whose rate was not judged.
 pub fn tables(Finished { outcome, failed_cases, .. }: &Finished, judged: bool) -> Vec<Table> {
-    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors::tables(outcome, judged));
+    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors(outcome, judged));
     let own = outcome.tables.iter().cloned();
     let all = common.chain(own).chain([failures(failed_cases)]);
     all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
@@ -67,4 +70,117 @@ fn checks(checks: &[Check]) -> Table {
 fn failures(failed: &[FailedCase]) -> Table {
     let row = |failed: &FailedCase| [failed.label.clone(), failed.reason.clone()];
     table("Cases without a result", ["case", "reason"], failed.iter().map(row))
+}
+
+/// Widest table in characters, with three for the gap between columns: so much fits on the page, and nearly so in Markdown.
+const WIDEST: usize = 120;
+
+/// The errors of one name on the levels that have them, and the rate from the one before.
+struct Column {
+    /// Name, and the word over the rates where there are any.
+    head: Vec<String>,
+    /// For each level: nothing, or cells as many as heads.
+    cells: Vec<Option<Vec<String>>>,
+}
+
+/// As many tables as it takes for none to be cut: a row for each level, and for each error its rates where it was judged.
+///
+/// * `judged`: only errors whose rate was judged, unless none was.
+fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
+    let levels = &outcome.levels;
+    let mut names = distinct(levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name)));
+    let is_judged = |name: &&String| outcome.rates.iter().any(|(known, _)| known == *name);
+    if judged && names.iter().any(is_judged) {
+        names.retain(is_judged);
+    }
+    let parameters = Parameters::of(levels);
+    let mut tables: Vec<Vec<Column>> = vec![];
+    for name in names {
+        let column = Column::of(outcome, name);
+        match tables.last_mut() {
+            Some(last) if parameters.width() + width(last) + column.width() <= WIDEST && last[0].rows_like(&column) => {
+                last.push(column);
+            }
+            _ => tables.push(vec![column]),
+        }
+    }
+    let title = |k: usize| if k == 0 { "Errors" } else { "Errors, continued" };
+    tables.iter().enumerate().map(|(k, columns)| parameters.table(title(k), columns)).collect()
+}
+
+fn width(columns: &[Column]) -> usize {
+    columns.iter().map(Column::width).sum()
+}
+
+impl Column {
+    fn of(outcome: &Outcome, name: &str) -> Self {
+        let found = |level: &LevelErrors| {
+            let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
+            let has_result = !level.without.iter().any(|known| known == name);
+            Some(has_result.then_some(*error))
+        };
+        let errors: Vec<Option<Option<f64>>> = outcome.levels.iter().map(found).collect();
+        let judged = outcome.rates.iter().find(|(known, _)| known == name);
+        // Rates belong to levels only where each level is one of those judged.
+        let count = errors.iter().flatten().count();
+        let pairwise = judged.map(|(_, rate)| &rate.pairwise).filter(|pairwise| pairwise.len() + 1 == count);
+        let mut met = 0;
+        let cell = |error: &Option<Option<f64>>| {
+            let mut cells = vec![(*error)?.map_or_else(|| "-".to_owned(), error_text)];
+            if let Some(pairwise) = pairwise {
+                let before = usize::checked_sub(met, 1).map(|before| pairwise[before]).filter(|rate| !rate.is_nan());
+                cells.push(before.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3)));
+                met += 1;
+            }
+            Some(cells)
+        };
+        let head = [name].into_iter().chain(pairwise.map(|_| "rate")).map(str::to_owned).collect();
+        Self { head, cells: errors.iter().map(cell).collect() }
+    }
+
+    fn width(&self) -> usize {
+        let widest = |k: usize| {
+            let cells = self.cells.iter().flatten().filter_map(|cells| cells.get(k));
+            cells.chain(self.head.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        (0..self.head.len()).map(|k| widest(k) + 3).sum()
+    }
+
+    /// Whether both have errors on the same levels.
+    fn rows_like(&self, other: &Self) -> bool {
+        self.cells.iter().zip(&other.cells).all(|(a, b)| a.is_some() == b.is_some())
+    }
+}
+
+/// What identifies the levels.
+struct Parameters<'o> {
+    levels: &'o [LevelErrors],
+    names: Vec<&'o String>,
+}
+
+impl<'o> Parameters<'o> {
+    fn of(levels: &'o [LevelErrors]) -> Self {
+        Self { levels, names: distinct(levels.iter().flat_map(|level| level.parameters.iter().map(|(name, _)| name))) }
+    }
+
+    fn width(&self) -> usize {
+        self.names.iter().map(|name| name.chars().count().max(6) + 3).sum()
+    }
+
+    /// The levels on which there are such errors.
+    fn table(&self, title: &str, columns: &[Column]) -> Table {
+        let parameter =
+            |level: &LevelErrors, name: &str| level.parameter(name).map_or_else(|| "-".to_owned(), plain_text);
+        let row = |(k, level): (usize, &LevelErrors)| {
+            let errors: Option<Vec<&Vec<String>>> = columns.iter().map(|column| column.cells[k].as_ref()).collect();
+            let parameters = self.names.iter().map(|name| parameter(level, name));
+            Some(parameters.chain(errors?.into_iter().flatten().cloned()).collect())
+        };
+        let names = self.names.iter().map(|name| (*name).clone());
+        Table {
+            title: title.to_owned(),
+            head: names.chain(columns.iter().flat_map(|column| column.head.clone())).collect(),
+            rows: self.levels.iter().enumerate().filter_map(row).collect(),
+        }
+    }
 }

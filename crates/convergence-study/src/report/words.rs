@@ -6,6 +6,7 @@ use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
 use crate::study::levels;
 use crate::study::outcome::Outcome;
+use crate::text::lists::{self, and_more};
 use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text};
 
 /// Studies that a sentence names.
@@ -28,16 +29,12 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
             let count = |ids: &[&str], what: &str| match ids {
                 [] => None,
                 ids => {
-                    let more = ids.len().saturating_sub(NAMED);
-                    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-                    Some(format!("{} of {n} {what} ({}{more})", ids.len(), ids[..ids.len().min(NAMED)].join(", ")))
+                    let (more, named) = (and_more(ids.len(), NAMED), ids[..ids.len().min(NAMED)].join(", "));
+                    Some(format!("{} of {n} {what} ({named}{more})", ids.len()))
                 }
             };
-            [count(&failed, "fail"), count(&inconclusive, "inconclusive")]
-                .into_iter()
-                .flatten()
-                .collect::<Vec<_>>()
-                .join(", ")
+            let counts = [count(&failed, "fail"), count(&inconclusive, "inconclusive")];
+            counts.into_iter().flatten().collect::<Vec<_>>().join(", ")
         }
     };
     match changes {
@@ -115,23 +112,15 @@ pub fn summary(outcome: &Outcome) -> String {
 
 /// The rates that do not pass, those of one reason and one claim together: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
-    let mut groups: Vec<Vec<&(String, RateVerdict)>> = vec![];
-    for missed in rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass) {
-        let is_alike =
-            |(_, known): &(String, RateVerdict)| known.kind == missed.1.kind && known.claim() == missed.1.claim();
-        match groups.iter_mut().find(|group| is_alike(group[0])) {
-            Some(group) => group.push(missed),
-            None => groups.push(vec![missed]),
-        }
-    }
-    let one = |group: &Vec<&(String, RateVerdict)>| {
-        let (name, rate) = group[0];
-        if group.len() == 1 {
+    let missed = rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
+    let groups = lists::grouped(missed.map(|missed| ((missed.1.kind, missed.1.claim()), missed)));
+    let one = |((kind, claim), group): &((Reason, String), Vec<&(String, RateVerdict)>)| {
+        if let [(name, rate)] = group[..] {
             return format!("{name}: {}", rate.line());
         }
-        let (found, claim, why) = (range(group.iter().map(|(_, rate)| rate)), rate.claim(), rate.kind.brief());
+        let (found, why) = (range(group.iter().map(|(_, rate)| rate)), kind.brief());
         let count = format!("{} of {} rates", group.len(), rates.len());
-        match rate.kind {
+        match kind {
             Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {found}, claimed {claim}"),
             _ => format!("{count}: {found}, claimed {claim}: {why}"),
         }

@@ -127,9 +127,6 @@ pub fn run(
 }
 
 /// The same with a limit on the work of each case: a case that goes past it fails.
-///
-/// # Errors
-/// As [`run`].
 pub fn run_within(
     studies: &[Box<dyn Study>],
     effort: Effort,

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::store::regular::if_there;
 use crate::store::writing;
 use crate::text::visible;
 
@@ -55,17 +56,11 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
 fn probe(path: &Path) -> io::Result<()> {
     let beside = name_beside(path)?;
     fs::write(&beside, "")?;
-    match fs::remove_file(&beside) {
-        // Another process has tidied up.
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-        removed => removed,
-    }
+    // Another process may have tidied up.
+    if_there(fs::remove_file(&beside)).map(drop)
 }
 
 /// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.
-///
-/// # Errors
-/// That of the operating system.
 pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
         return Ok(());
@@ -78,11 +73,8 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
             .and_then(|number| number.split_once('-'))
             .is_some_and(|(process, count)| digits(process) && digits(count))
     };
-    let entries = match fs::read_dir(folder) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        entries => entries.map_err(|error| naming(folder, &error))?,
-    };
-    for entry in entries {
+    let entries = if_there(fs::read_dir(folder)).map_err(|error| naming(folder, &error))?;
+    for entry in entries.into_iter().flatten() {
         let entry = entry.map_err(|error| naming(folder, &error))?;
         if entry.file_name().to_str().is_some_and(is_leftover) {
             fs::remove_file(entry.path()).map_err(|error| naming(&entry.path(), &error))?;

@@ -20,10 +20,8 @@
 //! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
 
 mod change;
-mod claims;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -31,13 +29,12 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::{StoreError, atomic, regular};
+use crate::store::{StoreError, read_if_there, write_json};
 use crate::study::Header;
 use crate::text::{json, visible};
 
-pub use change::{Change, Movement};
-pub use claims::BlessedClaim;
-use claims::Claims;
+use change::Claims;
+pub use change::{BlessedClaim, Change, Movement};
 
 /// Version of the file's form.
 const SCHEMA: u32 = 2;
@@ -121,22 +118,13 @@ impl Baseline {
     /// # Errors
     /// [`StoreError`] where there is a file that is not a baseline.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let text = match regular::read_to_string(path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(error) => return Err(StoreError::File { path: path.to_owned(), error }),
-            Ok(text) => text,
-        };
-        crate::store::parsed(&text, path, SCHEMA, ["restore it, or remove it and run `verify --bless`", EXPECTED])
+        let expected = ["restore it, or remove it and run `verify --bless`", EXPECTED];
+        Ok(read_if_there(path, Some(SCHEMA), expected)?.unwrap_or_default())
     }
 
     /// Writes the file, as a whole or not at all.
-    ///
-    /// # Errors
-    /// [`StoreError::File`].
     pub fn write(&self, path: &Path) -> Result<(), StoreError> {
-        let text = serde_json::to_string_pretty(self).map_err(io::Error::from);
-        text.and_then(|text| atomic::write(path, text + "\n"))
-            .map_err(|error| StoreError::File { path: path.to_owned(), error })
+        write_json(path, self)
     }
 
     /// Every guarded number of these studies that is not what it was, and every claim: moved, changed, new or vanished.
@@ -150,22 +138,22 @@ impl Baseline {
         for Finished { header, outcome, .. } in finished {
             changes.extend(self.changed_claims(header));
             let expected = self.studies.get(&header.id).unwrap_or(&none);
-            changes.extend(change::between(&header.id, expected, &outcome.quantities));
+            changes.extend(change::of_numbers(&header.id, expected, &outcome.quantities));
         }
         let others = known.unwrap_or_default().iter().filter(|header| find(finished, &header.id).is_none());
         changes.extend(others.flat_map(|header| self.changed_claims(header)));
         for id in self.vanished(known) {
-            match self.claims.get(&id).and_then(|claims| claims::vanished(&id, claims)) {
+            match self.claims.get(&id).and_then(|claims| change::vanished(&id, claims)) {
                 // That its numbers are gone is said by this.
                 Some(deleted) => changes.push(deleted),
-                None => changes.extend(change::between(&id, self.studies.get(&id).unwrap_or(&none), &[])),
+                None => changes.extend(change::of_numbers(&id, self.studies.get(&id).unwrap_or(&none), &[])),
             }
         }
         changes
     }
 
     fn changed_claims(&self, header: &Header) -> Vec<Change> {
-        claims::changes(header, self.claims.get(&header.id), self.guards(&header.id))
+        change::of_claims(header, self.claims.get(&header.id), self.guards(&header.id))
     }
 
     /// The ids of studies that the baseline has and that there are no more.
@@ -228,7 +216,7 @@ impl Baseline {
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
                 // What stays is the reason.
-                let withdrawn = (claims::ID.to_owned(), BlessedClaim { value: None, reason });
+                let withdrawn = (change::ID.to_owned(), BlessedClaim { value: None, reason });
                 claims.insert(study.clone(), [withdrawn].into());
             }
             (_, None) => return Err(Refusal::NotRun { study: study.clone() }),

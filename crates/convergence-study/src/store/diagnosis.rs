@@ -13,6 +13,7 @@ use crate::store::baseline::{Change, Movement};
 use crate::study::levels::COMPLETION;
 use crate::study::settings::field;
 use crate::text::json;
+use crate::text::lists::{and_more, grouped};
 use crate::text::number::short_text;
 use contrast::{Vote, contrast};
 
@@ -188,14 +189,10 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
 
 /// The claims of failing checks without the case that stands before a colon, the commonest first.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
-    let mut claims: Vec<(String, usize)> = vec![];
-    for check in failing.iter().flat_map(|study| &study.outcome.checks).filter(|check| !check.verdict.is_pass()) {
-        let claim = check.claim.rsplit_once(": ").map_or(check.claim.as_str(), |(_, rest)| rest);
-        match claims.iter_mut().find(|(known, _)| known == claim) {
-            Some((_, count)) => *count += 1,
-            None => claims.push((claim.to_owned(), 1)),
-        }
-    }
+    let checks = failing.iter().flat_map(|study| &study.outcome.checks).filter(|check| !check.verdict.is_pass());
+    let claims = checks.map(|check| check.claim.rsplit_once(": ").map_or(check.claim.as_str(), |(_, rest)| rest));
+    let claims = grouped(claims.map(|claim| (claim, ()))).into_iter();
+    let mut claims: Vec<(String, usize)> = claims.map(|(claim, count)| (claim.to_owned(), count.len())).collect();
     claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     claims.truncate(2 * NAMED);
     claims
@@ -215,9 +212,9 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
 
 /// Moved numbers of studies that pass: those of the same field that changed by the same factor have one cause.
 fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
-    let mut groups: Vec<(String, usize, Vec<&str>)> = vec![];
-    for study in finished.iter().filter(|study| study.outcome.verdict == Verdict::Pass) {
-        for (name, movement) in numbers(changes, &study.header.id) {
+    let passing = finished.iter().filter(|study| study.outcome.verdict == Verdict::Pass);
+    let moved = passing.flat_map(|Finished { header, .. }| {
+        numbers(changes, &header.id).map(|(name, movement)| {
             let how = match movement {
                 Movement::Moved { from, to, .. } => {
                     let change = 100.0 * (to - from) / from.abs();
@@ -226,19 +223,15 @@ fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
                 Movement::Vanished { .. } => "gone".to_owned(),
                 _ => "another tolerance".to_owned(),
             };
-            let group = format!("{} {how}", field(name));
-            let found = groups.iter().position(|(known, ..)| *known == group).unwrap_or(groups.len());
-            if found == groups.len() {
-                groups.push((group, 0, vec![]));
-            }
-            groups[found].1 += 1;
-            groups[found].2.push(&study.header.id);
-        }
-    }
-    groups.sort_by_key(|(_, count, _)| std::cmp::Reverse(*count));
-    let line = |(group, count, mut studies): (String, usize, Vec<&str>)| {
+            (format!("{} {how}", field(name)), header.id.as_str())
+        })
+    });
+    let mut groups = grouped(moved);
+    groups.sort_by_key(|(_, studies)| std::cmp::Reverse(studies.len()));
+    let line = |(group, mut studies): (String, Vec<&str>)| {
+        let count = studies.len();
         studies.dedup();
-        let more = if studies.len() > 2 { format!(" and {} more", studies.len() - 2) } else { String::new() };
+        let more = and_more(studies.len(), 2);
         studies.truncate(2);
         format!("{group}: {count} of {}{more}", studies.join(", "))
     };

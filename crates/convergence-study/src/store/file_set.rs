@@ -13,7 +13,8 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::store::{atomic, regular, writing};
+use crate::store::regular::{self, if_there};
+use crate::store::{atomic, writing};
 use crate::text::visible;
 
 /// The file that lists all files of the set, one a line.
@@ -73,9 +74,6 @@ pub struct ReportFolder {
 }
 
 /// Waits until no other process is writing reports, and keeps others waiting until the file is dropped.
-///
-/// # Errors
-/// That of the operating system.
 pub fn lock(path: &Path) -> io::Result<File> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     let file = regular::open(path, File::options().create(true).append(true))?;
@@ -122,12 +120,11 @@ impl ReportFolder {
     fn complete_interrupted(&self) -> io::Result<()> {
         let pending = self.pending();
         // The manifest is moved last: without it only the empty folder is left.
-        if let Some(manifest) = read_if_there(&pending.join(MANIFEST))? {
+        if let Some(manifest) = if_there(regular::read_to_string(&pending.join(MANIFEST)))? {
             if let Some(path) = manifest.lines().find(|path| !stays_inside(path) || *path == MANIFEST) {
                 return Err(leads_out(&pending, path));
             }
-            let former = read_if_there(&self.folder.join(MANIFEST))?.unwrap_or_default();
-            self.keep(manifest.lines().filter(|path| pending.join(path).exists()));
+            let former = if_there(regular::read_to_string(&self.folder.join(MANIFEST)))?.unwrap_or_default();
             for path in manifest.lines() {
                 move_if_there(&pending.join(path), &self.folder.join(path))?;
             }
@@ -135,32 +132,12 @@ impl ReportFolder {
             stale.map(|path| self.folder.join(path)).try_for_each(|path| self.remove_stale(&path))?;
             move_if_there(&pending.join(MANIFEST), &self.folder.join(MANIFEST))?;
         }
-        remove_if_there(&pending)?;
-        remove_if_there(&self.kept())
-    }
-
-    /// Links the files that are replaced into the workshop, so that they are freed after all moves: freeing a file takes longer
-    /// than moving one, and the time in which old and new files lie side by side should be short.
-    fn keep<'p>(&self, paths: impl Iterator<Item = &'p str>) {
-        let kept = self.kept();
-        // Without the links the moves take longer, nothing else.
-        if fs::create_dir_all(&kept).is_ok() {
-            for (k, path) in paths.enumerate() {
-                let _ = fs::hard_link(self.folder.join(path), kept.join(k.to_string()));
-            }
-        }
-    }
-
-    fn kept(&self) -> PathBuf {
-        self.workshop.join("kept")
+        remove_if_there(&pending)
     }
 
     /// Removes a file of a former set, and the folder that becomes empty with it.
     fn remove_stale(&self, path: &Path) -> io::Result<()> {
-        match fs::remove_file(path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+        if_there(fs::remove_file(path))?;
         if let Some(folder) = path.parent().filter(|folder| *folder != self.folder) {
             // It fails where the folder is not empty; then the folder stays.
             let _ = fs::remove_dir(folder);
@@ -188,10 +165,6 @@ fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     atomic::write_through(path, bytes)
 }
 
-fn read_if_there(path: &Path) -> io::Result<Option<String>> {
-    if_there(regular::read_to_string(path))
-}
-
 fn move_if_there(from: &Path, to: &Path) -> io::Result<()> {
     if !from.exists() {
         return Ok(());
@@ -202,11 +175,4 @@ fn move_if_there(from: &Path, to: &Path) -> io::Result<()> {
 
 fn remove_if_there(folder: &Path) -> io::Result<()> {
     if_there(fs::remove_dir_all(folder)).map(|_| ())
-}
-
-fn if_there<T>(result: io::Result<T>) -> io::Result<Option<T>> {
-    match result {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        other => other.map(Some),
-    }
 }

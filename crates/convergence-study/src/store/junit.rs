@@ -14,9 +14,6 @@ use crate::store::record::Record;
 /// The document, for a project of that name.
 ///
 /// What moved away from the baseline is a suite of its own, where there was one to compare with.
-///
-/// # Errors
-/// What `quick-junit` cannot write.
 pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
     report.add_test_suites(record.studies.iter().map(suite));
@@ -29,9 +26,6 @@ pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
 pub type Judged = (String, Verdict, String);
 
 /// A document with one suite.
-///
-/// # Errors
-/// What `quick-junit` cannot write.
 pub fn junit_of(name: &str, suite: &str, judged: &[Judged]) -> Result<String, SerializeError> {
     let mut cases = TestSuite::new(suite);
     cases.add_test_cases(judged.iter().map(|(name, verdict, reason)| case(suite, name, *verdict, reason)));

@@ -14,12 +14,13 @@ pub mod writing;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::judge::random::SplitMix;
 use crate::text::visible;
+use regular::if_there;
 
 /// A file of the harness that cannot be read or written.
 #[derive(Debug, Error)]
@@ -54,44 +55,50 @@ pub enum StoreError {
     },
 }
 
-/// What a file holds in the form of a schema. Another schema has other keys, so the number is read first.
+/// What a file holds. Another schema has other keys, so the number is read first.
 ///
+/// * `schema`: its version, where it has one.
 /// * `expected`: what to do about a file of another form, and about another schema.
 pub(crate) fn parsed<T: DeserializeOwned>(
     text: &str,
     path: &Path,
-    schema: u32,
+    schema: Option<u32>,
     expected: [&'static str; 2],
 ) -> Result<T, StoreError> {
     #[derive(Deserialize)]
     struct Version {
         schema: u32,
     }
-    let path = path.to_owned();
-    match serde_json::from_str(text) {
-        Ok(Version { schema: found }) if found != schema => {
-            Err(StoreError::Schema { path, found, expected: expected[1] })
+    let malformed = |error| StoreError::Malformed { path: path.to_owned(), error, expected: expected[0] };
+    if let Some(schema) = schema {
+        let Version { schema: found } = serde_json::from_str(text).map_err(malformed)?;
+        if found != schema {
+            return Err(StoreError::Schema { path: path.to_owned(), found, expected: expected[1] });
         }
-        Ok(_) => {
-            serde_json::from_str(text).map_err(|error| StoreError::Malformed { path, error, expected: expected[0] })
-        }
-        Err(error) => Err(StoreError::Malformed { path, error, expected: expected[0] }),
     }
+    serde_json::from_str(text).map_err(malformed)
 }
 
-/// What a JSON file holds; nothing where it is not there.
-///
-/// * `expected`: what to do about a file that cannot be parsed.
-pub(crate) fn read_if_there<T: DeserializeOwned + Default>(
+/// The same for a file; nothing where it is not there.
+pub(crate) fn read_if_there<T: DeserializeOwned>(
     path: &Path,
-    expected: &'static str,
-) -> Result<T, StoreError> {
-    let path = path.to_owned();
-    match regular::read_to_string(&path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(T::default()),
-        Err(error) => Err(StoreError::File { path, error }),
-        Ok(text) => serde_json::from_str(&text).map_err(|error| StoreError::Malformed { path, error, expected }),
-    }
+    schema: Option<u32>,
+    expected: [&'static str; 2],
+) -> Result<Option<T>, StoreError> {
+    let text = if_there(regular::read_to_string(path));
+    let text = text.map_err(|error| StoreError::File { path: path.to_owned(), error })?;
+    text.map(|text| parsed(&text, path, schema, expected)).transpose()
+}
+
+/// An object as JSON text with a line end, as it stands in files; a number that is not finite becomes `null`, for JSON has none.
+pub fn json(object: &impl Serialize) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(object)? + "\n")
+}
+
+/// Writes an object to a file, as a whole or not at all.
+pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> Result<(), StoreError> {
+    let written = json(object).and_then(|text| atomic::write(path, text));
+    written.map_err(|error| StoreError::File { path: path.to_owned(), error })
 }
 
 /// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.

@@ -1,7 +1,6 @@
 //! Where a record comes from: machine, tools, revision and times. All that varies between two runs is here.
 
 use std::fs;
-use std::io;
 use std::path::Path;
 use std::process::Command;
 use std::thread;
@@ -12,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::record::SCHEMA;
-use crate::store::regular;
+use crate::store::{StoreError, read_if_there};
 
 /// Origin of a run. What cannot be found out is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,22 +87,12 @@ impl Provenance {
             studies: finished.iter().map(time).collect(),
         }
     }
-}
 
-impl Provenance {
     /// Reads the origin of a run; `None` where there is no file.
-    ///
-    /// # Errors
-    /// That of the operating system, and a file of another form; neither names the file.
-    pub fn read(path: &Path) -> io::Result<Option<Self>> {
-        if path.symlink_metadata().is_err() {
-            return Ok(None);
-        }
-        Ok(Some(serde_json::from_str(&regular::read_to_string(path)?)?))
+    pub fn read(path: &Path) -> Result<Option<Self>, StoreError> {
+        read_if_there(path, None, ["remove it: `verify` writes it anew"; 2])
     }
-}
 
-impl Provenance {
     /// Commit, date, machine and tools in a sentence each, as far as they are known.
     pub fn sentences(&self) -> Vec<String> {
         let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };

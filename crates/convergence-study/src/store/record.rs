@@ -54,21 +54,15 @@ pub struct Record {
 }
 
 impl Record {
-    /// Reads a record that [`json`] has written; its figures have no pictures.
-    ///
-    /// # Errors
-    /// [`StoreError`].
+    /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
         let text = regular::read_to_string(path);
         Self::parse(&text.map_err(|error| StoreError::File { path: path.to_owned(), error })?, path)
     }
 
     /// The same from its text.
-    ///
-    /// # Errors
-    /// [`StoreError`], naming `path`.
     pub fn parse(text: &str, path: &Path) -> Result<Self, StoreError> {
-        parsed(text, path, SCHEMA, [EXPECTED, "1"])
+        parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])
     }
 
     /// The record of a run.
@@ -118,12 +112,4 @@ fn round(rate: &mut RateVerdict) {
     rate.constant = rate.constant.map(committed);
     rate.interval = rate.interval.map(|ends| ends.map(committed_rate));
     rate.extrapolated = rate.extrapolated.map(committed_rate);
-}
-
-/// A record as JSON text with a line end, as it stands in a file.
-///
-/// # Errors
-/// What `serde_json` refuses, which is nothing of this module.
-pub fn json(record: &impl Serialize) -> serde_json::Result<String> {
-    serde_json::to_string_pretty(record).map(|text| text + "\n")
 }

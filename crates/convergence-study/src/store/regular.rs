@@ -14,22 +14,22 @@ pub fn read_to_string(path: &Path) -> io::Result<String> {
 }
 
 /// The bytes of a regular file.
-///
-/// # Errors
-/// As [`read_to_string`].
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     check(path)?;
     fs::read(path)
 }
 
 /// Opens a regular file; one that is missing is made where `options` say so.
-///
-/// # Errors
-/// As [`read_to_string`].
 pub(crate) fn open(path: &Path, options: &OpenOptions) -> io::Result<File> {
-    match check(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => options.open(path),
+    if_there(check(path))?;
+    options.open(path)
+}
+
+/// Nothing where the file is not there.
+pub(crate) fn if_there<T>(result: io::Result<T>) -> io::Result<Option<T>> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        other => other.map(Some),
     }
 }
 

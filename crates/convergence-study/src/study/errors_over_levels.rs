@@ -1,9 +1,8 @@
 //! A ready-made kind of study: errors over levels of refinement, computed by a function.
 
 use super::axis::Axis;
-use super::case::{Case, CaseFailure, Ran};
 use super::header::Header;
-use super::kind::Kind;
+use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::levels::{self, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
@@ -18,9 +17,6 @@ pub const STEPS: [&str; 2] = ["h", "dt"];
 /// [`Result`] of it.
 pub trait IntoErrors {
     /// The errors by name.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] where the computation did not complete.
     fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
 }
 

@@ -1,10 +1,59 @@
-//! A kind of study: typed for who writes one, erased for the runner.
+//! A kind of study: typed for who writes one, erased for the runner; its computations, and the result of each or the reason why there is none.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::case::{Case, CaseFailure, Ran};
 use super::header::Header;
 use super::outcome::Outcome;
+use crate::text::lists::{and_more, grouped};
+
+/// One computation of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case<D> {
+    /// What distinguishes it from the study's other cases, such as `n = 64, 20 steps`.
+    pub label: String,
+    /// Estimate of the work, in any unit that all studies of a project share: the runner starts with the costliest case.
+    pub cost: f64,
+    /// What the computation needs to know.
+    pub data: D,
+}
+
+/// A case after it was run: its data, and what it found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ran<D, F> {
+    /// The case.
+    pub case: Case<D>,
+    /// Its result.
+    pub found: Result<F, CaseFailure>,
+}
+
+impl<D, F> Ran<D, F> {
+    /// What the case found, if it completed.
+    pub fn ok(&self) -> Option<&F> {
+        self.found.as_ref().ok()
+    }
+}
+
+/// Why a case has no result: an error of the computation, a panic caught by the runner, or the time limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseFailure {
+    /// In words, with step, time and numbers.
+    pub reason: String,
+}
+
+impl<E: std::error::Error> From<E> for CaseFailure {
+    fn from(error: E) -> Self {
+        Self { reason: error.to_string() }
+    }
+}
+
+/// Cases without a result in words, `label: reason`; those with the same reason on one line, which counts them.
+///
+/// * `failed`: label and reason of each.
+pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
+    let reasons = grouped(failed.into_iter().map(|(label, reason)| (reason, label)));
+    let line = |(reason, labels): (&str, Vec<&str>)| format!("{}{}: {reason}", labels[0], and_more(labels.len(), 1));
+    reasons.into_iter().map(line).collect()
+}
 
 /// A study of one kind, read and validated: its cases, how one is computed, how all are judged.
 ///
@@ -30,9 +79,6 @@ pub trait Kind: Send + Sync {
     }
 
     /// Computes one case: the same result on every thread, at every time.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] where the computation did not complete.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
     /// Why a result counts as a failed case although a part of it is kept: a number that was asked for is missing. `None` for a whole one.
@@ -210,5 +256,17 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
     fn judge(&self) -> Outcome {
         self.kind.judge(&self.ran())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::by_reason;
+
+    #[test]
+    fn a_reason_is_told_once_and_its_cases_are_counted() {
+        let told = by_reason([("a", "lost"), ("b", "NaN"), ("c", "lost"), ("d", "lost")]);
+        assert_eq!(told, ["a and 2 more: lost", "b: NaN"]);
+        assert!(by_reason([]).is_empty());
     }
 }

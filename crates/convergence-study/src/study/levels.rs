@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::axis::Axis;
-use super::case::{Ran, by_reason};
+use super::kind::{Ran, by_reason};
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
@@ -13,6 +13,7 @@ use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots::{self, Convergence, ErrorSeries};
+use crate::text::lists::distinct;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
 
 /// What a caption says of the lines.
@@ -44,12 +45,8 @@ impl ErrorColumn {
     ///
     /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
-        let mut names: Vec<&str> = claims.iter().map(|(name, _)| name.as_ref()).collect();
-        for (name, _) in found.iter().copied().flatten().flatten() {
-            if !names.contains(&name.as_ref()) {
-                names.push(name.as_ref());
-            }
-        }
+        let found_names = found.iter().copied().flatten().flatten().map(|(name, _)| name.as_ref());
+        let names = distinct(claims.iter().map(|(name, _)| name.as_ref()).chain(found_names));
         let error = |errors: &Option<&[(M, f64)]>, name: &str| {
             let named = errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
             named.map(|(_, error)| *error)
@@ -323,7 +320,7 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::case::{Case, CaseFailure};
+    use crate::study::{Case, CaseFailure};
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {

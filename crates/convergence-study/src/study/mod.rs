@@ -5,33 +5,25 @@
 //! guards. The runner knows threads, the report knows Markdown, a study knows neither.
 
 mod axis;
-pub mod case;
-#[cfg(feature = "files")]
-mod claim;
 mod errors_over_levels;
 #[cfg(feature = "files")]
-mod from_file;
+mod file;
 pub mod grid;
 pub mod header;
 pub mod kind;
 pub mod levels;
 pub mod outcome;
 pub mod readings;
-#[cfg(feature = "files")]
-mod registry;
 pub mod settings;
 pub mod soundness;
 pub mod until_decided;
 
 pub use axis::Axis;
-pub use case::{Case, CaseFailure, Ran};
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
-pub use from_file::FromFile;
+pub use file::{FromFile, KindRow, Kinds, Reader, StudyFile, reader};
 pub use header::{Header, Tier};
-pub use kind::{Kind, Plan, Study, Untested, erased, run_cases_here};
+pub use kind::{Case, CaseFailure, Kind, Plan, Ran, Study, Untested, erased, run_cases_here};
 pub use levels::{Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 pub use readings::Reading;
-#[cfg(feature = "files")]
-pub use registry::{KindRow, Kinds, Reader, StudyFile, reader};

@@ -1,6 +1,7 @@
 //! Numbers that a case finds, each declared once: shown in tables, looked through for NaN, guarded by the baseline.
 
 use super::outcome::{Quantity, Table};
+use crate::text::lists::distinct;
 
 /// A number that a case finds.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,12 +69,8 @@ pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quant
 ///
 /// * `rows`: the cells of a row that are no readings, and its readings.
 pub fn table(title: impl Into<String>, first: &[&str], rows: &[(Vec<String>, Vec<Reading>)]) -> Table {
-    let mut names: Vec<&str> = vec![];
-    for reading in rows.iter().flat_map(|(_, readings)| readings).filter(|reading| reading.text.is_some()) {
-        if !names.contains(&reading.name.as_str()) {
-            names.push(&reading.name);
-        }
-    }
+    let shown = rows.iter().flat_map(|(_, readings)| readings).filter(|reading| reading.text.is_some());
+    let names = distinct(shown.map(|reading| reading.name.as_str()));
     let cell = |readings: &[Reading], name: &str| {
         let text = readings.iter().find(|reading| reading.name == name).and_then(|reading| reading.text.clone());
         text.unwrap_or_else(|| "-".to_owned())

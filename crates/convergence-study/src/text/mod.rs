@@ -3,6 +3,7 @@
 #[cfg(feature = "reports")]
 pub(crate) mod columns;
 pub(crate) mod json;
+pub mod lists;
 #[cfg(feature = "files")]
 pub mod names;
 pub mod number;

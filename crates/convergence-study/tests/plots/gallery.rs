@@ -15,7 +15,7 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
         ("history-log", history(&balance_history())),
         ("space-time", space_time(&wave(400, 200))),
         ("iterations", iterations(&iteration_counts())),
-        ("parameter-map", parameter_map(&stability_map())),
+        ("parameter-map", surface(&stability_map())),
         ("work-precision", work_precision(&costs())),
         ("forest", forest(&all_rates())),
         ("hostile", history(&hostile())),

@@ -110,7 +110,6 @@ fn figures_without_data_do_not_panic() {
         history(&History::default()),
         space_time(&SpaceTime::default()),
         iterations(&History::default()),
-        parameter_map(&Surface::default()),
         work_precision(&History::default()),
     ];
     empty.iter().for_each(|svg| drop(parse(svg)));
@@ -136,7 +135,7 @@ fn figures_of_extreme_data_do_not_panic() {
             let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
             let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
             parse(&surface(&cells));
-            parse(&parameter_map(&Surface { marked: vec![vec![true]], boundaries: series, ..cells }));
+            parse(&surface(&Surface { marked: vec![vec![true]], boundaries: series, ..cells }));
             let frames = vec![vec![x, y], vec![y, 1.0]];
             let (times, nodes) = (vec![x, y], vec![y, x]);
             parse(&space_time(&SpaceTime { times, nodes, frames, ..Default::default() }));
@@ -145,31 +144,26 @@ fn figures_of_extreme_data_do_not_panic() {
 }
 
 #[test]
-fn iso_lines_leave_a_gap_around_their_labels() {
-    let svg = surface(&gallery::error_surface());
-    let doc = parse(&svg);
-    let pair = |p: &str| p.split_once(',').map(|(x, y)| [x, y].map(|v| v.parse::<f64>().expect("a number")));
-    let lines = elements(&doc, "polyline").filter(|n| n.attribute("stroke-width") == Some("14"));
-    let ends: Vec<[f64; 2]> = lines
-        .flat_map(|n| n.attribute("points").unwrap().split_whitespace().filter_map(pair).collect::<Vec<_>>())
-        .collect();
-    let extent = |k: usize| {
-        let values = || ends.iter().map(|end| end[k]);
-        [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)]
+fn a_cell_with_room_for_its_value_has_it_written_in_it() {
+    let figure = gallery::error_surface();
+    let written = |figure: &Surface| {
+        let svg = surface(figure);
+        let expected = figure.values.iter().flatten().map(|value| format!("{value:.1e}"));
+        let (texts, doc) = (texts(&svg), parse(&svg));
+        let edges: Vec<f64> =
+            doc.root_element().attribute("data-plot").unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
+        for text in elements(&doc, "text").filter(|n| n.text().is_some_and(|text| text.contains("e-"))) {
+            let [left, top, right, bottom] = bounds(text);
+            assert!(edges[0] < left && edges[1] < top && right < edges[2] && bottom < edges[3], "{:?}", text.text());
+        }
+        expected.filter(|value| texts.contains(value)).count()
     };
-    let [[left, right], [top, bottom]] = [extent(0), extent(1)];
-    let is_label = |n: &Node<'_, '_>| {
-        let (x, y) = (number(*n, "x"), number(*n, "y"));
-        left < x && x < right && top < y && y < bottom
-    };
-    let labels: Vec<[f64; 4]> = elements(&doc, "text").filter(is_label).map(bounds).collect();
-    assert!(labels.len() >= 2, "{labels:?}");
-    for [left, top, right, bottom] in labels {
-        let near = |[x, y]: &&[f64; 2]| {
-            left - 8.0 * UNITS < *x && *x < right + 8.0 * UNITS && top - 5.0 * UNITS < *y && *y < bottom + 5.0 * UNITS
-        };
-        assert_eq!(ends.iter().find(near), None, "at the label {left} {top} {right} {bottom}");
-    }
+    assert_eq!(written(&figure), figure.values.iter().flatten().count());
+    let mut missing = figure.clone();
+    missing.values[0][0] = f64::NAN;
+    assert_eq!(written(&missing), figure.values.iter().flatten().count() - 1);
+    // In narrower cells the colours alone say it.
+    assert_eq!(written(&gallery::stability_map()), 0);
 }
 
 #[test]
@@ -222,7 +216,7 @@ fn labels_are_all_there() {
     for label in ["energy norm, order 1, rate 1.002", "mesh width h", "10⁻³", "1", "2"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
-    assert!(texts(&parameter_map(&gallery::stability_map())).contains(&"diverged".to_owned()));
+    assert!(texts(&surface(&gallery::stability_map())).contains(&"diverged".to_owned()));
 }
 
 #[test]
@@ -241,9 +235,9 @@ fn series_differ_without_colour() {
 #[test]
 fn a_missing_cell_is_noted_unless_it_is_marked() {
     let mut map = gallery::stability_map();
-    assert!(!texts(&parameter_map(&map)).iter().any(|t| t.contains("not drawn")));
+    assert!(!texts(&surface(&map)).iter().any(|t| t.contains("not drawn")));
     map.marked.clear();
-    assert!(texts(&parameter_map(&map)).iter().any(|t| t.contains("non-finite points not drawn")));
+    assert!(texts(&surface(&map)).iter().any(|t| t.contains("non-finite points not drawn")));
 }
 
 #[test]

@@ -3,7 +3,8 @@ use std::path::Path;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::Findings;
 use convergence_study::store::baseline::Baseline;
-use convergence_study::store::record::{Record, json};
+use convergence_study::store::json;
+use convergence_study::store::record::Record;
 use convergence_study::study::erased;
 use serde_json::Value;
 

@@ -2,11 +2,10 @@
 
 use convergence_study::plots::Scale;
 use convergence_study::plots::canvas::{Anchor, Canvas, Layer, Pen, grid};
-use convergence_study::plots::heat::hatch;
 use convergence_study::plots::look::look;
-use convergence_study::plots::marker::tick;
 use convergence_study::plots::rect::{Point, Rect};
 use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
+use convergence_study::plots::sheet::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 use std::fmt::Write;
 
@@ -95,14 +94,14 @@ impl Stage {
 
     fn draw_scenery(&self, pen: &Pen<'_>, figure: &Animation) {
         if let Some(title) = &figure.title {
-            let title = convergence_study::plots::legend::elide(title, TITLE_SIZE, style::WIDTH - 32.0);
+            let title = elide(title, TITLE_SIZE, style::WIDTH - 32.0);
             pen.text(&title, (0.5 * style::WIDTH, 28.0), TITLE_SIZE, Anchor::Center, style::INK);
         }
         let rest = self.u.px(0.0).unwrap_or(PLOT.bottom);
         pen.line(&[(PLOT.left, rest), (PLOT.right, rest)], style::GRID, 1.4);
         let wall = Rect { left: PLOT.left - 18.0, right: PLOT.left, ..PLOT };
         pen.rect(wall, style::MINOR_GRID);
-        hatch(pen, wall);
+        pen.hatch(wall);
         pen.line(&[(wall.right, wall.top), (wall.right, wall.bottom)], style::INK, 2.0);
         self.draw_displacement_axis(pen);
         self.draw_obstacles(pen, figure);
@@ -114,7 +113,7 @@ impl Stage {
         let edge = PLOT.left - 18.0;
         for t in &ticks.major {
             let y = self.u.px_of(t.at);
-            tick(pen, (edge - 6.0, y), (edge, y));
+            pen.tick((edge - 6.0, y), (edge, y));
             pen.text(&t.label, (edge - 10.0, y), TICK_SIZE, Anchor::Right, style::INK);
         }
         let power = match ticks.exponent {
@@ -132,7 +131,7 @@ impl Stage {
             let Some(near) = self.u.px(g) else { continue };
             let block = Rect { left, right, top: near.min(far), bottom: near.max(far) };
             pen.rect(block, style::SHADE);
-            hatch(pen, block);
+            pen.hatch(block);
             pen.line(&[(left, near), (right, near)], style::INK, 2.4);
             pen.text(name, (right + 10.0, near), LABEL_SIZE, Anchor::Left, style::INK);
         }
@@ -142,7 +141,7 @@ impl Stage {
         pen.line(&[(PLOT.left, TIME_BAR), (PLOT.right, TIME_BAR)], style::INK, style::THIN);
         for t in &self.t.ticks(6).major {
             let x = self.t.px_of(t.at);
-            tick(pen, (x, TIME_BAR), (x, TIME_BAR + 7.0));
+            pen.tick((x, TIME_BAR), (x, TIME_BAR + 7.0));
             pen.text(&t.label, (x, TIME_BAR + 22.0), TICK_SIZE, Anchor::Center, style::INK);
         }
         let at = (PLOT.centre().0, TIME_BAR + 47.0);

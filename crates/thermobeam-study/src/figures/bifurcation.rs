@@ -1,11 +1,10 @@
 //! Equilibria over a parameter.
 
-use convergence_study::plots::legend::{Entry, Swatch};
-use convergence_study::plots::look::{Look, look};
-use convergence_study::plots::marker::{Marker, Marks};
+use convergence_study::plots::look::{Look, Marker, Marks, look};
 use convergence_study::plots::style::{self, Dash};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{Axis, Guide, Series};
+use convergence_study::text::lists::distinct;
 
 /// A family of equilibria, all stable or all unstable.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,12 +19,7 @@ pub struct Branch {
 
 /// Draws tip displacements of equilibria over β, and those in which simulations ended as open markers.
 pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) -> String {
-    let mut labels: Vec<&str> = Vec::new();
-    for branch in branches {
-        if !labels.contains(&branch.label.as_str()) {
-            labels.push(&branch.label);
-        }
-    }
+    let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
     let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
     let mut curves: Vec<Curve> = branches.iter().map(|b| curve(b, look(family(b)))).collect();
     let ends_look = Look { colour: style::INK, ..look(labels.len()) };
@@ -40,7 +34,6 @@ pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) ->
         y: Axis::linear("tip displacement u(1) (dimensionless)"),
         curves,
         guides: obstacles,
-        legend: entries(&labels, branches),
         ..Xy::default()
     }
     .draw()
@@ -53,40 +46,8 @@ fn curve(branch: &Branch, look: Look) -> Curve {
         (_, true) => Marks::Filled,
         (_, false) => Marks::Open,
     };
-    let dash = dash(branch.stable);
-    let look = Look { dash, marker: Marker::Circle, ..look };
-    Curve {
-        name: entry_label(&branch.label, branch.stable),
-        noted_as: None,
-        is_listed: false,
-        points: branch.points.clone(),
-        look,
-        width: 2.6,
-        marks,
-        is_data: true,
-    }
-}
-
-fn dash(stable: bool) -> Dash {
-    if stable { Dash::Solid } else { Dash::Short }
-}
-
-fn entry_label(label: &str, stable: bool) -> String {
-    format!("{label}, {}", if stable { "stable" } else { "unstable" })
-}
-
-/// Colour says which contact state, dashes say whether it is stable.
-fn entries(labels: &[&str], branches: &[Branch]) -> Vec<Entry> {
-    let line =
-        |look: Look, label: String| Entry { swatch: Swatch::Line { look, width: 2.6, marks: Marks::None }, label };
-    let mut entries = Vec::new();
-    for (k, label) in labels.iter().enumerate() {
-        for stable in [true, false] {
-            if branches.iter().any(|b| b.label == *label && b.stable == stable) {
-                let look = Look { dash: dash(stable), ..look(k) };
-                entries.push(line(look, entry_label(label, stable)));
-            }
-        }
-    }
-    entries
+    // Colour says which contact state, dashes say whether it is stable.
+    let (dash, stability) = if branch.stable { (Dash::Solid, "stable") } else { (Dash::Short, "unstable") };
+    let series = Series { label: format!("{}, {stability}", branch.label), points: branch.points.clone() };
+    Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
 }

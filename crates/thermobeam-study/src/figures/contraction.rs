@@ -1,7 +1,6 @@
 //! Measured against predicted contraction of the fixed point.
 
-use convergence_study::plots::look::{Look, look};
-use convergence_study::plots::marker::Marks;
+use convergence_study::plots::look::{Look, Marks};
 use convergence_study::plots::style::{self, Dash};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{Axis, Series};
@@ -31,27 +30,17 @@ pub fn contraction(series: &[Series]) -> String {
 }
 
 /// A series on both sides of α = 1, under one entry of the legend, whose marker is open where all points are.
-fn curves((k, series): (usize, &Series)) -> [Curve; 2] {
+fn curves((k, series): (usize, &Series)) -> Vec<Curve> {
     let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
-    let all_above = below.is_empty() && !above.is_empty();
-    let side = |points, marks| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
-    [
-        Curve { is_listed: !all_above, ..side(below, Marks::Filled) },
-        Curve { is_listed: all_above, ..side(above, Marks::Open) },
-    ]
+    let side = |(points, marks)| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
+    let sides = [(below, Marks::Filled), (above, Marks::Open)].map(side);
+    sides.into_iter().filter(|side| !side.points.is_empty()).collect()
 }
 
 /// The line on which prediction and measurement agree, up to α = 1.
 fn identity(xy: &Xy) -> Curve {
-    let x = xy.x_ruler();
-    Curve {
-        name: "measured = predicted".into(),
-        noted_as: None,
-        is_listed: true,
-        points: [x.lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec(),
-        look: Look { colour: style::MUTED, dash: Dash::Long, ..look(0) },
-        width: 1.6,
-        marks: Marks::None,
-        is_data: false,
-    }
+    let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec();
+    let line = Curve::line(0, &Series { label: "measured = predicted".into(), points });
+    let look = Look { colour: style::MUTED, dash: Dash::Long, ..line.look };
+    Curve { look, width: 1.6, is_data: false, ..line }
 }

@@ -25,8 +25,7 @@
 //! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
 //! ```
 
-use convergence_study::plots::look::look;
-use convergence_study::plots::marker::Marks;
+use convergence_study::plots::look::{Marks, look};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::text::number::counted;
 use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};

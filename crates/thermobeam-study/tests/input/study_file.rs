@@ -1,3 +1,4 @@
+use convergence_study::input;
 use convergence_study::study::{Axis, FromFile as _, Header, Kind as _, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
@@ -162,7 +163,7 @@ fn a_wrong_header_is_named() {
         ),
         ("[study]\nname = \"a\"", &["2:1: study.name: unknown key `name`; expected id, claim, tier, kind"]),
     ] {
-        says(&Header::parse(text, "s.toml").expect_err(text).to_string(), pieces);
+        says(&input::parse(text, "s.toml", Header::from_document).expect_err(text).to_string(), pieces);
         says(&refusal(&[text]), pieces);
     }
 }
@@ -170,10 +171,10 @@ fn a_wrong_header_is_named() {
 #[test]
 fn the_header_of_any_kind_is_read_without_the_rest() {
     let text = [STUDY, "kind = \"energy\"\n[anything]\nelse = 1"].concat();
-    let header = Header::parse(&text, "s.toml").expect("a header");
-    assert_eq!((header.id.as_str(), header.kind.as_str(), header.tier), ("a-1.2", "energy", Tier::Quick));
+    let found = input::parse(&text, "s.toml", Header::from_document).expect("a header");
+    assert_eq!((found.id.as_str(), found.kind.as_str(), found.tier), ("a-1.2", "energy", Tier::Quick));
     says(&refusal(&[&text]), &["5:8: study.kind: found \"energy\"; expected \"convergence\""]);
-    assert_eq!(Header::parse(STUDY, "s.toml").expect("a header").kind, "convergence");
+    assert_eq!(input::parse(STUDY, "s.toml", Header::from_document).expect("a header").kind, "convergence");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use convergence_study::study::{FromFile as _, Header, StudyFile};
+use convergence_study::study::{FromFile as _, StudyFile};
 use thermobeam_study::kinds::KINDS;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::scene::Scene;
@@ -25,7 +25,8 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     let folder = env!("CARGO_TARGET_TMPDIR");
     says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
     says(&Convergence::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
-    says(&Header::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
+    let study = StudyFile::read(&KINDS, Path::new("no.toml")).err().expect("no such file");
+    says(&study.to_string(), &["no.toml: cannot be read"]);
 }
 
 #[test]

@@ -282,7 +282,7 @@ fn residuals(id: &str, scenes: &[[f64; 3]]) -> Figure {
     };
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";
-    Figure::new(id, "residuals", caption, plots::parameter_map(&map))
+    Figure::new(id, "residuals", caption, plots::surface(&map))
 }
 
 /// The cell of a value along an axis.

@@ -224,7 +224,7 @@ impl Map {
                 marked_label: fails.to_owned(),
                 boundaries,
             };
-            Figure::new(id, file, caption, plots::parameter_map(&map))
+            Figure::new(id, file, caption, plots::surface(&map))
         };
         let fixed_point = |file: &str, caption: String, z, value: &dyn Fn(&FixedPointStep) -> f64| {
             let value = |point: &Point| point.step.converged.then(|| value(&point.step));

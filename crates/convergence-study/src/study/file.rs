@@ -1,0 +1,184 @@
+//! Studies that files describe: the kinds that a project knows, what a kind reads, the table `[study]` of every file, and what
+//! files claim of an error: `order = 2` or `order = ">= 2"`, and `constant = [0.9, 1.1]` beside it.
+
+use std::path::{Path, PathBuf};
+
+use super::header::{DEFAULT_KIND, Header, NAME, Tier, is_name};
+use super::kind::{Kind, Study, erased};
+use super::levels::Claim;
+use crate::input::{self, Field, InputError, Section};
+use crate::judge::claims::order_from_text;
+use crate::judge::verdict::DEFAULT_TOLERANCE;
+use crate::text::visible;
+
+/// Reads a study of one kind from the document of its file.
+pub type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
+
+/// The reader of a kind.
+pub fn reader<K: FromFile + 'static>(
+    header: Header,
+    root: &Section<'_>,
+    folder: &Path,
+) -> Result<Box<dyn Study>, InputError> {
+    Ok(erased(K::from_document(header, root, folder)?))
+}
+
+/// A kind of study: its name, its reader, and what it means in words.
+#[derive(Debug, Clone, Copy)]
+pub struct KindRow {
+    /// The value of `[study] kind`.
+    pub name: &'static str,
+    /// Its reader.
+    pub read: Reader,
+    /// Why the claim should hold.
+    pub why: &'static str,
+    /// How it is judged.
+    pub judged: &'static str,
+    /// What a failure would mean.
+    pub failure: &'static str,
+}
+
+/// All kinds of study of a project; the first is that of a file without `kind`.
+pub type Kinds = [KindRow];
+
+/// A study file, read once.
+pub struct StudyFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The study.
+    pub study: Box<dyn Study>,
+}
+
+impl StudyFile {
+    /// Reads a study file of any of these kinds.
+    pub fn read(kinds: &Kinds, path: &Path) -> Result<Self, InputError> {
+        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
+            let header = Header::from_document(root)?;
+            let row = row(kinds, root, &header)?;
+            (row.read)(header, root, folder)
+        })?;
+        Ok(Self { path: path.to_owned(), study })
+    }
+
+    /// Reads study files; each id must be that of one file.
+    ///
+    /// # Errors
+    /// As [`StudyFile::read`], and where two studies have the same id.
+    pub fn read_all(kinds: &Kinds, paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
+        let mut files: Vec<Self> = Vec::with_capacity(paths.len());
+        for path in paths {
+            let file = Self::read(kinds, path)?;
+            let id = &file.study.header().id;
+            if let Some(earlier) = files.iter().find(|earlier| earlier.study.header().id == *id) {
+                let found = format!("\"{id}\", which {} has too", visible::path(&earlier.path));
+                return Err(refuse(path, "id", &found, "an id that no other study has"));
+            }
+            files.push(file);
+        }
+        Ok(files)
+    }
+}
+
+fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k KindRow, InputError> {
+    if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
+        return Ok(row);
+    }
+    let names: Vec<String> = kinds.iter().map(|row| format!("\"{}\"", row.name)).collect();
+    let study = root.require("study", "a table")?.section()?;
+    // A file without kind has the default one, which not every project knows.
+    study.require("kind", &names.join(", "))?;
+    Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
+}
+
+/// The error about a key of `[study]` of a file that was read before, with its line.
+fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
+    let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
+        let study = root.require("study", "a table")?.section()?;
+        Ok(study.refuse(key, found, allowed))
+    };
+    let text = input::read_text(path);
+    text.and_then(|text| input::parse(&text, &path.display().to_string(), complain)).unwrap_or_else(|error| error)
+}
+
+/// A kind of study that a file describes.
+pub trait FromFile: Kind + Sized {
+    /// Reads the study from the document of its file.
+    ///
+    /// * `header`: the table `[study]`, read already.
+    /// * `root`: the document.
+    /// * `folder`: the folder of the file, which names of other files are relative to.
+    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+
+    /// Reads a study from `text`; messages name `file`, and files that it names are looked for beside it.
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, |root, folder| Self::from_document(Header::from_document(root)?, root, folder))
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`], and where the file cannot be read.
+    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
+    }
+}
+
+impl Header {
+    /// Reads `[study]` of a document, and takes down every value of the document.
+    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+        let study = root.require("study", "a table with id, claim and tier")?.section()?;
+        study.allow(&["id", "claim", "tier", "kind", "group"])?;
+        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
+        let kind = if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() };
+        Ok(Self {
+            id: name(&study, "id")?,
+            claim: line(&study, "claim")?,
+            tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
+            group: if study.get("group").is_some() { line(&study, "group")? } else { kind.clone() },
+            kind,
+            settings: root.settings(),
+        })
+    }
+}
+
+fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let field = study.require(key, NAME)?;
+    let text = field.text()?;
+    if is_name(text) { Ok(text.to_owned()) } else { Err(field.refuse_as_written(NAME)) }
+}
+
+/// One line of text, without control characters: it is printed to terminals and logs.
+fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let allowed = "one line of text without control characters";
+    let field = study.require(key, allowed)?;
+    let text = field.text()?;
+    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
+    if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
+}
+
+impl Claim {
+    /// The claim of a table, with the default tolerance: which a study may be given is its kind's affair.
+    ///
+    /// * `key`: where the order is, or a number that is written in the same way.
+    pub fn read(section: &Section<'_>, key: &str) -> Result<Self, InputError> {
+        let allowed = "a number > 0, or a text such as \">= 2\"";
+        let field = section.require(key, allowed)?;
+        let (order, at_least) = match field.text() {
+            Ok(text) => {
+                order_from_text(text).filter(|(_, least)| *least).ok_or_else(|| field.refuse_as_written(allowed))?
+            }
+            Err(_) => (field.positive()?, false),
+        };
+        Ok(Self { at_least, constant: constant(section)?, ..Self::new(order, DEFAULT_TOLERANCE) })
+    }
+}
+
+fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {
+    let Some(field) = section.get("constant") else { return Ok(None) };
+    let allowed = "two numbers > 0, the smaller first, beside order";
+    let ends: Vec<f64> = field.items(allowed)?.iter().map(Field::positive).collect::<Result<_, _>>()?;
+    match ends[..] {
+        [least, most] if least < most && section.get("order").is_some() => Ok(Some([least, most])),
+        _ => Err(field.refuse_as_written(allowed)),
+    }
+}

@@ -9,6 +9,8 @@ use convergence_study::plots::sheet::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 use std::fmt::Write;
 
+use crate::run::driver::thinned;
+
 /// Frames and points per frame at most; their product bounds the size of the document.
 const MOST_FRAMES: usize = 120;
 const MOST_POINTS: usize = 61;
@@ -57,14 +59,6 @@ fn drawable_frames(figure: &Animation) -> Vec<(f64, Vec<f64>)> {
     let points = thinned(figure.nodes.len(), MOST_POINTS);
     let pick = |n: usize| (all[n].0, points.iter().map(|&i| all[n].1[i]).collect());
     thinned(all.len(), MOST_FRAMES).into_iter().map(pick).collect()
-}
-
-/// At most `most` of `0..len`, evenly, both ends included.
-fn thinned(len: usize, most: usize) -> Vec<usize> {
-    if len <= most {
-        return (0..len).collect();
-    }
-    (0..most).map(|k| k * (len - 1) / (most - 1)).collect()
 }
 
 /// Where things are.

@@ -95,11 +95,11 @@ impl Motion for DgMotion {
         }
     }
 
-    fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64)) {
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
         let (from, to) = (self.simulation.old_level().t, self.simulation.t());
         let time = |k: usize| if k == count { t_end } else { t_end * k as f64 / count as f64 };
         let first = (from / t_end * count as f64).floor() as usize;
-        (first.max(1)..=count).map(time).skip_while(|&t| t <= from).take_while(|&t| t <= to).for_each(show);
+        (first.max(1)..=count).map(time).skip_while(|&t| t <= from).take_while(|&t| t <= to).collect()
     }
 
     fn rows(&self) -> usize {

@@ -134,12 +134,6 @@ impl Driver {
         self.simulation.observe(&mut self.new);
         Ok(report)
     }
-
-    /// Steps from one row of a history, or frame, to the next.
-    fn stride(&self, t_end: f64, count: usize) -> usize {
-        let steps = (t_end / self.simulation.dt()).round() as usize;
-        steps.div_ceil(count).max(1)
-    }
 }
 
 /// Rows of a history at most: every step up to that many, beyond it every second, third, ... step.
@@ -148,11 +142,12 @@ pub(crate) const MOST_ROWS: usize = 200_000;
 /// Nodes of a frame at most: twice the rows of a picture over space and time.
 const MOST_POINTS: usize = 281;
 
-/// At most [`MOST_POINTS`] of the values at the nodes, both ends among them.
-fn thinned(values: &[f64]) -> Vec<f64> {
-    let last = values.len() - 1;
-    let intervals = last.min(MOST_POINTS - 1);
-    (0..=intervals).map(|k| values[k * last / intervals]).collect()
+/// At most `most` of `0..len`, evenly, both ends included.
+pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
+    if len <= most {
+        return (0..len).collect();
+    }
+    (0..most).map(|k| k * (len - 1) / (most - 1)).collect()
 }
 
 impl Motion for Driver {
@@ -182,10 +177,10 @@ impl Motion for Driver {
         if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
 
-    fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64)) {
-        if self.simulation.step().is_multiple_of(self.stride(t_end, count)) {
-            show(self.simulation.t());
-        }
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
+        let steps = (t_end / self.simulation.dt()).round() as usize;
+        let is_shown = self.simulation.step().is_multiple_of(steps.div_ceil(count).max(1));
+        if is_shown { vec![self.simulation.t()] } else { vec![] }
     }
 
     fn rows(&self) -> usize {
@@ -193,11 +188,12 @@ impl Motion for Driver {
     }
 
     fn points(&self) -> Vec<f64> {
-        thinned(self.simulation.problem().mesh.nodes())
+        let nodes = self.simulation.problem().mesh.nodes();
+        thinned(nodes.len(), MOST_POINTS).into_iter().map(|i| nodes[i]).collect()
     }
 
     fn shape(&self, _: f64) -> Vec<f64> {
-        thinned(&self.new.u)
+        thinned(self.new.u.len(), MOST_POINTS).into_iter().map(|i| self.new.u[i]).collect()
     }
 
     fn on(&self, mesh: &Mesh) -> Level {

@@ -125,16 +125,12 @@ impl Watch for RunHistory {
         if is_drawn {
             self.since_row += motion.balance();
         }
-        let mut times = vec![];
-        motion.parts(self.t_end, self.parts, &mut |t| times.push(t));
-        for &t in &times {
+        for t in motion.parts(self.t_end, self.parts) {
             let sample = motion.at(t);
             self.push_row(sample);
         }
         if is_drawn {
-            times.clear();
-            motion.parts(self.t_end, FRAMES, &mut |t| times.push(t));
-            times.iter().for_each(|&t| self.push_frame(motion, t));
+            motion.parts(self.t_end, FRAMES).iter().for_each(|&t| self.push_frame(motion, t));
         }
         Ok(ControlFlow::Continue(()))
     }

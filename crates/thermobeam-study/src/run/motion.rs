@@ -135,9 +135,9 @@ pub trait Motion {
     /// The state at a time in the last step; of a one-step scheme at its end.
     fn at(&mut self, t: f64) -> Sample;
 
-    /// Shows those of `count` equal parts of the time to `t_end` that end in the last step: the first time is `t_end / count`. A
+    /// Ends in the last step of `count` equal parts of the time to `t_end`: the first time is `t_end / count`. A
     /// one-step scheme shows levels at equal numbers of steps, at most `count` of them.
-    fn parts(&self, t_end: f64, count: usize, show: &mut dyn FnMut(f64));
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
 
     /// Times of a history.
     fn rows(&self) -> usize;

@@ -1,61 +1,29 @@
-//! A run as a JSON object. The order of the keys is the order of the fields; names are a contract, more may be added.
+//! A run as a JSON object. Names and order of the keys are a contract, more may be added.
 
-use serde::Serialize;
-use thermobeam::dg::{self, ContactEvent, Phase};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
 
-use super::motion::{RunError, Sample, Solves};
+use super::motion::RunError;
 use super::simulate::Run;
-use super::tally::{EnergySummary, Extremes, Iterations};
 use crate::scene::Scene;
 
-/// The object that `run --format json` prints.
-#[derive(Debug, Serialize)]
+/// The object that `run --format json` prints: everything there is to say about a run.
+#[derive(Debug)]
 pub struct Object<'a> {
-    scene: &'a str,
-    elements: usize,
-    /// Steps done: fewer than asked for where the run failed.
-    steps: usize,
-    dt: f64,
-    t_end: f64,
-    iterations: Iterations,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    wall_seconds: Option<f64>,
-    #[serde(rename = "final")]
-    last: Sample,
-    extremes: Extremes,
-    energy: EnergySummary,
-    scheme: &'static str,
-    solver: &'static str,
-    /// Whether the temperature was computed.
-    heated: bool,
-    contact_steps: usize,
-    degree: usize,
-    #[serde(flatten)]
-    lengths: Option<StepsOfDg>,
-    work: Solves,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    events: Option<Vec<Event>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    failure: Option<Failure>,
+    scene: &'a Scene,
+    run: &'a Run,
+    is_timed: bool,
 }
 
-/// Steps of dG.
-#[derive(Debug, Serialize)]
-struct StepsOfDg {
-    time_degree: usize,
-    restart_dt: f64,
-    growth: f64,
-}
-
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct Event {
     t: f64,
     from: &'static str,
     to: &'static str,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct Failure {
     kind: &'static str,
     step: usize,
@@ -66,7 +34,7 @@ struct Failure {
 }
 
 /// The numbers of a failure, by its kind.
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 #[serde(untagged)]
 enum FailureNumbers {
     Iteration { iterations: usize, increment: f64, contraction: f64 },
@@ -86,37 +54,53 @@ pub fn phase_name(phase: Phase) -> &'static str {
 }
 
 impl<'a> Object<'a> {
-    /// Everything there is to say about a run.
-    pub fn new(scene: &'a Scene, run: &Run) -> Self {
-        Self { wall_seconds: Some(run.wall.as_secs_f64()), ..Self::reproducible(scene, run) }
+    /// With the time on the clock.
+    pub fn new(scene: &'a Scene, run: &'a Run) -> Self {
+        Self { scene, run, is_timed: true }
     }
 
-    /// The same without the time on the clock: the same run gives the same bytes.
-    pub fn reproducible(scene: &'a Scene, run: &Run) -> Self {
-        let event = |event: &ContactEvent| Event { t: event.t, from: phase_name(event.from), to: phase_name(event.to) };
-        let lengths =
-            |by: dg::Stepping| StepsOfDg { time_degree: by.degree, restart_dt: by.restart_dt, growth: by.growth };
-        Self {
-            scene: &scene.name,
-            elements: scene.mesh.elements(),
-            steps: run.steps,
-            dt: scene.dt(),
-            t_end: scene.t_end,
-            iterations: run.iterations,
-            wall_seconds: None,
-            last: run.last,
-            extremes: run.extremes,
-            energy: run.energy,
-            scheme: scene.method.name(),
-            solver: scene.method.solver(),
-            heated: run.is_heated,
-            contact_steps: run.contact_steps,
-            degree: scene.degree,
-            lengths: scene.method.dg().map(lengths),
-            work: run.work,
-            events: run.contact.as_ref().map(|contact| contact.events.iter().map(event).collect()),
-            failure: run.failure.as_ref().map(failure),
+    /// Without the time on the clock: the same run gives the same bytes.
+    pub fn reproducible(scene: &'a Scene, run: &'a Run) -> Self {
+        Self { scene, run, is_timed: false }
+    }
+}
+
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { scene, run, is_timed } = *self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("scene", &scene.name)?;
+        map.serialize_entry("elements", &scene.mesh.elements())?;
+        // Steps done: fewer than asked for where the run failed.
+        map.serialize_entry("steps", &run.steps)?;
+        map.serialize_entry("dt", &scene.dt())?;
+        map.serialize_entry("t_end", &scene.t_end)?;
+        map.serialize_entry("iterations", &run.iterations)?;
+        if is_timed {
+            map.serialize_entry("wall_seconds", &run.wall.as_secs_f64())?;
         }
+        map.serialize_entry("final", &run.last)?;
+        map.serialize_entry("extremes", &run.extremes)?;
+        map.serialize_entry("energy", &run.energy)?;
+        map.serialize_entry("scheme", scene.method.name())?;
+        map.serialize_entry("solver", scene.method.solver())?;
+        map.serialize_entry("heated", &run.is_heated)?;
+        map.serialize_entry("contact_steps", &run.contact_steps)?;
+        map.serialize_entry("degree", &scene.degree)?;
+        if let Some(by) = scene.method.dg() {
+            map.serialize_entry("time_degree", &by.degree)?;
+            map.serialize_entry("restart_dt", &by.restart_dt)?;
+            map.serialize_entry("growth", &by.growth)?;
+        }
+        map.serialize_entry("work", &run.work)?;
+        if let Some(contact) = &run.contact {
+            let event = |by: &ContactEvent| Event { t: by.t, from: phase_name(by.from), to: phase_name(by.to) };
+            map.serialize_entry("events", &contact.events.iter().map(event).collect::<Vec<_>>())?;
+        }
+        if let Some(ended) = &run.failure {
+            map.serialize_entry("failure", &failure(ended))?;
+        }
+        map.end()
     }
 }
 

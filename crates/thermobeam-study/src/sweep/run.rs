@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+use std::iter::Peekable;
 use std::panic::{self, AssertUnwindSafe};
 use std::time::Duration;
+use std::vec::IntoIter;
 
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
@@ -167,17 +169,14 @@ pub fn run(
 pub struct InOrder<W> {
     output: W,
     /// Cases whose lines have not been written, in order.
-    expected: std::vec::IntoIter<usize>,
-    next: Option<usize>,
+    expected: Peekable<IntoIter<usize>>,
     early: BTreeMap<usize, String>,
 }
 
 impl<W: Write> InOrder<W> {
     /// * `expected`: the cases of all lines to come, increasing.
     pub fn new(output: W, expected: Vec<usize>) -> Self {
-        let mut expected = expected.into_iter();
-        let next = expected.next();
-        Self { output, expected, next, early: BTreeMap::new() }
+        Self { output, expected: expected.into_iter().peekable(), early: BTreeMap::new() }
     }
 
     /// Accepts a line and writes all lines whose turn has come.
@@ -186,9 +185,9 @@ impl<W: Write> InOrder<W> {
     /// The error of the output.
     pub fn add(&mut self, line: Line) -> io::Result<()> {
         self.early.insert(line.case, line.json);
-        while let Some(json) = self.next.and_then(|next| self.early.remove(&next)) {
+        while let Some(json) = self.expected.peek().and_then(|next| self.early.remove(next)) {
             writeln!(self.output, "{json}")?;
-            self.next = self.expected.next();
+            self.expected.next();
         }
         self.output.flush()
     }

@@ -61,19 +61,15 @@ pub(in crate::kinds) fn named_cases<C>(
     root: &Section<'_>,
     read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
 ) -> Result<Vec<C>, InputError> {
-    let allowed = "a list of at least one case, each [[case]]";
-    let list = root.require("case", allowed)?;
-    let (mut names, mut cases): (Vec<String>, Vec<C>) = (vec![], vec![]);
-    for item in list.items(allowed)? {
-        let section = item.section()?;
+    let mut names = std::collections::BTreeSet::new();
+    root.tables("case", "", |section| {
         let name = section.require("name", "a text")?.text()?.to_owned();
-        cases.push(read(&section, name.clone())?);
-        if names.contains(&name) {
-            return Err(item.refuse(format!("a second \"{name}\""), "a name that no other case has"));
+        let case = read(section, name.clone())?;
+        if names.insert(name.clone()) {
+            return Ok(case);
         }
-        names.push(name);
-    }
-    if cases.is_empty() { Err(list.refuse_as_written(allowed)) } else { Ok(cases) }
+        Err(section.refuse("name", format!("a second \"{name}\""), "a name that no other case has"))
+    })
 }
 
 /// How a run ends.

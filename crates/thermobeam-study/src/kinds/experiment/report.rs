@@ -45,7 +45,15 @@ fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figur
     // The middle one moves without axial force at rest.
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
         let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
-        Figure::new(id, "beam", caption, animated(&experiment.scene, &run.frames))
+        let svg = figures::animation(&figures::Animation {
+            title: Some("The beam between its obstacles".to_owned()),
+            frames: run.frames.iter().map(|(_, u)| u.clone()).collect(),
+            times: run.frames.iter().map(|(t, _)| *t).collect(),
+            nodes: experiment.scene.mesh.nodes().to_vec(),
+            obstacles: experiment.scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
+            seconds: SECONDS,
+        });
+        Figure::new(id, "beam", caption, svg)
     });
     let above = |experiment: &Experiment, point: &CurvePoint| point.energy - straight_energy(&experiment.scene);
     let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
@@ -147,16 +155,4 @@ fn tip(runs: &Each<'_>) -> plots::History {
         guides: obstacles(runs),
         ..plots::History::default()
     }
-}
-
-/// The beam hitting its obstacles.
-fn animated(scene: &Scene, frames: &[(f64, Vec<f64>)]) -> String {
-    figures::animation(&figures::Animation {
-        title: Some("The beam between its obstacles".to_owned()),
-        frames: frames.iter().map(|(_, u)| u.clone()).collect(),
-        times: frames.iter().map(|(t, _)| *t).collect(),
-        nodes: scene.mesh.nodes().to_vec(),
-        obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
-        seconds: SECONDS,
-    })
 }

@@ -24,7 +24,6 @@
 mod judge;
 
 use thermobeam::contraction::contact_contraction;
-use thermobeam::error::StepError;
 
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
@@ -257,7 +256,12 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
                 }
             }
             Err(RunError::Step(error)) => {
-                contraction = contraction_of(&error);
+                contraction = match error.failure {
+                    StepFailure::Diverged { contraction, .. } | StepFailure::IterationLimit { contraction, .. } => {
+                        Some(contraction).filter(|contraction| contraction.is_finite())
+                    }
+                    _ => None,
+                };
                 failed_at = Some(error.step as f64 * error.dt);
                 break;
             }
@@ -280,16 +284,6 @@ fn alpha(scene: &Scene, by: &Stepping) -> f64 {
     let beta = scene.beam.beta;
     let factor = |obstacles| contact_contraction(&scene.beam, &obstacles, &lengths, &by.scheme, by.dt, beta);
     scene.obstacles.map_or(f64::NAN, factor)
-}
-
-/// `None` where the iterates overflowed.
-fn contraction_of(error: &StepError) -> Option<f64> {
-    match error.failure {
-        StepFailure::Diverged { contraction, .. } | StepFailure::IterationLimit { contraction, .. } => {
-            Some(contraction).filter(|contraction| contraction.is_finite())
-        }
-        _ => None,
-    }
 }
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.

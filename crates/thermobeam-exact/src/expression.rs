@@ -79,11 +79,6 @@ impl Expression {
         &self.source
     }
 
-    /// The variable.
-    pub fn variable(&self) -> Variable {
-        self.variable
-    }
-
     /// The value at `x`; infinite or NaN outside the domain of the function.
     pub fn eval(&self, x: f64) -> f64 {
         self.root.eval(x)
@@ -97,18 +92,13 @@ impl Expression {
         [re, v1, v2]
     }
 
-    /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on [0, 1].
+    /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on [0, end].
     ///
     /// The function is sampled: a pole between two samples is not found.
     ///
     /// # Errors
     /// [`NotFinite`] for the first sample with an infinite value or NaN.
-    pub fn check_finite(&self, order: usize) -> Result<(), NotFinite> {
-        self.check_finite_up_to(1.0, order)
-    }
-
-    /// As [`Self::check_finite`] on [0, end].
-    pub fn check_finite_up_to(&self, end: f64, order: usize) -> Result<(), NotFinite> {
+    pub fn check_finite(&self, end: f64, order: usize) -> Result<(), NotFinite> {
         for at in samples(end) {
             // The values of `eval`, because those are used by the solver.
             let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };

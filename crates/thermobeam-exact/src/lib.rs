@@ -11,7 +11,7 @@
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
 //! * [`errors`]: the errors in each [`norm`].
 //! * [`any_order`]: the same for elements of any degree.
-//! * [`quadrature`]: integrals for errors against other functions.
+//! * [`quadrature`]: the rule for loads and errors.
 //!
 //! The code that runs in every step of a convergence study is a separate crate, because it is compiled with
 //! optimisation and the code that reads files and reports is not: a clean build takes a fifth less time.

@@ -26,33 +26,24 @@ use thermobeam::simulation::Initial;
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
 const PANELS: usize = 256;
 
-/// The time coefficient of a space vector; the number is the index of the product.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Coefficient {
-    /// T''.
-    Inertia(usize),
-    /// (1 + N) T + ζ T', the coefficient of u_xx in (1.1).
-    Tension(usize),
-    /// T + ζ T', the coefficient of u_x in the second equation.
-    Shear(usize),
-    /// S''.
-    RotationInertia(usize),
-    /// S + ζ S'.
-    Rotation(usize),
-    /// S'.
-    RotationRate(usize),
-    /// Q.
-    Temperature(usize),
-    /// Q'.
-    TemperatureRate(usize),
-}
-
-/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient.
+/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient: a weighted sum of T, T' and T'' of a product.
 #[derive(Debug, Clone)]
 struct Term {
     equation: usize,
-    coefficient: Coefficient,
+    /// The field (0: u, 1: φ, 2: θ) and the place of the product in it.
+    product: [usize; 2],
+    /// The weights, and whether N is added to that of T: in the term with u_xx of (1.1).
+    weights: ([f64; 3], bool),
     vector: Vec<f64>,
+}
+
+impl Term {
+    fn coefficient(&self, factors: &Factors, n_value: f64) -> f64 {
+        let ([field, j], ([value, rate, acceleration], is_tension)) = (self.product, self.weights);
+        let of = [&factors.u, &factors.phi, &factors.theta][field];
+        let value = if is_tension { value + n_value } else { value };
+        value * of.value[j] + rate * of.rate[j] + acceleration * of.acceleration[j]
+    }
 }
 
 /// The boundary loads at x = 1 that are included. Only a negative control leaves one out.
@@ -273,9 +264,13 @@ impl Sources {
         tip_index: usize,
     ) -> Self {
         let mut terms = vec![];
-        let mut add = |equation: usize, coefficient: Coefficient, vector: Vec<f64>| {
-            terms.push(Term { equation, coefficient, vector });
+        let mut add = |equation: usize, product: [usize; 2], weights: ([f64; 3], bool), vector: Vec<f64>| {
+            terms.push(Term { equation, product, weights, vector });
         };
+        let [value, rate, inertia] =
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|weights| (weights, false));
+        // T + ζ T' and (1 + N) T + ζ T'.
+        let [damped, tension] = [false, true].map(|is_tension| ([1.0, beam.zeta, 0.0], is_tension));
         let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<PerEquation>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));
         let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
@@ -286,22 +281,22 @@ impl Sources {
         };
         let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
         for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
-            add(0, Coefficient::Inertia(j), in_u.value.clone());
-            add(0, Coefficient::Tension(j), in_u.curvature.clone());
-            add(1, Coefficient::Shear(j), scaled(-1.0, &in_phi.slope));
+            add(0, [0, j], inertia, in_u.value.clone());
+            add(0, [0, j], tension, in_u.curvature.clone());
+            add(1, [0, j], damped, scaled(-1.0, &in_phi.slope));
         }
         for (k, [in_u, in_phi, in_theta]) in phi.iter().enumerate() {
             let turned = in_phi.curvature.iter().zip(&in_phi.value).map(|(c, y)| c + y).collect();
-            add(1, Coefficient::Rotation(k), turned);
-            add(1, Coefficient::RotationInertia(k), in_phi.value.clone());
-            add(2, Coefficient::RotationRate(k), scaled(beam.a, &in_theta.slope));
-            add(0, Coefficient::Rotation(k), in_u.slope.clone());
+            add(1, [1, k], damped, turned);
+            add(1, [1, k], inertia, in_phi.value.clone());
+            add(2, [1, k], rate, scaled(beam.a, &in_theta.slope));
+            add(0, [1, k], damped, in_u.slope.clone());
         }
         for (l, [_, in_phi, in_theta]) in all(&exact.theta).iter().enumerate() {
-            add(1, Coefficient::Temperature(l), scaled(beam.a, &in_phi.slope));
+            add(1, [2, l], value, scaled(beam.a, &in_phi.slope));
             // The test functions of θ vanish at both ends: no boundary load.
-            add(2, Coefficient::Temperature(l), in_theta.curvature.clone());
-            add(2, Coefficient::TemperatureRate(l), in_theta.value.clone());
+            add(2, [2, l], value, in_theta.curvature.clone());
+            add(2, [2, l], rate, in_theta.value.clone());
         }
         Self { beam: *beam, terms, gram, tip, tip_index, boundary }
     }
@@ -339,7 +334,7 @@ impl Sources {
     ) {
         load.fill([0.0; 3]);
         for term in &self.terms {
-            let coefficient = self.coefficient(term.coefficient, factors, n_value);
+            let coefficient = term.coefficient(factors, n_value);
             for (load, entry) in load.iter_mut().zip(&term.vector) {
                 load[term.equation] += coefficient * entry;
             }
@@ -355,33 +350,17 @@ impl Sources {
 
     /// σ(1, t).
     fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
-        let u = |j| self.coefficient(Coefficient::Tension(j), factors, n_value);
-        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, n_value);
-        let Boundary { u_slope, phi: phi_tip, .. } = &self.boundary;
-        let stretch: f64 = u_slope.iter().enumerate().map(|(j, slope)| slope * u(j)).sum();
-        stretch - phi_tip.iter().enumerate().map(|(k, value)| value * phi(k)).sum::<f64>()
+        let (Factors { u, phi, .. }, zeta) = (factors, self.beam.zeta);
+        let tension = |j: usize| (1.0 + n_value) * u.value[j] + zeta * u.rate[j];
+        let rotation = |k: usize| phi.value[k] + zeta * phi.rate[k];
+        let stretch: f64 = self.boundary.u_slope.iter().enumerate().map(|(j, slope)| slope * tension(j)).sum();
+        stretch - self.boundary.phi.iter().enumerate().map(|(k, value)| value * rotation(k)).sum::<f64>()
     }
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
-    fn tip_moment(&self, factors: &Factors) -> f64 {
-        let phi = |k| self.coefficient(Coefficient::Rotation(k), factors, 0.0);
-        self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * phi(k)).sum()
-    }
-
-    /// The value of a time coefficient.
-    fn coefficient(&self, coefficient: Coefficient, factors: &Factors, n_value: f64) -> f64 {
-        let zeta = self.beam.zeta;
-        let Factors { u, phi, theta } = factors;
-        match coefficient {
-            Coefficient::Inertia(j) => u.acceleration[j],
-            Coefficient::Tension(j) => (1.0 + n_value) * u.value[j] + zeta * u.rate[j],
-            Coefficient::Shear(j) => u.value[j] + zeta * u.rate[j],
-            Coefficient::RotationInertia(k) => phi.acceleration[k],
-            Coefficient::Rotation(k) => phi.value[k] + zeta * phi.rate[k],
-            Coefficient::RotationRate(k) => phi.rate[k],
-            Coefficient::Temperature(l) => theta.value[l],
-            Coefficient::TemperatureRate(l) => theta.rate[l],
-        }
+    fn tip_moment(&self, Factors { phi, .. }: &Factors) -> f64 {
+        let rotation = |k: usize| phi.value[k] + self.beam.zeta * phi.rate[k];
+        self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * rotation(k)).sum()
     }
 }
 

@@ -263,14 +263,14 @@ fn a_value_that_is_not_finite_is_rejected_with_its_position() {
         ("x^1.5", 2, &["the second derivative is inf at x = 0"]),
         ("1/0", 0, &["the value is inf at x = 0"]),
     ] {
-        contains_in_order(&function(text).check_finite(order).expect_err(text).to_string(), pieces);
+        contains_in_order(&function(text).check_finite(1.0, order).expect_err(text).to_string(), pieces);
     }
-    assert_eq!(function("sqrt(x)").check_finite(0), Ok(()));
-    assert_eq!(function("x^1.5").check_finite(1), Ok(()));
-    assert_eq!(function("x^3").check_finite(2), Ok(()));
+    assert_eq!(function("sqrt(x)").check_finite(1.0, 0), Ok(()));
+    assert_eq!(function("x^1.5").check_finite(1.0, 1), Ok(()));
+    assert_eq!(function("x^3").check_finite(1.0, 2), Ok(()));
     let late = Expression::parse("1/(2-t)", Variable::T).expect("a function");
-    assert_eq!(late.check_finite(2), Ok(()));
-    contains_in_order(&late.check_finite_up_to(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
+    assert_eq!(late.check_finite(1.0, 2), Ok(()));
+    contains_in_order(&late.check_finite(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
 }
 
 #[test]

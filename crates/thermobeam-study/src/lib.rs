@@ -44,7 +44,7 @@ pub mod sweep;
 pub mod timing;
 
 pub use thermobeam_exact as exact;
-pub use thermobeam_exact::{expression, quadrature};
+pub use thermobeam_exact::expression;
 
 /// The code of the README, held by the doc tests.
 #[cfg(doctest)]

@@ -1,5 +1,6 @@
 //! A table with its place in the file.
 
+use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
 
 use toml::de::DeTable;
@@ -86,6 +87,26 @@ impl<'a> Section<'a> {
         let field = self.require(key, allowed)?;
         let list = field.items(allowed)?.iter().map(read).collect::<Result<Vec<T>, InputError>>()?;
         if fits(&list) { Ok(list) } else { Err(field.refuse_as_written(allowed)) }
+    }
+
+    /// A list of levels, at least so many, each of which `follows` the one before; `relation` says so in words, such as `a number >`.
+    pub fn sequence<T: Copy + Display>(
+        &self,
+        (key, allowed, least): (&str, &str, usize),
+        read: impl Fn(&Field<'a>) -> Result<T, InputError>,
+        (relation, follows): (&str, fn(T, T) -> bool),
+    ) -> Result<Vec<T>, InputError> {
+        let mut last = None;
+        let level = |item: &Field<'a>| {
+            let level = read(item)?;
+            match last.replace(level) {
+                Some(before) if !follows(before, level) => {
+                    Err(item.refuse_as_written(format!("{relation} {before}, the level before")))
+                }
+                _ => Ok(level),
+            }
+        };
+        self.list(key, allowed, level, |list| list.len() >= least)
     }
 
     /// The tables `[[key]]`, at least one, each by `read`.

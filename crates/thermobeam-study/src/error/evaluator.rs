@@ -3,7 +3,6 @@
 //! Against an exact solution, or against a run of any order ([`Traced`]), whose own error does not matter. The reference's mesh must
 //! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
 
-use crate::error::levels::{distance, prolong, restrict};
 use crate::error::reference::Traced;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::factors::Factors;
@@ -11,6 +10,7 @@ use crate::exact::norm::Norm;
 use crate::exact::solution::{Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
+use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
 /// What is measured.
@@ -39,8 +39,8 @@ impl ErrorMeasure {
 }
 
 enum Answer<'a> {
-    Exact { exact: &'a Manufactured, meter: Box<ErrorMeter>, factors: Factors, tip: Vec<f64> },
-    Computed { reference: &'a Traced, stride: usize, nodes: Vec<f64>, lengths: [Vec<f64>; 2] },
+    Exact { exact: &'a Manufactured, meter: Box<(ErrorMeter, Factors)>, tip: Vec<f64> },
+    Computed { reference: &'a Traced, mesh: Mesh },
     Tip(&'a [f64]),
 }
 
@@ -59,18 +59,16 @@ impl<'a> Evaluator<'a> {
         let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
         let answer = match (reference, family.exact()) {
             (Some(reference), _) => {
-                let (fine, coarse) = (reference.mesh.elements(), mesh.elements());
-                if !fine.is_multiple_of(coarse) {
+                if !reference.mesh.elements().is_multiple_of(mesh.elements()) {
                     return Err(fail("the reference's number of elements is no multiple of this mesh's"));
                 }
-                let lengths = [mesh, &reference.mesh].map(|mesh| mesh.lengths().collect());
-                Answer::Computed { reference, stride: fine / coarse, nodes: mesh.nodes().to_vec(), lengths }
+                Answer::Computed { reference, mesh: mesh.clone() }
             }
             (None, Some(exact)) => {
-                let mut meter = Box::new(ErrorMeter::new(exact, mesh, false));
+                let mut meter = ErrorMeter::new(exact, mesh, false);
                 meter.lift(mesh, family.beam.theta_a);
                 let tip = exact.u.iter().map(|product: &Product| product.x.eval(1.0)).collect();
-                Answer::Exact { exact, meter, factors: Factors::default(), tip }
+                Answer::Exact { exact, meter: Box::new((meter, Factors::default())), tip }
             }
             (None, None) => return Err(fail("there is nothing to measure the error against")),
         };
@@ -87,16 +85,16 @@ impl<'a> Evaluator<'a> {
         let u_tip = level.u[level.u.len() - 1];
         match &mut self.answer {
             Answer::Tip(tip) => [f64::NAN, f64::NAN, (u_tip - tip[index]).abs()],
-            Answer::Exact { exact, meter, factors, tip } => {
+            Answer::Exact { exact, meter, tip } => {
+                let (meter, factors) = &mut **meter;
                 factors.at(exact, t);
                 let errors = meter.measure(level, factors);
                 let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
                 [errors[Norm::Theorem34], errors[Norm::Superclose], (u_tip - u).abs()]
             }
-            Answer::Computed { reference, stride, nodes, lengths } => {
+            Answer::Computed { reference, mesh } => {
+                let [full, nodal] = reference.errors_of(level, mesh, index);
                 let fine = &reference.levels[index];
-                let nodal = distance(&lengths[0], level, &restrict(fine, *stride));
-                let full = distance(&lengths[1], &prolong(level, nodes, reference.mesh.nodes()), fine);
                 [full, nodal, (u_tip - fine.u[fine.u.len() - 1]).abs()]
             }
         }

@@ -2,5 +2,4 @@
 
 pub mod evaluator;
 pub mod free_vibration;
-pub mod levels;
 pub mod reference;

@@ -119,11 +119,10 @@ impl FromFile for AnyOrder {
         let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
         let overs = [("space", Over::Space), ("time", Over::Time), ("degree", Over::Degree)];
         let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&overs)?;
-        run.allow(match over {
-            Over::Space => &["over", "t_end", "time_degree", "steps", "map"][..],
-            Over::Time => &["over", "t_end", "degree", "elements", "map"],
-            Over::Degree => &["over", "t_end", "time_degree", "steps", "elements", "map"],
-        })?;
+        let (listed, own, _) = over.keys();
+        let common = ["degree", "time_degree", "elements", "steps"];
+        let common = common.into_iter().filter(|key| !own.contains(key) && !listed.starts_with(key));
+        run.allow(&["over", "t_end", "map"].into_iter().chain(common).collect::<Vec<_>>())?;
         let t_end = run.positive("t_end")?;
         let (theory, exact) = match &vibration {
             Some(section) => free(section)?,
@@ -152,36 +151,39 @@ fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputErro
     Ok((theory, free_vibration::vibration(&modes, zeta).map_err(refused)?))
 }
 
+impl Over {
+    /// The keys of a table `[[series]]`: what is listed, what the series has of its own, and what it is judged by. The rest is in `[run]`.
+    fn keys(self) -> (&'static str, &'static [&'static str], &'static str) {
+        match self {
+            Over::Space => ("elements", &["degree"], "tolerance"),
+            Over::Time => ("steps", &["time_degree"], "tolerance"),
+            Over::Degree => ("degrees", &[], "factor"),
+        }
+    }
+}
+
 /// A table `[[series]]`, and what the runs of all series have in common.
 fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOfDegree, InputError> {
-    let elements = || tables::elements(&run.require("elements", "a whole number >= 1")?);
-    let increasing = |key: &str, read: &dyn Fn(&Field<'_>) -> Result<usize, InputError>| {
-        let allowed = "a list of at least three increasing whole numbers";
-        section.list(key, allowed, read, |list| list.len() >= 3 && increases(list))
+    let (listed, own, key) = over.keys();
+    section.allow(&[&[listed, key], own].concat())?;
+    let count = |key: &str, field: &Field<'_>| match key {
+        "elements" => tables::elements(field),
+        "steps" => field.count(1..=MOST_STEPS),
+        "time_degree" => field.count(0..=MAX_TIME_DEGREE),
+        _ => field.count(1..=MAX_DEGREE),
     };
-    let with = |degree, elements, time_degree, steps| Resolution { degree, elements, time_degree, steps };
-    let time_degree = |of: &Section<'_>| of.count("time_degree", 0..=MAX_TIME_DEGREE);
-    let degree = |of: &Section<'_>| of.count("degree", 1..=MAX_DEGREE);
-    let (runs, key): (Vec<Resolution>, _) = match over {
-        Over::Space => {
-            section.allow(&["degree", "elements", "tolerance"])?;
-            let (q, steps, p) = (time_degree(run)?, run.count("steps", 1..=MOST_STEPS)?, degree(section)?);
-            let list = increasing("elements", &tables::elements)?;
-            (list.into_iter().map(|elements| with(p, elements, q, steps)).collect(), "tolerance")
-        }
-        Over::Time => {
-            section.allow(&["time_degree", "steps", "tolerance"])?;
-            let (p, q, elements) = (degree(run)?, time_degree(section)?, elements()?);
-            let list = increasing("steps", &|field| field.count(1..=MOST_STEPS))?;
-            (list.into_iter().map(|steps| with(p, elements, q, steps)).collect(), "tolerance")
-        }
-        Over::Degree => {
-            section.allow(&["degrees", "factor"])?;
-            let (q, steps, elements) = (time_degree(run)?, run.count("steps", 1..=MOST_STEPS)?, elements()?);
-            let list = increasing("degrees", &|field| field.count(1..=MAX_DEGREE))?;
-            (list.into_iter().map(|degree| with(degree, elements, q, steps)).collect(), "factor")
-        }
+    let allowed = "a list of at least three increasing whole numbers";
+    let increasing = ("a whole number >", (|before, level| level > before) as fn(usize, usize) -> bool);
+    let list = section.sequence((listed, allowed, 3), |item| count(listed, item), increasing)?;
+    let resolution = |level: usize| -> Result<Resolution, InputError> {
+        let of = |key: &str| match if own.contains(&key) { section } else { run } {
+            _ if listed.starts_with(key) => Ok(level),
+            table => count(key, &table.require(key, "a whole number")?),
+        };
+        let (degree, time_degree) = (of("degree")?, of("time_degree")?);
+        Ok(Resolution { degree, elements: of("elements")?, time_degree, steps: of("steps")? })
     };
+    let runs = list.into_iter().map(resolution).collect::<Result<_, _>>()?;
     let least = if over == Over::Degree { 1.0 } else { 0.0 };
     let allowed = format!("a finite number > {least}");
     let tolerance = section.require(key, &allowed)?.number_where(&allowed, |value| value > least)?;
@@ -247,15 +249,13 @@ impl Kind for AnyOrder {
 
     fn judge(&self, ran: &[OneRun]) -> Outcome {
         let completion = completion(ran, |errors| not_finite(errors));
-        // Fewer where some are missing.
-        let mut rest = ran;
-        let of_series = |series| {
-            let series: &RunsOfDegree = series;
+        let (mut rest, mut runs) = (ran, vec![]);
+        for series in &self.series {
+            // Fewer where some are missing.
             let (mine, others) = rest.split_at(series.runs.len().min(rest.len()));
             rest = others;
-            (series, mine)
-        };
-        let runs: Vec<(&RunsOfDegree, &[OneRun])> = self.series.iter().map(of_series).collect();
+            runs.push((series, mine));
+        }
         if self.over == Over::Degree {
             self.over_degrees(&runs, completion)
         } else {

@@ -27,7 +27,7 @@ pub const ROW: KindRow = KindRow {
           is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
              has its limit.",
-    failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted as far as was said.",
+    failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
 };
 
 /// What can be counted.
@@ -37,7 +37,7 @@ struct Part {
     name: &'static str,
     /// Tables of all laws and meshes, for each of `tables`; measured.
     cost: usize,
-    /// Counts so many tables, drawn from a seed.
+    /// What is counted on that many tables, drawn from a seed.
     sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
 }
 

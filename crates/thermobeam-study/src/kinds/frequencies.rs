@@ -5,8 +5,8 @@
 //!
 //! ```toml
 //! [frequencies]
-//! degree = 3            # of the elements; 1 unless told
-//! first = 3             # the lowest mode judged: of those below it high degrees leave only round-off; 1 unless told
+//! degree = 3            # of the elements; 1 by default
+//! first = 3             # the lowest mode judged; below it high degrees leave only round-off; 1 by default
 //! count = 6             # the highest
 //! elements = [6, 8, 12]
 //! order = 6.0
@@ -26,7 +26,7 @@ pub const ROW: KindRow = KindRow {
     read: reader::<Frequencies>,
     why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
           a scalar equation.",
-    judged: "The rate of each frequency from the first to the last one asked for, and that the discrete ones lie above. Frequencies \
+    judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
              below the first must be met on the finest mesh.",
     failure: "Mass, stiffness or coupling of the discretisation is wrong.",
 };
@@ -58,10 +58,11 @@ impl FromFile for Frequencies {
         root.allow(&["study", "frequencies"])?;
         let keys = ["count", "elements", "order", "tolerance", "first", "degree", "map"];
         let section = root.table("frequencies", &keys)?;
-        let fits = |list: &[usize]| !list.is_empty() && increases(list);
-        let elements = section.list("elements", "a list of increasing whole numbers >= 1", tables::elements, fits)?;
+        let allowed = "a list of increasing whole numbers >= 1";
+        let increasing = ("a whole number >", (|before, level| level > before) as fn(usize, usize) -> bool);
+        let elements = section.sequence(("elements", allowed, 1), tables::elements, increasing)?;
         let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
-        // A mesh has twice as many frequencies, of which the upper ones approximate nothing.
+        // A mesh has twice as many frequencies, but the upper ones approximate nothing.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
         let claim = Claim::read(&section, "order")?;
         Ok(Self {

@@ -22,13 +22,12 @@ mod settings;
 pub mod solvers;
 mod steady;
 pub mod tables;
-mod terms;
 pub mod vibration;
 mod watch;
 pub mod work_precision;
 
 pub use settings::{PLACES, settings};
-pub use terms::TERMS;
+pub use tables::TERMS;
 
 use convergence_study::input::InputError;
 use convergence_study::program;

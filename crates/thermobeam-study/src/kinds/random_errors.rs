@@ -127,18 +127,20 @@ impl RandomErrors {
         Ok(Scene { mesh, degree: 16, method: Method::Dg(stepping), ..scene.clone() })
     }
 
-    /// Errors of linear elements and of finer ones against a run.
-    fn linear(scene: &Scene, exact: &Scene, work: &mut Work<'_>) -> Result<[f64; 2], CaseFailure> {
+    /// Errors of linear elements and of finer ones.
+    fn linear(
+        scene: &Scene,
+        errors: &mut impl FnMut(&Scene) -> Result<[f64; 8], CaseFailure>,
+    ) -> Result<[f64; 2], CaseFailure> {
         let [elements, steps] = COARSEST;
-        let mut errors = [f64::NAN; 2];
-        for (error, times) in errors.iter_mut().zip([1, 4]) {
+        let mut of_tip = [f64::NAN; 2];
+        for (error, times) in of_tip.iter_mut().zip([1, 4]) {
             let dt = 1.0 / (steps * times) as f64;
             let stepping = OneStep { scheme: MIDPOINT, settings: Settings::default(), dt, loaded: false };
             let mesh = Mesh::uniform(elements * times)?;
-            let linear = Scene { mesh, degree: 1, method: Method::OneStep(stepping), ..scene.clone() };
-            *error = differences(&linear, exact, work).map_err(failed)?[TIP];
+            *error = errors(&Scene { mesh, degree: 1, method: Method::OneStep(stepping), ..scene.clone() })?[TIP];
         }
-        Ok(errors)
+        Ok(of_tip)
     }
 
     /// The estimates of the scene's numbers, and the run chosen for each target.
@@ -186,23 +188,22 @@ impl Kind for RandomErrors {
         let exact = Self::independent(&scene)?;
         let mut ignored = |_: f64| ();
         let work = &mut Work::new(MOST_WORK, &mut ignored);
-        let mut found = Found::default();
-        match self.searches(&scene, work) {
-            Err(refused) => found.refused = Some(refused.to_string()),
-            Ok((estimates, chosen)) => {
-                let errors = differences(&scene, &exact, work).map_err(failed)?;
-                let over = estimates.iter().zip(errors).map(|(estimate, error)| error / estimate);
-                found.over_estimate = over.fold(0.0, max_or_nan);
-                for (target, chosen) in self.targets.iter().zip(chosen) {
-                    let error = differences(&chosen, &exact, work).map_err(failed)?[TIP];
-                    found.over_target = max_or_nan(found.over_target, error / target);
-                }
-                if number.is_multiple_of(self.refined) {
-                    found.linear = Some(Self::linear(&scene, &exact, work)?);
-                }
+        let (estimates, chosen) = match self.searches(&scene, work) {
+            Ok(found) => found,
+            Err(refused) => {
+                return Ok(Found { refused: Some(refused.to_string()), work: work.spent().work, ..Found::default() });
             }
+        };
+        let mut errors = |run: &Scene| differences(run, &exact, work).map_err(failed);
+        let over = estimates.iter().zip(errors(&scene)?).map(|(estimate, error)| error / estimate);
+        let over_estimate = over.fold(0.0, max_or_nan);
+        let mut over_target = 0.0;
+        for (target, chosen) in self.targets.iter().zip(chosen) {
+            over_target = max_or_nan(over_target, errors(&chosen)?[TIP] / target);
         }
-        Ok(Found { work: work.spent().work, ..found })
+        let is_refined = number.is_multiple_of(self.refined);
+        let linear = if is_refined { Some(Self::linear(&scene, &mut errors)?) } else { None };
+        Ok(Found { over_estimate, over_target, refused: None, linear, work: work.spent().work })
     }
 
     fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {

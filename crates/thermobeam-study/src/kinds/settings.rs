@@ -36,21 +36,22 @@ pub const PLACES: [(&str, &str); 18] = [
 /// Of a study with named cases they are those of the case that the item's name begins with.
 pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
     let of = Of { header, item, case: case(header, item) };
-    let mut settings = vec![("kind", of.kind().to_owned())];
     let field = field(item);
+    let axis = of.text("refine.axis").or(of.text("run.over")).unwrap_or_default();
+    let refined = format!("refined in {}", if axis == "both" { "space and time" } else { axis });
+    let mut settings = vec![("kind", of.kind())];
     if Norm::ALL.iter().any(|norm| norm.name() == field) {
-        settings.push(("field", field));
+        settings.push(("field", &field));
     }
     if of.kind() == "manufactured solutions" || of.kind() == "free vibrations" {
-        let axis = of.text("refine.axis").or(of.text("run.over")).unwrap_or_default();
-        settings.push(("axis", format!("refined in {}", if axis == "both" { "space and time" } else { axis })));
+        settings.push(("axis", &refined));
     }
     if of.kind() != "the harness" {
         settings.extend(of.method());
         settings.extend(of.beam());
-        settings.push(("mesh", of.mesh().to_owned()));
+        settings.push(("mesh", of.mesh()));
     }
-    let settings = settings.into_iter().map(|(key, value)| (key.to_owned(), value));
+    let settings = settings.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned()));
     // A study alone says of what kind it is: that is where to look.
     let (key, alone) = study(header);
     std::iter::once((key, format!("{alone} ({})", of.kind()))).chain(settings).collect()
@@ -91,14 +92,8 @@ impl Of<'_> {
     fn kind(&self) -> &str {
         match self.header.kind.as_str() {
             "calibration" | "program" => "the harness",
-            "convergence" | "any-order" | "controls" => {
-                if self.has("vibration.") {
-                    "free vibrations"
-                } else {
-                    "manufactured solutions"
-                }
-            }
-            "vibration" | "frequencies" => "free vibrations",
+            "convergence" | "any-order" | "controls" if !self.has("vibration.") => "manufactured solutions",
+            "vibration" | "frequencies" | "convergence" | "any-order" | "controls" => "free vibrations",
             "energy" => "the energy's laws",
             "equilibrium" | "bifurcation" => "steady states",
             "scenes" => "whole scenes",
@@ -108,9 +103,9 @@ impl Of<'_> {
         }
     }
 
-    fn method(&self) -> Vec<(&'static str, String)> {
+    fn method(&self) -> [(&'static str, &'static str); 3] {
         // A method without the choice is named in place of one.
-        let all = |method: &str| ["method", "scheme", "solver"].map(|key| (key, method.to_owned())).to_vec();
+        let all = |method: &'static str| ["method", "scheme", "solver"].map(|key| (key, method));
         let kind = self.header.kind.as_str();
         let any_order = matches!(kind, "any-order" | "exact-experiments") || self.has("any-order.studies");
         if any_order || self.item.contains("any-order") || self.speaks_of("dg") || self.item.contains("any order") {
@@ -126,31 +121,29 @@ impl Of<'_> {
         } else {
             "Newton's method"
         };
-        let method = [("method", "one-step schemes"), ("scheme", scheme), ("solver", solver)];
-        method.map(|(key, value)| (key, value.to_owned())).to_vec()
+        [("method", "one-step schemes"), ("scheme", scheme), ("solver", solver)]
     }
 
     /// The terms of the equations that are at work; scenes in other files are those of the paper, whose beam is the default.
-    fn beam(&self) -> Vec<(&'static str, String)> {
+    fn beam(&self) -> [(&'static str, &'static str); 5] {
         let free = self.kind() == "free vibrations";
         let default = if free { Beam { a: 0.0, rho: 0.0, ..Beam::default() } } else { Beam::default() };
         let number = |name: &str, default: f64| {
             self.text(&format!("beam.{name}")).map_or(default, |text| text.parse().unwrap_or(default))
         };
         let on = |is_on: bool, on: &'static str, off: &'static str| if is_on { on } else { off };
-        let mut terms = vec![
-            ("coupling", on(number("a", default.a) != 0.0, "coupling a > 0", "no coupling")),
-            ("rho", on(number("rho", default.rho) != 0.0, "Kirchhoff's term, rho > 0", "a linear beam")),
-            ("theta_a", on(number("theta_a", 0.0) != 0.0, "a hot end, theta_A > 0", "a cold end")),
-            ("zeta", on(number("zeta", default.zeta) < SMALL_ZETA, "small zeta", "zeta of order 0.1")),
-        ];
         let meets = matches!(
             self.kind(),
             "experiments with contact" | "maps of the solvers" | "the energy's laws" | "steady states"
         );
         let paper = meets || self.item.contains("paper-") || self.text("refine.scene").is_some();
-        terms.push(("obstacles", if paper || self.has("obstacles.") { "obstacles" } else { "a free end" }));
-        terms.into_iter().map(|(key, value)| (key, value.to_owned())).collect()
+        [
+            ("coupling", on(number("a", default.a) != 0.0, "coupling a > 0", "no coupling")),
+            ("rho", on(number("rho", default.rho) != 0.0, "Kirchhoff's term, rho > 0", "a linear beam")),
+            ("theta_a", on(number("theta_a", 0.0) != 0.0, "a hot end, theta_A > 0", "a cold end")),
+            ("zeta", on(number("zeta", default.zeta) < SMALL_ZETA, "small zeta", "zeta of order 0.1")),
+            ("obstacles", on(paper || self.has("obstacles."), "obstacles", "a free end")),
+        ]
     }
 
     fn mesh(&self) -> &'static str {

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::curves::{Curves, Rows, curves};
 use super::reference::{Reference, Wanted, finer, reference};
 use super::{Reason, Unreachable, Work};
-use crate::error::levels::distance_of_curves;
+use crate::error::reference::distance_of_curves;
 use crate::scene::{Method, Scene};
 
 /// Error of the first reference, in units of the largest value of a curve.

@@ -23,7 +23,7 @@ use thermobeam::parameters::Beam;
 
 use super::curves::{Apart, Curves, Rows, curves};
 use super::{Cost, Reason, Unreachable, Work};
-use crate::error::levels::distance_of_curves;
+use crate::error::reference::distance_of_curves;
 use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
 

@@ -151,7 +151,7 @@ impl FunctionField for Field<'_> {
     }
 
     fn finite(&self, function: &Expression, end: f64, order: usize) -> Result<(), InputError> {
-        function.check_finite_up_to(end, order).map_err(|found| self.not_finite(found))
+        function.check_finite(end, order).map_err(|found| self.not_finite(found))
     }
 
     fn not_finite(&self, found: NotFinite) -> InputError {

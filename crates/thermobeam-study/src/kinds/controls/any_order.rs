@@ -12,7 +12,7 @@
 
 use convergence_study::study::run_cases_here;
 
-use super::{Fault, Matrix, below_one};
+use super::{Fault, Matrix, RELATIVE, relative};
 use crate::kinds::any_order::AnyOrder;
 use crate::kinds::prelude::*;
 use crate::scene::Coefficients;
@@ -41,7 +41,7 @@ pub struct Judged {
 impl FromFile for AnyOrderControls {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("any-order", &["relative", "studies", "coefficients"])?;
-        let relative = below_one(&section.require("relative", "a number between 0 and 1")?)?;
+        let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
         let read = |file: &Field<'_>| AnyOrder::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;

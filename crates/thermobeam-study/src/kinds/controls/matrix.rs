@@ -11,7 +11,7 @@
 //! elements = [64, 128, 256]               # optional: levels in place of the studies' own
 //! ```
 
-use super::{Fault, Matrix, below_one, named_studies};
+use super::{Fault, Matrix, RELATIVE, named_studies, relative};
 use crate::kinds::convergence::design::verdicts;
 use crate::kinds::convergence::{Convergence, Prepared};
 use crate::kinds::prelude::*;
@@ -28,9 +28,8 @@ type LevelOf = (usize, (usize, usize));
 
 impl FromFile for Controls {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.require("controls", "a table with relative and studies")?.section()?;
-        section.allow(&["relative", "studies", "elements"])?;
-        let relative = below_one(&section.require("relative", "a number between 0 and 1")?)?;
+        let section = root.table("controls", &["relative", "studies", "elements"])?;
+        let relative = relative(&section.require("relative", RELATIVE)?)?;
         Ok(Self { header, relative, studies: named_studies(&section, folder)? })
     }
 }

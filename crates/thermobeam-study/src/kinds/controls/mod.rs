@@ -82,9 +82,11 @@ impl Fault {
     }
 }
 
-/// A relative error.
-fn below_one(field: &Field<'_>) -> Result<f64, InputError> {
-    field.number_where("a number between 0 and 1", |r| r > 0.0 && r < 1.0)
+/// In words, what a relative error is.
+const RELATIVE: &str = "a number between 0 and 1";
+
+fn relative(field: &Field<'_>) -> Result<f64, InputError> {
+    field.number_where(RELATIVE, |r| r > 0.0 && r < 1.0)
 }
 
 /// The studies that a section names, with its own levels where it gives them.

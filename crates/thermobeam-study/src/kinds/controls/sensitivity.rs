@@ -8,7 +8,7 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::{below_one, named_studies};
+use super::{RELATIVE, named_studies, relative};
 use crate::kinds::convergence::Convergence;
 use crate::kinds::convergence::design::Detector;
 use crate::kinds::prelude::*;
@@ -27,12 +27,11 @@ pub struct Sensitivity {
 
 impl FromFile for Sensitivity {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.require("sensitivity", "a table with studies, range and at_most")?.section()?;
-        section.allow(&["studies", "elements", "range", "at_most"])?;
+        let section = root.table("sensitivity", &["studies", "elements", "range", "at_most"])?;
         let ascending = "a list of two ascending numbers between 0 and 1";
-        let range = section.list("range", ascending, below_one, |ends| ends.len() == 2 && increases(ends))?;
+        let range = section.list("range", ascending, relative, |ends| ends.len() == 2 && increases(ends))?;
         let studies = named_studies(&section, folder)?;
-        let at_most = below_one(&section.require("at_most", "a number between 0 and 1")?)?;
+        let at_most = relative(&section.require("at_most", RELATIVE)?)?;
         Ok(Self { header, studies, range: [range[0], range[1]], at_most })
     }
 }
@@ -91,11 +90,8 @@ impl Kind for Sensitivity {
             rows.push(std::iter::once(key.to_owned()).chain(cells.into_iter().map(|(_, text)| text)).collect());
         }
         let holds = checks.iter().all(|check| check.verdict == Verdict::Pass);
-        let summary = if holds {
-            format!("every coefficient off by {:e} is detected, most from far less", self.at_most)
-        } else {
-            format!("some coefficient off by {:e} is not detected", self.at_most)
-        };
+        let [which, is] = if holds { ["every", "detected, most from far less"] } else { ["some", "not detected"] };
+        let summary = format!("{which} coefficient off by {:e} is {is}", self.at_most);
         let head = ["coefficient"].into_iter().chain(self.studies.iter().map(|spec| spec.header.id.as_str()));
         let title = "Smallest relative error that makes the study fail; n/a: coefficient absent or zero";
         let tables = vec![Table::new(title, head, rows)];

@@ -69,7 +69,7 @@ impl<'a> Prepared<'a> {
     /// Computes the space vectors of the design.
     ///
     /// # Errors
-    /// [`MeshError`] where the study's map makes no mesh of so many elements.
+    /// [`MeshError`] where the study's map makes no such mesh.
     pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
         let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.layout.mesh(elements)?);
         let is_nodal = study.refine.isolates(Axis::Time);
@@ -79,7 +79,7 @@ impl<'a> Prepared<'a> {
         Ok(Self { study, mesh, nodal, sources, meter })
     }
 
-    /// Runs so many steps and returns the errors, each the maximum over n = 1..N; NaN stays.
+    /// Runs that many steps and returns the errors, each the maximum over n = 1..N; NaN stays.
     ///
     /// * `solver`: the solver's coefficients; those of the study's theory in an honest run.
     ///

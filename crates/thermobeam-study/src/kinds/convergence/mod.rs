@@ -1,7 +1,7 @@
 //! Convergence studies: a manufactured solution, levels of refinement, orders expected.
 //!
 //! Three shapes, by what `[refine]` says: one axis, a path on which both are refined together (h = dt), or the full grid
-//! of (h, dt) with `e² = A(h)² + B(dt)²`, of which each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
+//! of (h, dt) with `e² = A(h)² + B(dt)²`, where each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
 //!
 //! ```toml
 //! [study]
@@ -25,7 +25,7 @@
 //!
 //! [[expect]]
 //! norm = "theorem-3.4"
-//! order = 1.0                 # or ">= 1"; `constant = [0.9, 1.1]` beside it: C of C h^p
+//! order = 1.0                 # or ">= 1"; with `constant = [0.9, 1.1]`: C of C h^p
 //! tolerance = 0.05
 //! ```
 
@@ -37,8 +37,7 @@ use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
-use super::tables::{Refine, control, expectations, manufactured, norm_levels, not_finite, refine};
-use super::terms::TERMS;
+use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, not_finite, refine};
 use crate::scene::Coefficients;
 pub use design::{Defect, Prepared};
 
@@ -51,7 +50,7 @@ pub const ROW: KindRow = KindRow {
           it by c (h + dt).",
     judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
              which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
-             within the tolerance, whole. Above is as wrong as below. What cannot be told is inconclusive, which is not a pass.",
+             within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
     failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
               wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
 };
@@ -234,14 +233,12 @@ impl Convergence {
             }
             (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
         };
-        let changed: Vec<&str> = self.solver.differing(self.theory).collect();
-        let control = match &changed[..] {
-            [] => String::new(),
-            _ => {
-                let changed = changed.join(", ");
-                format!(" The solver differs from the sources in {changed}: a negative control, which must fail.")
+        let text = format!("{what} {} levels; scheme {}.", refine.cases().len(), refine.scheme.name);
+        match self.solver.differing(self.theory).collect::<Vec<_>>().join(", ") {
+            same if same.is_empty() => text,
+            changed => {
+                format!("{text} The solver differs from the sources in {changed}: a negative control, which must fail.")
             }
-        };
-        format!("{what} {} levels; scheme {}.{control}", refine.cases().len(), refine.scheme.name)
+        }
     }
 }

@@ -5,7 +5,7 @@ use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
 
 use super::{ComparedRun, SelfConvergence, Traced};
-use crate::error::levels::{self, prolong, restrict};
+use crate::error::reference::distance_of_curves;
 use crate::figures::obstacle_lines;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
@@ -39,29 +39,13 @@ static OBSERVABLES: [Observable; 6] = [
         of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
     },
     // The energy (3.9).
-    Observable { name: "energy", in_space: 2.0, of: |a, b| levels::distance_of_curves(&a.energies, &b.energies) },
+    Observable { name: "energy", in_space: 2.0, of: |a, b| distance_of_curves(&a.energies, &b.energies) },
     // The largest u(1) over all time levels.
     Observable { name: "tip-max", in_space: 2.0, of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs() },
     // The solutions as functions.
-    Observable {
-        name: "theorem-3.4",
-        in_space: 1.0,
-        of: |coarse, fine| {
-            let lengths: Vec<f64> = fine.mesh.lengths().collect();
-            let extended = |level: &Level| prolong(level, coarse.mesh.nodes(), fine.mesh.nodes());
-            largest(coarse, fine, |a, b| levels::distance(&lengths, &extended(a), b))
-        },
-    },
+    Observable { name: "theorem-3.4", in_space: 1.0, of: |coarse, fine| functions(coarse, fine)[0] },
     // The same norm of their values at the nodes of the coarser mesh.
-    Observable {
-        name: "superclose",
-        in_space: 2.0,
-        of: |coarse, fine| {
-            let lengths: Vec<f64> = coarse.mesh.lengths().collect();
-            let stride = fine.mesh.elements() / coarse.mesh.elements();
-            largest(coarse, fine, |a, b| levels::distance(&lengths, a, &restrict(b, stride)))
-        },
-    },
+    Observable { name: "superclose", in_space: 2.0, of: |coarse, fine| functions(coarse, fine)[1] },
 ];
 
 const TIP: Observable =
@@ -70,6 +54,11 @@ const TIP: Observable =
 /// The largest over the times compared.
 fn largest(coarse: &Traced, fine: &Traced, of: impl Fn(&Level, &Level) -> f64) -> f64 {
     coarse.levels.iter().zip(&fine.levels).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
+}
+
+fn functions(coarse: &Traced, fine: &Traced) -> [f64; 2] {
+    let errors = coarse.levels.iter().enumerate().map(|(k, level)| fine.errors_of(level, &coarse.mesh, k));
+    errors.fold([0.0; 2], |[a, b], [c, d]| [max_or_nan(a, c), max_or_nan(b, d)])
 }
 
 fn last(values: &[f64]) -> f64 {

@@ -1,20 +1,19 @@
 //! Rates where no exact solution is known: the paper's own data, contact included.
 //!
-//! Two readings of the same runs, each with an interval by the rule that all rates are judged by:
+//! Two readings of the same runs:
 //!
 //! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring levels is
 //!   `q_h - q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order, and two of them (three levels) give a rate;
 //! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. Where h and dt are refined together it is
 //!   the error against the equations themselves, contact included; where time alone is refined, against the semi-discrete
-//!   system of the mesh. A second reference of other degrees and steps tells how well the first is known.
+//!   system of the mesh. A second reference of other degrees and steps shows how well the first is known.
 //!
-//! A fault of the scheme that does not vanish with h and dt, such as a wrong coefficient, falls with no order in the second
-//! reading, while the first does not see it.
+//! Only the second reading sees a fault of the scheme that does not vanish with h and dt, such as a wrong coefficient.
 //!
 //! What the contact does is not assumed. The contact force is Lipschitz, so where the tip enters or leaves an obstacle it
 //! has a kink in time. That costs one step a local error of dt² instead of dt³, once for each event: first and second order
 //! should survive at fixed times, with a constant that depends on where in its step the event falls, so that rates scatter.
-//! The largest displacement over all levels has no such claim: it sits beside the true maximum by a share of a step.
+//! The largest displacement over all levels has no such claim: it is off the true maximum by a share of a step.
 //! Only what the file claims under `[[expect]]` is judged; the rest is shown with the verdict that it would get.
 //!
 //! ```toml
@@ -89,7 +88,7 @@ pub struct SelfConvergence {
 /// A run of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ComparedRun {
-    /// By the scheme of the study, with so many elements and steps.
+    /// By the scheme of the study, with these elements and steps.
     Level(usize, usize),
     /// The reference of this number.
     Reference(usize),
@@ -162,23 +161,15 @@ fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usi
     Ok((elements.into_iter().zip(steps).collect(), power))
 }
 
-/// A list of levels, each of which the one before divides.
+/// A list of levels, each a multiple of the one before.
 fn nested_list(
     section: &Section<'_>,
     key: &str,
     read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
 ) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two whole numbers, each a multiple of the one before";
-    let list = section.require(key, allowed)?;
-    let mut levels = vec![];
-    for item in list.items(allowed)? {
-        let level = read(&item)?;
-        if let Some(&before) = levels.last().filter(|before| level <= **before || !level.is_multiple_of(**before)) {
-            return Err(item.refuse_as_written(format!("a multiple of {before}, the level before")));
-        }
-        levels.push(level);
-    }
-    if levels.len() < 2 { Err(list.refuse_as_written(allowed)) } else { Ok(levels) }
+    let follows = |before: usize, level: usize| level > before && level.is_multiple_of(before);
+    section.sequence((key, allowed, 2), read, ("a multiple of", follows))
 }
 
 impl Kind for SelfConvergence {

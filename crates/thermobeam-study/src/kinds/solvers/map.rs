@@ -180,8 +180,7 @@ fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
     if elements <= limits::ELEMENTS as f64 {
         return Ok(());
     }
-    let found =
-        format!("{}, of which the finest mesh would take {}", field.as_written(), limits::memory_of_elements(elements));
+    let found = format!("{}: the finest mesh would take {}", field.as_written(), limits::memory_of_elements(elements));
     Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
 }
 

@@ -1,9 +1,8 @@
 //! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always does.
 //!
 //! The paper leaves the convergence of its iteration out. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn` per
-//! iteration ([`contact_contraction`]), free of contact by a factor γ < 1
-//! ([`coupling_contraction`]); past α = 1 the iteration diverges. A study
-//! asks one or more of three questions, one table of its file each:
+//! iteration ([`contact_contraction`]), free of contact by a factor γ < 1 ([`coupling_contraction`]); past α = 1 the
+//! iteration diverges. A study asks one or more of three questions, one table of its file each:
 //!
 //! ```toml
 //! [contraction]              # the factor of one step in contact against α, for all combinations
@@ -50,7 +49,7 @@ pub const ROW: KindRow = KindRow {
     judged: "The measured factor against alpha, for all combinations of dt, epsilon and zeta; the difference between both solvers \
              against the fixed point's tolerance; over two parameters at a time, the boundary of convergence against alpha = 1, \
              and for Newton's method convergence, energy and balance at every point.",
-    failure: "The iteration is not the paper's, its steps are not solved to the tolerance asked for, or a solver is less stable \
+    failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
 };
 
@@ -198,7 +197,7 @@ pub struct FixedPointStep {
 }
 
 impl FixedPointStep {
-    /// The first step of the problem, with at most so many iterations, to an increment below `tolerance`.
+    /// The first step of the problem, with that many iterations at most, to an increment below `tolerance`.
     ///
     /// * `n_value`: mean axial force for the predicted factors.
     ///

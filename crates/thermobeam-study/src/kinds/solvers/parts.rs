@@ -2,7 +2,7 @@
 //! method, their difference against the fixed point's tolerance.
 
 use super::{FixedPointStep, SolverTask, positive_numbers};
-use crate::error::levels;
+use crate::error::reference::distance;
 use crate::figures;
 use crate::kinds::prelude::*;
 
@@ -165,14 +165,14 @@ impl Comparison {
         let mut newton = driver(Settings { tolerance: SOLVED, ..Settings::default() })?;
         let mut fixed = driver(Settings { solver: Solver::FixedPoint, tolerance, ..Settings::default() })?;
         let lengths: Vec<f64> = scene.mesh.lengths().collect();
-        let (mut distance, mut total, mut most_iterations) = (0.0, 0, 0);
+        let (mut farthest, mut total, mut most_iterations) = (0.0, 0, 0);
         let (mut iterations, mut of_newton, mut contact) = (vec![], vec![], vec![]);
         for _ in 0..self.steps {
             let solved = newton.advance(|_, _| ())?;
             let report = fixed.advance(|_, _| ())?;
             let t = fixed.simulation().t();
             let level = fixed.level();
-            distance = max_or_nan(distance, levels::distance(&lengths, level, newton.level()));
+            farthest = max_or_nan(farthest, distance(&lengths, level, newton.level()));
             total += report.iterations;
             most_iterations = most_iterations.max(report.iterations);
             iterations.push((t, report.iterations as f64));
@@ -182,7 +182,7 @@ impl Comparison {
             }
         }
         let mean_iterations = total as f64 / self.steps as f64;
-        Ok(Agreement { distance, mean_iterations, most_iterations, iterations, newton: of_newton, contact })
+        Ok(Agreement { distance: farthest, mean_iterations, most_iterations, iterations, newton: of_newton, contact })
     }
 }
 

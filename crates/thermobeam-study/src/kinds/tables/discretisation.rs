@@ -8,7 +8,7 @@ use crate::kinds::prelude::*;
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
 
-/// What a solve costs beside a step of a one-step scheme, for each unknown.
+/// What a solve costs in steps of a one-step scheme, for each unknown.
 const COST: f64 = 30.0;
 
 /// Elements and steps of one discretisation.

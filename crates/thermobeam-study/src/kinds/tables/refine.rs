@@ -58,7 +58,7 @@ impl Layout {
         Ok(layout)
     }
 
-    /// The mesh of so many elements.
+    /// The mesh of that many elements.
     ///
     /// # Errors
     /// [`MeshError`] where its nodes do not increase from 0 to 1.
@@ -92,7 +92,7 @@ pub struct Refine {
     pub scheme: Scheme,
     /// How each step is solved.
     pub settings: Settings,
-    /// Levels are added until it is decided, for as many node-steps, elements times time steps.
+    /// Levels are added until it is decided, while node-steps (elements times time steps) are left.
     pub budget: Option<f64>,
 }
 
@@ -194,17 +194,7 @@ fn levels(
         let single = if field.is_list() { Err(field.refuse_as_written(allowed)) } else { read(&field) };
         return Ok(vec![single?]);
     }
-    let mut levels: Vec<usize> = Vec::new();
-    for item in field.items(&allowed)? {
-        let level = read(&item)?;
-        match levels.last() {
-            Some(&before) if level <= before => {
-                return Err(item.refuse_as_written(format!("a whole number > {before}, the level before")));
-            }
-            _ => levels.push(level),
-        }
-    }
-    if levels.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(levels) }
+    section.sequence((key, &allowed, 1), read, ("a whole number >", |before, level| level > before))
 }
 
 fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {

@@ -1,9 +1,7 @@
 //! Damped vibrations without any source term: the one motion of this beam that is known in closed form.
 //!
-//! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] moves by itself, and a beam started
-//! from a sum of modes stays that sum for ever. Nothing is manufactured: no load keeps the solution in place, so an
-//! error in the scheme and the same error in the sources cannot cancel. The module `modes` says how space and time errors
-//! are measured one without the other.
+//! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] moves by itself. No load keeps the solution in
+//! place, so an error in the scheme and the same error in the sources cannot cancel. `modes` isolates either error.
 
 mod modes;
 
@@ -101,7 +99,7 @@ fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     if refine.isolates(Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
 }
 
-/// The indices that may be asked for: a study that starts from the modes of its mesh has `of_mesh` of them.
+/// The indices of modes: a study that starts from the modes of its mesh has `of_mesh` of them.
 fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
     1..=if refine.isolates(Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
 }

@@ -17,7 +17,7 @@
 //!   space error is exactly zero;
 //! * neither: a mode of the mesh moved by the scheme is what the solver has to give, to round-off.
 //!
-//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, lives beside the beam without touching it for a = 0; Crank-Nicolson
+//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, does not act on the beam for a = 0; Crank-Nicolson
 //! multiplies it by `(1 - κ² dt/2)/(1 + κ² dt/2)` a step.
 
 use std::f64::consts::PI;
@@ -85,7 +85,7 @@ impl Modes {
         Ok(modes)
     }
 
-    /// Sets the time factors to those at a time level: exactly, or by a time scheme, which is asked for one level after the other. All
+    /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level after the other. All
     /// schemes take the temperature by Crank-Nicolson.
     pub(super) fn moved(&self, by: Option<Scheme>, dt: f64) -> impl FnMut(usize, &mut Factors) {
         let (mut level, mut states): (usize, Vec<[f64; 2]>) = (0, self.vibrations.iter().map(|(_, at)| *at).collect());

@@ -7,7 +7,7 @@
 use thermobeam::dg;
 
 use crate::error::evaluator::Evaluator;
-use crate::error::levels::combine;
+use crate::error::reference::combine;
 use crate::kinds::prelude::*;
 use crate::run::family::{Family, OnMesh, Spent};
 use crate::run::motion::Motion;

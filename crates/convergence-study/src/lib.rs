@@ -34,8 +34,7 @@
 //! have no figures. The feature `files` adds [`input`] and studies that files describe, `reports` all but the command line, `command-line` that.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
-//! `compare`, `report`, `explain`, `verify`, `cli`. (One exception: a calibration in `judge` asks `run::time_limit`
-//! for the time left.)
+//! `compare`, `report`, `explain`, `verify`, `cli`. The first two are the crate `convergence-judge`, with `run::time_limit`.
 
 #[cfg(feature = "command-line")]
 pub mod cli;
@@ -45,7 +44,6 @@ pub mod compare;
 pub mod explain;
 #[cfg(feature = "files")]
 pub mod input;
-pub mod judge;
 #[cfg(feature = "reports")]
 pub mod plots;
 #[cfg(feature = "reports")]
@@ -58,10 +56,10 @@ pub mod run;
 #[cfg(feature = "reports")]
 pub mod store;
 pub mod study;
-pub mod text;
 #[cfg(feature = "reports")]
 pub mod verify;
 
+pub use convergence_judge::{judge, text};
 pub use run::assert_order;
 pub use study::levels;
 

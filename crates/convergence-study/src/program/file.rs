@@ -47,7 +47,7 @@ use super::refine::{Parameter, refine};
 use crate::input::{Field, InputError, Section, visible};
 use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
-use crate::study::{Claim, Header};
+use crate::study::{Claim, Header, read_claim};
 
 /// The longest time for a case of a file that does not say.
 const TIMEOUT: Duration = Duration::from_secs(600);
@@ -192,7 +192,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
         field.positive()?;
     }
     let key = if claims[1].is_some() { "factor" } else { "order" };
-    let mut claim = Claim::read(section, key)?;
+    let mut claim = read_claim(section, key)?;
     if let Some(field) = &claims[1] {
         if claim.order <= 1.0 {
             return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));

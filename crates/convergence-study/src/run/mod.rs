@@ -7,7 +7,6 @@
 mod caught;
 mod levels;
 mod queue;
-pub mod time_limit;
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -26,6 +25,7 @@ use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study,
 use caught::caught;
 use queue::{Counter, Done, Job};
 
+pub use convergence_judge::time_limit;
 pub use levels::assert_order;
 pub use queue::Progress;
 

@@ -156,21 +156,22 @@ fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
 }
 
-impl Claim {
-    /// The claim of a table, with the default tolerance: which a study may be given is its kind's affair.
-    ///
-    /// * `key`: where the order is, or a number that is written in the same way.
-    pub fn read(section: &Section<'_>, key: &str) -> Result<Self, InputError> {
-        let allowed = "a number > 0, or a text such as \">= 2\"";
-        let field = section.require(key, allowed)?;
-        let (order, at_least) = match field.text() {
-            Ok(text) => {
-                order_from_text(text).filter(|(_, least)| *least).ok_or_else(|| field.refuse_as_written(allowed))?
-            }
-            Err(_) => (field.positive()?, false),
-        };
-        Ok(Self { at_least, constant: constant(section)?, ..Self::new(order, DEFAULT_TOLERANCE) })
-    }
+/// The claim of a table, with the default tolerance: which a study may be given is its kind's affair.
+///
+/// * `key`: where the order is, or a number that is written in the same way.
+///
+/// # Errors
+/// An order or a constant that is no such number.
+pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
+    let allowed = "a number > 0, or a text such as \">= 2\"";
+    let field = section.require(key, allowed)?;
+    let (order, at_least) = match field.text() {
+        Ok(text) => {
+            order_from_text(text).filter(|(_, least)| *least).ok_or_else(|| field.refuse_as_written(allowed))?
+        }
+        Err(_) => (field.positive()?, false),
+    };
+    Ok(Claim { at_least, constant: constant(section)?, ..Claim::new(order, DEFAULT_TOLERANCE) })
 }
 
 fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {

@@ -21,7 +21,7 @@ pub mod until_decided;
 pub use axis::Axis;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Kinds, Reader, StudyFile, reader};
+pub use file::{FromFile, KindRow, Kinds, Reader, StudyFile, read_claim, reader};
 pub use header::{Header, Tier};
 pub use kind::{Case, CaseFailure, Kind, Plan, Ran, Study, Untested, erased, run_cases_here};
 pub use levels::{Claim, Refinement};

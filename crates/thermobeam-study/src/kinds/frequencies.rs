@@ -64,7 +64,7 @@ impl FromFile for Frequencies {
         let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
         // A mesh has twice as many frequencies, but the upper ones approximate nothing.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
-        let claim = Claim::read(&section, "order")?;
+        let claim = read_claim(&section, "order")?;
         Ok(Self {
             header,
             first: section.get("first").map_or(Ok(1), |field| field.count(1..=count))?,

@@ -11,7 +11,7 @@ pub(crate) use convergence_study::run::time_limit::Patience;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, completion, summary};
 pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Reading,
-    Refinement, Table, reader, readings,
+    Refinement, Table, read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{max_or_nan, min_or_nan, plain_text};
 pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};

@@ -25,7 +25,7 @@ pub const PLACES: [(&str, &str); 18] = [
     ("listed nodes", "the lengths of elements: crates/thermobeam/src/mesh.rs, assembly.rs"),
     ("whole scenes", "crates/thermobeam-study/src/scene, crates/thermobeam-study/src/run"),
     ("manufactured solutions", "crates/thermobeam-study/src/error, crates/thermobeam-exact/src"),
-    ("the harness", "crates/convergence-study/src/judge"),
+    ("the harness", "crates/convergence-judge/src/judge"),
     ("temperature", "the third equation of (3.7)"),
     ("velocity", "the first equation of (3.7)"),
     ("rotation-rate", "the second equation of (3.7)"),

@@ -133,7 +133,7 @@ pub(crate) fn claims<T: Copy>(
             return Err(section.refuse(key, format!("\"{name}\" a second time"), format!("each {key} once")));
         }
         known.push(name);
-        let claim = Claim::read(section, "order")?;
+        let claim = read_claim(section, "order")?;
         Ok((of, Claim { tolerance: section.positive("tolerance")?, ..claim }))
     })
 }

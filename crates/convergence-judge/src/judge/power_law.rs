@@ -13,7 +13,7 @@ impl PowerLaw {
     /// The error that the law gives for a step.
     ///
     /// ```
-    /// use convergence_study::judge::verdict::judge_pairs;
+    /// use convergence_judge::judge::verdict::judge_pairs;
     ///
     /// let errors = [0.4, 0.2, 0.1, 0.05].map(|h: f64| (h, 3.0 * h * h));
     /// let law = judge_pairs(errors, 2.0, 0.05).power_law().expect("four levels give a rate");

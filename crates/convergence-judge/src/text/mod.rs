@@ -1,10 +1,9 @@
 //! Numbers, columns and names as text.
 
-#[cfg(feature = "reports")]
-pub(crate) mod columns;
-pub(crate) mod json;
+pub mod columns;
+pub mod json;
 pub mod lists;
-#[cfg(feature = "files")]
+#[cfg(feature = "names")]
 pub mod names;
 pub mod number;
 pub mod visible;

@@ -29,7 +29,7 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
 }
 
 /// A word as a shell takes it, which would otherwise resolve patterns.
-pub(crate) fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
     let is_whole = !word.is_empty() && word.chars().all(is_plain);
     if is_whole { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }

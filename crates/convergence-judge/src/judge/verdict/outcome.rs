@@ -193,7 +193,7 @@ impl RateVerdict {
     /// * `self`: the verdict on the levels that have a result.
     /// * `names`: of all levels.
     /// * `has`: whether each of them has a result.
-    pub(crate) fn among(self, names: &[&str], has: &[bool]) -> Self {
+    pub fn among(self, names: &[&str], has: &[bool]) -> Self {
         let present: Vec<usize> = (0..has.len()).filter(|level| has[*level]).collect();
         if present.len() == has.len() {
             return self;
@@ -218,7 +218,7 @@ impl RateVerdict {
     }
 
     /// The same rate, judged by another rule than that of its levels.
-    pub(crate) fn with_reason(self, kind: Reason, because: &str) -> Self {
+    pub fn with_reason(self, kind: Reason, because: &str) -> Self {
         let rest = self.reason.strip_prefix(self.kind.text()).unwrap_or_default();
         let reason = format!("{because}{rest}");
         Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, ..self }
@@ -228,7 +228,7 @@ impl RateVerdict {
     ///
     /// * `levels`: how many levels there are.
     /// * `missing`: the names of those without a result.
-    pub(crate) fn without_result<S: AsRef<str>>(self, levels: usize, missing: &[S]) -> Self {
+    pub fn without_result<S: AsRef<str>>(self, levels: usize, missing: &[S]) -> Self {
         const MOST_NAMED: usize = 4;
         let named: Vec<&str> = missing.iter().take(MOST_NAMED).map(AsRef::as_ref).collect();
         let named = named.join("; ");

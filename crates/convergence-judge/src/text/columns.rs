@@ -2,14 +2,14 @@
 
 /// Widths of the columns of a table, in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Columns {
+pub struct Columns {
     widths: Vec<usize>,
     numeric: Vec<bool>,
 }
 
 impl Columns {
     /// Measures a table: the head gives the number of columns; a column of numbers alone is set to the right.
-    pub(crate) fn of(head: &[String], rows: &[Vec<String>]) -> Self {
+    pub fn of(head: &[String], rows: &[Vec<String>]) -> Self {
         let column = |i: usize| rows.iter().filter_map(move |row| row.get(i));
         let width = |i: usize| column(i).chain(head.get(i)).map(|cell| cell.chars().count()).max().unwrap_or(0);
         let numeric = |i: usize| !rows.is_empty() && column(i).all(|cell| is_number(cell));
@@ -17,22 +17,22 @@ impl Columns {
     }
 
     /// Number of columns.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.widths.len()
     }
 
     /// Width of a column.
-    pub(crate) fn width(&self, column: usize) -> usize {
+    pub fn width(&self, column: usize) -> usize {
         self.widths[column]
     }
 
     /// Whether a column is set to the right.
-    pub(crate) fn is_numeric(&self, column: usize) -> bool {
+    pub fn is_numeric(&self, column: usize) -> bool {
         self.numeric[column]
     }
 
     /// The cells of a row, filled up to the widths; as many as there are columns.
-    pub(crate) fn pad<'r>(&'r self, row: &'r [String]) -> impl Iterator<Item = String> + 'r {
+    pub fn pad<'r>(&'r self, row: &'r [String]) -> impl Iterator<Item = String> + 'r {
         (0..self.count()).map(|i| {
             let cell = row.get(i).map_or("", String::as_str);
             let width = self.widths[i];

@@ -4,44 +4,56 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde::ser::{SerializeMap, Serializer};
 
 /// A number; `null` is NaN.
-pub(crate) fn nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub fn nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::NAN))
 }
 
 /// The same of each number of a list.
-pub(crate) fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+pub fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let numbers: Vec<Option<f64>> = Vec::deserialize(deserializer)?;
     Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
 /// The same of both ends of an interval.
-pub(crate) fn nan_pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 2]>, D::Error> {
+pub fn nan_pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 2]>, D::Error> {
     let ends: Option<[Option<f64>; 2]> = Option::deserialize(deserializer)?;
     Ok(ends.map(|ends| ends.map(|end| end.unwrap_or(f64::NAN))))
 }
 
 /// Names and numbers as an object.
-pub(crate) mod named {
+pub mod named {
     use super::{Deserializer, Named, SerializeMap, Serializer};
 
-    pub(crate) fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    /// As serde asks for it.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
         numbers.iter().try_for_each(|(name, number)| map.serialize_entry(name, number))?;
         map.end()
     }
 
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, f64)>, D::Error> {
+    /// As serde asks for it.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, f64)>, D::Error> {
         deserializer.deserialize_map(Named)
     }
 }
 
 /// The same; whole numbers stand without a decimal point.
-pub(crate) mod counted {
+pub mod counted {
     use super::{SerializeMap, Serializer};
 
-    pub(crate) use super::named::deserialize;
+    pub use super::named::deserialize;
 
-    pub(crate) fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    /// As serde asks for it.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
         for (name, number) in numbers {
             let whole = *number as i64;

@@ -50,7 +50,7 @@ thread_local! {
 /// Runs a case on this thread, with a limit on its work or without.
 ///
 /// * Returns the result of `case`, and the work that its loops have counted: the same at every run.
-pub(crate) fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
+pub fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
     let before = WORK.replace((0, most));
     let result = case();
     (result, WORK.replace(before).0)

@@ -47,7 +47,7 @@ use crate::judge::fit::{Level, pairwise_rates};
 use crate::judge::random::SplitMix;
 use crate::judge::richardson::{Estimator, Value};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Reading, Reason, Verdict};
-use crate::run::time_limit::{Patience, TimeUp};
+use crate::time_limit::{Patience, TimeUp};
 
 pub mod grids;
 pub mod laws;

@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use crate::cli::output;
+use crate::judge::verdict::Verdict;
 use crate::text::visible;
 
 /// For the end of `--help`.
@@ -33,18 +34,16 @@ impl Unusable {
     pub fn because(reason: &str) -> Self {
         Self(reason.to_owned())
     }
-}
 
-impl Unusable {
     /// What is unusable, in words.
     pub fn message(&self) -> &str {
         &self.0
     }
 }
 
-impl From<crate::judge::verdict::Verdict> for Ended {
-    fn from(verdict: crate::judge::verdict::Verdict) -> Self {
-        if verdict == crate::judge::verdict::Verdict::Pass { Self::Well } else { Self::Badly }
+impl From<Verdict> for Ended {
+    fn from(verdict: Verdict) -> Self {
+        if verdict.is_pass() { Self::Well } else { Self::Badly }
     }
 }
 

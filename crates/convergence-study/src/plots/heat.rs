@@ -21,8 +21,6 @@ const ALONE: f64 = 0.25;
 /// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Above the plot.
-    pub title: Option<String>,
     /// Horizontal axis, `dt` say.
     pub x: Axis,
     /// Vertical axis, `h` say.
@@ -50,7 +48,7 @@ pub fn surface(figure: &Surface) -> String {
     let values = sorted(&figure.values, &rows, &columns, f64::NAN);
     let marked = sorted(&figure.marked, &rows, &columns, false);
     let plan = Layout {
-        title: figure.title.clone(),
+        title: None,
         x: span(figure.x.scale, &edges(&x, ALONE)),
         y: span(figure.y.scale, &edges(&y, ALONE)),
         x_label: figure.x.label.clone(),

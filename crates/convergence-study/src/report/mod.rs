@@ -69,9 +69,8 @@ impl Findings<'_> {
     pub fn files(&self) -> io::Result<ReportSet> {
         let Self { project, record, .. } = self;
         let mut set = ReportSet::default();
-        let rates = forest::figure(project, &record.studies);
-        set.add("README.md", self.readme_with(rates.as_ref()))?;
-        set.add("index.html", page::page(self, rates.as_ref()))?;
+        set.add("README.md", self.readme())?;
+        set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
         set.add("junit.xml", junit(project.name, record).map_err(io::Error::other)?)?;
@@ -81,10 +80,7 @@ impl Findings<'_> {
                 set.add(*name, figure.svg.as_str())?;
             }
         }
-        if let Some(figure) = &rates {
-            set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
-        }
-        for figure in self.figures() {
+        for figure in self.rates().iter().chain(self.figures()) {
             set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
         }
         Ok(set)
@@ -99,13 +95,13 @@ impl Findings<'_> {
         self.record.studies.iter().flat_map(|finished| &finished.outcome.figures)
     }
 
-    /// The report in Markdown: the verdict, one table, then a section for each study.
-    pub fn readme(&self) -> String {
-        self.readme_with(forest::figure(self.project, &self.record.studies).as_ref())
+    /// The picture of all rates.
+    fn rates(&self) -> Option<Figure> {
+        forest::figure(self.project, &self.record.studies)
     }
 
-    /// * `rates`: the picture of all rates.
-    fn readme_with(&self, rates: Option<&Figure>) -> String {
+    /// The report in Markdown: the verdict, one table, then a section for each study.
+    pub fn readme(&self) -> String {
         let link = |id: &str| self.linked(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
         let one = if self.record.changes.is_some() { "; a name after it repeats one study" } else { "" };
@@ -121,7 +117,7 @@ impl Findings<'_> {
             changes::parts(self, &link).concat()
         );
         page += &section::front(self, &link).0;
-        page += &rates.map(section::figure).unwrap_or_default();
+        page += &self.rates().as_ref().map(section::figure).unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         let mut seen = vec![];
         let section = |finished| section::section(finished, &self.again(finished), &mut seen);
@@ -137,7 +133,7 @@ impl Findings<'_> {
 
     /// The same as one page that needs nothing else.
     pub fn page(&self) -> String {
-        page::page(self, forest::figure(self.project, &self.record.studies).as_ref())
+        page::page(self)
     }
 
     /// What of the report fits on one page of a continuous integration and in a comment: no links, no sections.

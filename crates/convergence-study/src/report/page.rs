@@ -8,7 +8,6 @@ use super::{Findings, SeeAlso};
 use super::{changes, failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::study::outcome::Figure;
 
 /// Studies that do not pass and are unfolded; more would fill screens.
 const OPEN: usize = 3;
@@ -20,9 +19,7 @@ const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), in
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The page: verdicts first, then the studies, folded but for those that do not pass.
-///
-/// * `rates`: the picture of all rates.
-pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
+pub(super) fn page(findings: &Findings<'_>) -> String {
     let groups = groups(findings);
     let listed = groups.iter().flat_map(|(_, studies)| studies);
     // Those that do not pass stand first: the first of them are open.
@@ -38,7 +35,7 @@ pub(super) fn page(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
          </head>\n<body>\n{}<main>\n{}{}{studies}</main>\n{scripts}</body>\n</html>\n",
         findings.record.verdict,
         head(findings),
-        front(findings, rates),
+        front(findings),
         overview(&groups),
     )
 }
@@ -52,9 +49,9 @@ fn head(findings: &Findings<'_>) -> String {
 }
 
 /// What did not pass, what changed, where the report comes from, and all rates in one picture.
-fn front(findings: &Findings<'_>, rates: Option<&Figure>) -> String {
+fn front(findings: &Findings<'_>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
-    let picture = rates.map(|figure| html(&section::figure(figure), std::slice::from_ref(figure)));
+    let picture = findings.rates().map(|figure| html(&section::figure(&figure), &[figure]));
     let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)

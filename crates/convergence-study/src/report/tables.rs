@@ -75,7 +75,7 @@ fn failures(failed: &[FailedCase]) -> Table {
 /// Widest table in characters, with three for the gap between columns: so much fits on the page, and nearly so in Markdown.
 const WIDEST: usize = 120;
 
-/// The errors of one name on the levels that have them, and the rate from the one before.
+/// A parameter of the levels; or the errors of one name on the levels that have them, and the rate from the one before.
 struct Column {
     /// Name, and the word over the rates where there are any.
     head: Vec<String>,
@@ -93,26 +93,38 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
     if judged && names.iter().any(is_judged) {
         names.retain(is_judged);
     }
-    let parameters = Parameters::of(levels);
+    let parameters = distinct(levels.iter().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
+    let room = WIDEST - parameters.iter().map(|name| name.chars().count().max(6) + 3).sum::<usize>().min(WIDEST);
     let mut tables: Vec<Vec<Column>> = vec![];
     for name in names {
         let column = Column::of(outcome, name);
+        let width = |columns: &[Column]| columns.iter().map(Column::width).sum::<usize>();
         match tables.last_mut() {
-            Some(last) if parameters.width() + width(last) + column.width() <= WIDEST && last[0].rows_like(&column) => {
-                last.push(column);
-            }
+            Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => last.push(column),
             _ => tables.push(vec![column]),
         }
     }
-    let title = |k: usize| if k == 0 { "Errors" } else { "Errors, continued" };
-    tables.iter().enumerate().map(|(k, columns)| parameters.table(title(k), columns)).collect()
-}
-
-fn width(columns: &[Column]) -> usize {
-    columns.iter().map(Column::width).sum()
+    let identified: Vec<Column> = parameters.into_iter().map(|name| Column::of_parameter(outcome, name)).collect();
+    let table = |(k, columns): (usize, Vec<Column>)| {
+        let columns: Vec<&Column> = identified.iter().chain(&columns).collect();
+        // The levels on which there are such errors.
+        let row = |level: usize| columns.iter().map(|column| column.cells[level].clone()).collect::<Option<Vec<_>>>();
+        Table::new(
+            if k == 0 { "Errors" } else { "Errors, continued" },
+            columns.iter().flat_map(|column| column.head.clone()),
+            (0..levels.len()).filter_map(row).map(|cells| cells.concat()),
+        )
+    };
+    tables.into_iter().enumerate().map(table).collect()
 }
 
 impl Column {
+    /// What identifies the levels.
+    fn of_parameter(outcome: &Outcome, name: &str) -> Self {
+        let cell = |level: &LevelErrors| vec![level.parameter(name).map_or_else(|| "-".to_owned(), plain_text)];
+        Self { head: vec![name.to_owned()], cells: outcome.levels.iter().map(cell).map(Some).collect() }
+    }
+
     fn of(outcome: &Outcome, name: &str) -> Self {
         let found = |level: &LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
@@ -149,38 +161,5 @@ impl Column {
     /// Whether both have errors on the same levels.
     fn rows_like(&self, other: &Self) -> bool {
         self.cells.iter().zip(&other.cells).all(|(a, b)| a.is_some() == b.is_some())
-    }
-}
-
-/// What identifies the levels.
-struct Parameters<'o> {
-    levels: &'o [LevelErrors],
-    names: Vec<&'o String>,
-}
-
-impl<'o> Parameters<'o> {
-    fn of(levels: &'o [LevelErrors]) -> Self {
-        Self { levels, names: distinct(levels.iter().flat_map(|level| level.parameters.iter().map(|(name, _)| name))) }
-    }
-
-    fn width(&self) -> usize {
-        self.names.iter().map(|name| name.chars().count().max(6) + 3).sum()
-    }
-
-    /// The levels on which there are such errors.
-    fn table(&self, title: &str, columns: &[Column]) -> Table {
-        let parameter =
-            |level: &LevelErrors, name: &str| level.parameter(name).map_or_else(|| "-".to_owned(), plain_text);
-        let row = |(k, level): (usize, &LevelErrors)| {
-            let errors: Option<Vec<&Vec<String>>> = columns.iter().map(|column| column.cells[k].as_ref()).collect();
-            let parameters = self.names.iter().map(|name| parameter(level, name));
-            Some(parameters.chain(errors?.into_iter().flatten().cloned()).collect())
-        };
-        let names = self.names.iter().map(|name| (*name).clone());
-        Table {
-            title: title.to_owned(),
-            head: names.chain(columns.iter().flat_map(|column| column.head.clone())).collect(),
-            rows: self.levels.iter().enumerate().filter_map(row).collect(),
-        }
     }
 }

@@ -11,8 +11,8 @@ mod queue;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -176,6 +176,8 @@ struct Planned<'s> {
     header: &'s Header,
     plan: Result<Box<dyn Plan + 's>, String>,
     cases: Vec<Case<()>>,
+    /// Its cases that have ended.
+    done: Mutex<Vec<Done>>,
     /// What it found, once its last case has ended.
     finished: OnceLock<Finished>,
 }
@@ -191,7 +193,14 @@ impl<'s> Planned<'s> {
             Ok((plan, cases)) => (Ok(plan), cases),
             Err(reason) => (Err(reason), vec![]),
         };
-        Self { header, plan, cases, finished: OnceLock::new() }
+        Self { header, plan, cases, done: Mutex::default(), finished: OnceLock::new() }
+    }
+
+    /// Takes note that a case has ended: all of them, where it was the last.
+    fn ended(&self, case: Done) -> Option<Vec<Done>> {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.push(case);
+        (done.len() == self.cases.len()).then(|| std::mem::take(&mut *done))
     }
 }
 
@@ -222,7 +231,7 @@ fn run_cases(
         }
         counter.enter(&job);
         let first = run_case(planned, effort.case_limit, allowed, job);
-        let ended = counter.leave(&job, first).map(|mut done| {
+        let ended = planned.ended(first).map(|mut done| {
             // A study that asks for more cases gets them one after the other, on this thread.
             let more = |plan: &dyn Plan| {
                 caught(|| plan.more()).unwrap_or_else(|reason| {

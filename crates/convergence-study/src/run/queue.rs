@@ -83,8 +83,6 @@ pub(super) struct Counter<'p> {
 
 struct Now {
     progress: Progress,
-    /// What the cases of each study took that have ended, and how many are left.
-    studies: Vec<(Vec<Done>, usize)>,
     /// The studies of the cases that run, those first that began first.
     running: Vec<usize>,
 }
@@ -93,10 +91,7 @@ impl<'p> Counter<'p> {
     pub(super) fn new(jobs: &[Job], report: &'p (dyn Fn(Progress) + Sync)) -> Self {
         let cost = jobs.iter().map(|job| job.cost).sum();
         let progress = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None, running: None };
-        let count = jobs.iter().map(|job| job.study + 1).max().unwrap_or(0);
-        let mut studies: Vec<(Vec<Done>, usize)> = (0..count).map(|_| (vec![], 0)).collect();
-        jobs.iter().for_each(|job| studies[job.study].1 += 1);
-        Self { now: Mutex::new(Now { progress, studies, running: vec![] }), report }
+        Self { now: Mutex::new(Now { progress, running: vec![] }), report }
     }
 
     fn now(&self) -> MutexGuard<'_, Now> {
@@ -106,15 +101,6 @@ impl<'p> Counter<'p> {
     /// Takes note that a case begins.
     pub(super) fn enter(&self, job: &Job) {
         self.now().running.push(job.study);
-    }
-
-    /// Takes note that a case has ended; what all cases of its study took, where it was the last.
-    pub(super) fn leave(&self, job: &Job, done: Done) -> Option<Vec<Done>> {
-        let mut now = self.now();
-        let (all, left) = &mut now.studies[job.study];
-        all.push(done);
-        *left -= 1;
-        (*left == 0).then(|| std::mem::take(all))
     }
 
     /// Reports while it holds the lock, so that the reported numbers only grow.

@@ -158,13 +158,9 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
         }
         let rates = outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
         let rates: Vec<(String, &RateVerdict)> = rates.map(|(norm, rate)| (field(norm), rate)).collect();
-        finest.extend(
-            rates
-                .iter()
-                .filter(|(name, _)| finest.iter().all(|(known, ..)| known != name))
-                .map(|(name, _)| (name.clone(), 1.0, 1.0))
-                .collect::<Vec<_>>(),
-        );
+        let unmoved = |name: &&String| finest.iter().all(|(known, ..)| known != *name);
+        let unmoved: Vec<_> = rates.iter().map(|(name, _)| name).filter(unmoved).cloned().collect();
+        finest.extend(unmoved.into_iter().map(|name| (name, 1.0, 1.0)));
         let most = finest.iter().map(|(_, weight, _)| *weight).fold(f64::MIN_POSITIVE, f64::max);
         for (name, weight, factor) in &finest {
             let rate = rates.iter().filter(|(of, _)| of == name).find_map(|(_, rate)| Some([rate.fitted?, rate.order]));

@@ -209,7 +209,6 @@ pub(crate) fn stability_map() -> Surface {
     let boundary =
         |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
     Surface {
-        title: None,
         x: Axis::log("time step dt"),
         y: Axis::log("compliance ε (dimensionless)"),
         z: Axis::log("iterations per step"),

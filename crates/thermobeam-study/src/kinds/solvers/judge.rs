@@ -213,7 +213,6 @@ impl Map {
                 _ => f64::NAN,
             };
             let map = Surface {
-                title: None,
                 x: Axis::log("time step dt"),
                 y: self.second_axis(),
                 z,

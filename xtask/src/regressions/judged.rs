@@ -89,7 +89,8 @@ fn threshold(all: &[Judged<'_>]) -> f64 {
 }
 
 fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
-    let values: Vec<&str> = diagnosis.contrast.settings.iter().map(|(_, value)| value.as_str()).collect();
+    let settings = diagnosis.contrast.settings.iter().chain(&diagnosis.contrast.shared);
+    let values: Vec<&str> = settings.map(|(_, value)| value.as_str()).collect();
     let named = |word: &String| match word.as_str() {
         "both" => !values.iter().any(|value| METHODS.contains(value)),
         word => values.iter().any(|value| names(value, word)),

@@ -79,7 +79,8 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
-    let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
+    let settings = contrast.settings.iter().chain(&contrast.shared);
+    let words = settings.map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
         .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))
         .collect();
@@ -267,7 +268,7 @@ impl Diagnosis {
     }
 
     fn contrasted(&self) -> Vec<(&'static str, String)> {
-        let Contrast { settings, fails: [failed, all], passes, .. } = &self.contrast;
+        let Contrast { settings, shared, fails: [failed, all], passes, .. } = &self.contrast;
         let mut lines = vec![];
         let values: Vec<&str> = settings.iter().map(|(_, value)| value.as_str()).collect();
         let what = match values[..] {
@@ -275,7 +276,9 @@ impl Diagnosis {
             [] => "here and there: no setting separates it from what passes".to_owned(),
             _ => values.join(", "),
         };
-        lines.push(("fails", format!("{what}: {failed} of {all}")));
+        let shared: Vec<&str> = shared.iter().map(|(_, value)| value.as_str()).collect();
+        let all_with = if shared.is_empty() { String::new() } else { format!("; all with {}", shared.join(", ")) };
+        lines.push(("fails", format!("{what}: {failed} of {all}{all_with}")));
         if !passes.is_empty() {
             let group = |(name, [passing, all]): &(String, [usize; 2])| format!("{name}: {passing} of {all}");
             lines.push(("passes", passes.iter().map(group).collect::<Vec<_>>().join("; ")));

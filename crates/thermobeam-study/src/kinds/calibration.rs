@@ -17,7 +17,11 @@ use convergence_study::judge::calibration::{
     CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
 };
 
+use convergence_study::plots::look::Marks;
+use convergence_study::plots::xy::{Curve, Xy};
+
 use super::prelude::*;
+use plots::Axis;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -179,16 +183,23 @@ type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
 /// What each rule pays for the true claims that it passes, and how often a term of lower order goes unnoticed.
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
-    let figure = |key: &str, caption: &str, [x, y]: [&str; 2], points: Points| {
+    let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-        let series = |row: &Row| plots::Series { label: row.name.clone(), points: points(sheet, row) };
-        let history = plots::History {
-            x_label: x.to_owned(),
-            y: plots::Axis::linear(y),
-            series: sheet.rows.iter().map(series).collect(),
-            ..plots::History::default()
+        let curve = |(k, row): (usize, &Row)| {
+            let series = plots::Series { label: row.name.clone(), points: points(sheet, row) };
+            Curve { marks: Marks::Filled, ..Curve::line(k, &series) }
         };
-        Some(over_time(id, key, caption, &history))
+        let curves = sheet.rows.iter().enumerate().map(curve).collect();
+        let figure = Xy {
+            x,
+            y,
+            curves,
+            show_x: ends.to_vec(),
+            show_y: vec![100.0],
+            notes: vec![note.to_owned()],
+            ..Xy::default()
+        };
+        Some(Figure::new(id, key, caption, figure.draw()))
     };
     let trade: Points = |_, row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()
@@ -199,7 +210,10 @@ fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
     };
     let of_rules = "What each rule pays for the true claims it passes: wrong claims that pass, too.";
     let of_hidden = "How often a term of lower order goes unnoticed, by its share of the finest error.";
-    let trade = figure("rules", of_rules, ["true claims that pass (%)", "wrong claims that pass (%)"], trade);
-    let axes = ["share of the finest error (%)", "tables that pass (%)"];
-    [trade, figure("hidden-8", of_hidden, axes, hidden)].into_iter().flatten().collect()
+    let axes = [Axis::linear("true claims that pass (%)"), Axis::log("wrong claims that pass (%)")];
+    let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
+    let note = format!("tolerances {first}, {second}, {third} from left to right; better: right and down");
+    let trade = figure("rules", of_rules, axes, [0.0, 100.0], &note, trade);
+    let axes = [Axis::linear("share of the finest error (%)"), Axis::linear("tables that pass (%)")];
+    [trade, figure("hidden-8", of_hidden, axes, [4.0, 21.0], "better: down", hidden)].into_iter().flatten().collect()
 }

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::names;
 use crate::study::settings::{STUDY, Setting};
 
 /// Taken off for a second setting: it must tell more than it costs to read.
@@ -17,6 +18,12 @@ const COMBINED: usize = 80;
 
 /// Groups of passing items that are named.
 const GROUPS: usize = 3;
+
+/// A setting that all failing items share says something where at most this share of the passing ones has it.
+const RARE: f64 = 0.7;
+
+/// Settings that all failing items share, of which so many are named.
+const SHARED: usize = 2;
 
 /// Items of one study with the same settings: one vote, however many levels the study has.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +45,9 @@ pub struct Contrast {
     pub score: f64,
     /// Items with these settings: how many fail, of how many.
     pub fails: [usize; 2],
+    /// Other settings that every failing item has, and few of the passing ones: the rarest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shared: Vec<Setting>,
     /// Items without them, by what they have instead: how many pass, of how many.
     pub passes: Vec<(String, [usize; 2])>,
 }
@@ -115,7 +125,25 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     passes.retain(|(_, [passing, _])| *passing > 0);
     let settings: Vec<Setting> = best.settings.iter().map(|setting| (*setting).clone()).collect();
     let score = if settings.is_empty() { nothing } else { best.score };
-    Contrast { settings, score, fails, passes }
+    Contrast { shared: shared(votes, &settings), settings, score, fails, passes }
+}
+
+/// The settings of all failing votes, but for those `named` and for what most of the passing ones have, too.
+fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
+    let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
+    let Some((first, others)) = failing.split_first() else { return vec![] };
+    let is_named = |value: &str| named.iter().any(|(_, words)| names(words, value));
+    let is_new = |(key, value): &&Setting| key != STUDY && !is_named(value);
+    let of_all =
+        first.settings.iter().filter(is_new).filter(|one| others.iter().all(|vote| vote.settings.contains(one)));
+    let share =
+        |one: &Setting| passing.iter().filter(|vote| vote.settings.contains(one)).count() as f64 / passing.len() as f64;
+    let mut shared: Vec<(f64, &Setting)> =
+        of_all.map(|one| (share(one), one)).filter(|(share, _)| *share <= RARE).collect();
+    shared.sort_by(|(one, _), (next, _)| one.total_cmp(next));
+    // A method without the choice has one name under several keys.
+    shared.dedup_by(|(_, (_, one)), (_, (_, kept))| one == kept);
+    shared.into_iter().take(SHARED).map(|(_, one)| one.clone()).collect()
 }
 
 #[cfg(test)]
@@ -142,6 +170,23 @@ mod tests {
         // A second setting that tells nothing more is not named.
         let one = contrast(&votes[..2]);
         assert_eq!(one.settings, [("coupling".to_owned(), "a > 0".to_owned())]);
+    }
+
+    #[test]
+    fn what_all_failing_items_share_is_named_where_few_of_the_others_have_it() {
+        let votes = [
+            vote(&[("method", "any order"), ("mesh", "graded"), ("field", "u")], [1, 1]),
+            vote(&[("method", "any order"), ("mesh", "graded"), ("field", "v")], [1, 1]),
+            vote(&[("method", "any order"), ("mesh", "uniform"), ("field", "u")], [0, 1]),
+            vote(&[("method", "one step"), ("mesh", "graded"), ("field", "u")], [0, 1]),
+            vote(&[("method", "one step"), ("mesh", "uniform"), ("field", "u")], [0, 9]),
+        ];
+        let values =
+            |named: &[Setting]| -> Vec<String> { shared(&votes, named).into_iter().map(|(_, value)| value).collect() };
+        assert_eq!(values(&[]), ["any order", "graded"]);
+        let named = ("study".to_owned(), "a alone (any order)".to_owned());
+        assert_eq!(values(&[named]), ["graded"]);
+        assert!(shared(&votes[..2], &[]).is_empty() && shared(&[], &[]).is_empty());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use convergence_study::input::InputError;
 use convergence_study::input::error_table::{Choice, RateTable};
+use convergence_study::judge::claims::Claim;
 use convergence_study::judge::verdict::{Judge, Verdict};
 
 fn parsed(text: &str) -> Result<RateTable, InputError> {
@@ -108,9 +109,9 @@ fn the_order_of_the_rows_does_not_matter() {
     let rows = ["0.1,1.01e-1", "0.05,5.02e-2", "0.025,2.505e-2", "0.0125,1.2512e-2"];
     let judged = |rows: Vec<&str>| {
         let table = parsed(&format!("h,e\n{}\n", rows.join("\n"))).expect("a table");
-        table.judge(&Judge::new(0.05).expect("a tolerance"), |_| 1.0)
+        table.columns[0].judge(&Judge::new(0.05).expect("a tolerance"), &Claim::new(1.0, 0.05))
     };
     let (down, up) = (judged(rows.to_vec()), judged(rows.iter().rev().copied().collect()));
     assert_eq!(down, up);
-    assert_eq!(down[0].1.verdict, Verdict::Pass);
+    assert_eq!(down.verdict, Verdict::Pass);
 }

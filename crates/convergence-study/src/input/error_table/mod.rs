@@ -29,8 +29,6 @@ use std::io;
 use std::path::Path;
 
 use crate::input::{self, InputError};
-use crate::judge::claims::Claim;
-use crate::judge::verdict::{Judge, RateVerdict};
 use crate::text::names::quoted;
 pub use digits::Column;
 pub use table::limit;
@@ -100,12 +98,6 @@ impl RateTable {
     pub fn column(&self, name: &str) -> Option<&Column> {
         let at = names::position(self.columns.iter().map(|column| column.name.as_str()), name)?;
         self.columns.get(at)
-    }
-
-    /// Judges every column of errors against its order.
-    pub fn judge(&self, judge: &Judge, order: impl Fn(&str) -> f64) -> Vec<(String, RateVerdict)> {
-        let claim = |column: &Column| Claim::new(order(&column.name), judge.tolerance());
-        self.columns.iter().map(|column| (column.name.clone(), column.judge(judge, &claim(column)))).collect()
     }
 }
 

@@ -80,9 +80,10 @@ impl TableReader<'_> {
             let found = format!("`{}` = {cell} in lines {first} and {second}", cells.name);
             return Err(self.error(cell, None, "each step once: give one table at a time", &found));
         }
-        for Cells { texts, numbers, halves, .. } in &mut self.columns {
+        for Cells { texts, values, is_number, halves, .. } in &mut self.columns {
             *texts = order.iter().map(|row| texts[*row]).collect();
-            *numbers = order.iter().map(|row| numbers[*row]).collect();
+            *values = order.iter().map(|row| values[*row]).collect();
+            *is_number = order.iter().map(|row| is_number[*row]).collect();
             *halves = order.iter().map(|row| halves[*row]).collect();
         }
         Ok(order.iter().map(|row| steps[*row]).collect())
@@ -125,9 +126,7 @@ impl TableReader<'_> {
         let is_sure = |k: &usize| self.columns[*k].word == Word::Error || self.columns[*k].is_claimed;
         match doubtful.first() {
             _ if errors.is_empty() && values.is_empty() => {
-                let is_open = |column: &Cells<'_>| {
-                    matches!(column.word, Word::Unknown | Word::Error) && column.numbers[0].is_none()
-                };
+                let is_open = |column: &Cells<'_>| column.word.noun().is_none() && !column.is_number[0];
                 if let Some(k) = self.columns.iter().position(is_open) {
                     self.must(0, k)?;
                 }
@@ -152,21 +151,21 @@ impl TableReader<'_> {
     /// What a column holds, by its numbers and then by its name; where it is no error, why.
     fn kind(&self, k: usize, step: usize, steps: &[f64]) -> Result<(Holds, String), InputError> {
         let column = &self.columns[k];
-        let numbers: Vec<f64> = column.numbers.iter().flatten().map(|number| number.value).collect();
-        let is_open = matches!(column.word, Word::Unknown | Word::Error);
+        let numbers = (0..steps.len()).filter(|row| column.is_number[*row]).map(|row| column.values[row]);
+        let numbers: Vec<f64> = numbers.collect();
         let other = |why: &str| Ok((Holds::Other, why.to_owned()));
         let error = Ok((Holds::Error, String::new()));
         match () {
             () if column.is_claimed => return error,
             () if numbers.is_empty() => return other("no number"),
             () if column.is_index => return other("the number of the row"),
-            () if !is_open && column.is_constant() => return other("the same in each row"),
+            () if column.word.noun().is_some() && column.is_constant() => return other("the same in each row"),
             () => {}
         }
         // Errors before it, the nearest first, and those behind.
         let near = (k.saturating_sub(NEIGHBOURS)..k).rev().chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
         let mut near = near.filter(|near| *near != step).map(|near| &self.columns[near]);
-        let missing = column.numbers.iter().position(Option::is_none);
+        let missing = column.is_number.iter().position(|is_number| !is_number);
         if let Some(error) = near.find(|error| column.are_rates_of(error, steps)) {
             return other(&format!("the rates of `{}`", error.name));
         } else if column.word == Word::Rate && column.is_steep() {

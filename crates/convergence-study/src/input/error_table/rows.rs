@@ -62,12 +62,13 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
         line = line.strip_prefix('|').unwrap_or(line);
         line = line.strip_suffix('|').unwrap_or(line);
     }
-    let (mut quoted, mut before) = (false, ' ');
+    let (mut quoted, mut escaped, mut is_start) = (false, false, true);
     let separates = |c: char| {
-        let is_first = before.is_whitespace() || Some(before) == separator;
-        quoted ^= c == '"' && (quoted || is_first);
-        let is_plain = !quoted && std::mem::replace(&mut before, c) != '\\';
-        is_plain && (c == BEHIND || separator.map_or(c.is_whitespace() || c == '|', |separator| c == separator))
+        quoted ^= c == '"' && (quoted || is_start);
+        let is_separator = c == BEHIND || separator.map_or(c.is_whitespace() || c == '|', |separator| c == separator);
+        let is_end = is_separator && !quoted && !escaped;
+        (is_start, escaped) = (is_end || (is_start && c.is_whitespace()), c == '\\' && !escaped);
+        is_end
     };
     line.split(separates).map(cell).filter(|cell| separator.is_some() || !cell.is_empty()).collect()
 }

@@ -72,7 +72,7 @@ impl TableReader<'_> {
         };
         let may_be = |k: &usize| {
             let column = &self.columns[*k];
-            unknown.contains(k) && column.values().is_some() && !column.name.contains(['^', '²'])
+            unknown.contains(k) && !column.is_number.contains(&false) && !column.name.contains(['^', '²'])
         };
         let command = first.filter(may_be).map_or(String::new(), |k| self.with_step(k));
         let found = listed(self.columns.iter().map(described)) + &command;
@@ -121,20 +121,21 @@ impl TableReader<'_> {
     /// Whether a column counts: by its name, or because it has whole numbers that grow where errors fall.
     fn is_count(&self, column: usize) -> bool {
         let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
-        let Some(values) = self.columns[column].values() else { return false };
+        let Cells { values, word, .. } = &self.columns[column];
         // How many columns fall where it falls, less those that grow or, as it does, cannot tell.
         let alike = |k: usize| {
-            let others = self.columns[k].values()?;
-            if k == column || is_whole(&others) || others.iter().any(|other| !(*other > 0.0)) {
-                return Some(-1.0);
+            let others = &self.columns[k].values;
+            if k == column || is_whole(others) || others.iter().any(|other| !(*other > 0.0)) {
+                return -1.0;
             }
             let signs = values.windows(2).zip(others.windows(2));
-            Some(signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum())
+            signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum()
         };
-        let together = || (0..self.columns.len().min(NEIGHBOURS)).filter_map(alike).sum::<f64>();
-        match self.columns[column].word {
+        let near = (0..self.columns.len().min(NEIGHBOURS)).filter(|k| !self.columns[*k].is_number.contains(&false));
+        let together = || near.map(alike).sum::<f64>();
+        match word {
             Word::Count(_) => true,
-            _ if !is_whole(&values) || values.iter().all(|value| *value == 1.0) => false,
+            _ if !is_whole(values) || values.iter().all(|value| *value == 1.0) => false,
             Word::Step => together() < 0.0,
             _ => together() <= 0.0,
         }

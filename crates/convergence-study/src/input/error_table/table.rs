@@ -3,7 +3,7 @@
 use std::f64::consts::LN_2;
 
 use super::names::{self, Word};
-use super::number::{Number, halves, number};
+use super::number::{halves, number};
 use super::text::RawTable;
 use super::{Choice, rows};
 use crate::input::{Complaint, InputError, Source, shorten};
@@ -47,7 +47,9 @@ pub(super) struct Cells<'t> {
     pub(super) name: String,
     pub(super) word: Word,
     pub(super) texts: Vec<&'t str>,
-    pub(super) numbers: Vec<Option<Number>>,
+    /// NaN where there is no number.
+    pub(super) values: Vec<f64>,
+    pub(super) is_number: Vec<bool>,
     /// Half a unit of the last place of each number.
     pub(super) halves: Vec<f64>,
     /// Whether `--columns`, `--values` or `--order` names it.
@@ -57,23 +59,13 @@ pub(super) struct Cells<'t> {
 }
 
 impl Cells<'_> {
-    pub(super) fn value(&self, row: usize) -> Option<f64> {
-        self.numbers[row].map(|number| number.value)
-    }
-
-    /// All numbers, if there are no other cells.
-    pub(super) fn values(&self) -> Option<Vec<f64>> {
-        self.numbers.iter().map(|number| number.map(|number| number.value)).collect()
-    }
-
     pub(super) fn is_constant(&self) -> bool {
-        self.values().is_some_and(|values| values.len() > 1 && values.iter().all(|value| *value == values[0]))
+        self.values.len() > 1 && self.values.iter().all(|value| *value == self.values[0])
     }
 
     /// Whether each number is positive and much smaller than the one before.
     pub(super) fn is_steep(&self) -> bool {
-        let is_steep = |two: &[f64]| 0.0 < two[1] && two[1] <= STEEP * two[0];
-        self.values().is_some_and(|values| values.len() > 2 && values.windows(2).all(is_steep))
+        self.values.len() > 2 && self.values.windows(2).all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
     }
 
     fn widest_half(&self) -> f64 {
@@ -83,7 +75,7 @@ impl Cells<'_> {
     /// The least ratio by which the column falls or grows, if they all are the same or its numbers whole multiples or
     /// parts of one of them.
     pub(super) fn regular(&self) -> Option<f64> {
-        let mut values = self.values()?;
+        let mut values = self.values.clone();
         values.sort_by(f64::total_cmp);
         let (least, most) = (*values.first()?, *values.last()?);
         let same = SAME.max(2.0 * self.widest_half() / least).min(0.02);
@@ -98,8 +90,8 @@ impl Cells<'_> {
 
     /// Whether two columns are the steps of one mesh in several directions, or of space and time.
     pub(super) fn is_in_proportion(&self, other: &Self) -> bool {
-        let (Some(a), Some(b)) = (self.values(), other.values()) else { return false };
-        a.iter().zip(&b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
+        let (a, b) = (&self.values, &other.values);
+        a.iter().zip(b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
     }
 
     /// Whether these are the rates or the reductions of an error, to its digits, on the finer or on the coarser level of
@@ -107,30 +99,24 @@ impl Cells<'_> {
     ///
     /// * `steps`: of the rows, the coarsest first.
     pub(super) fn are_rates_of(&self, error: &Self, steps: &[f64]) -> bool {
-        let last = steps.len() - 1;
-        let falls = |values: Vec<f64>| values.iter().all(|value| *value > 0.0) && values[last] < 0.7 * values[0];
-        if last < 2 || !error.values().is_some_and(falls) {
+        let (last, errors) = (steps.len() - 1, &error.values);
+        if last < 2 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
             return false;
         }
         let half = 1.2 * self.widest_half();
-        let matches = |shift: usize, measure: usize| {
-            (0..last).all(|k| {
-                let (Some(above), Some(below), Some(found)) =
-                    (error.value(k), error.value(k + 1), self.value(k + shift))
-                else {
-                    return false;
-                };
-                let doubt = error.halves[k] / above + error.halves[k + 1] / below;
-                let (reduction, log) = (above / below, (above / below).ln());
-                let unit = (steps[k] / steps[k + 1]).ln();
-                let (value, doubt) =
-                    [(log / unit, doubt / unit), (log / LN_2, doubt / LN_2), (reduction, doubt * reduction)][measure];
-                (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
-            })
+        let is_same = |k: usize, found: f64, measure: usize| {
+            let reduction = errors[k] / errors[k + 1];
+            let doubt = error.halves[k] / errors[k] + error.halves[k + 1] / errors[k + 1];
+            let (value, doubt) = match measure {
+                0 => (reduction, doubt * reduction),
+                1 => (reduction.log2(), doubt / LN_2),
+                _ => (reduction.ln() / (steps[k] / steps[k + 1]).ln(), doubt / (steps[k] / steps[k + 1]).ln()),
+            };
+            (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
         };
+        let matches = |shift: usize, measure| (0..last).all(|k| is_same(k, self.values[k + shift], measure));
         // Three rates are proof enough; two need a name, or an end without one.
-        let is_end =
-            |row: usize| self.value(row).is_none_or(|value| !value.is_finite() || value == 0.0 || value == 1.0);
+        let is_end = |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
         let may = |shift: &usize| last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last });
         [1, 0].into_iter().filter(may).any(|shift| (0..3).any(|measure| matches(shift, measure)))
     }
@@ -211,7 +197,9 @@ impl<'t> TableReader<'t> {
             let (name, word) = (name.clone(), Word::of(name));
             let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(1)) && rows.len() > 1;
             let (is_claimed, is_index) = (claimed.contains(&k), may_count && rows::counts_rows(&texts));
-            Cells { name, word, halves: halves(&numbers), texts, numbers, is_claimed, is_index }
+            let values = numbers.iter().map(|number| number.map_or(f64::NAN, |number| number.value)).collect();
+            let is_number = numbers.iter().map(Option::is_some).collect();
+            Cells { name, word, texts, values, is_number, halves: halves(&numbers), is_claimed, is_index }
         };
         names.iter().enumerate().map(column).collect()
     }
@@ -229,8 +217,9 @@ impl<'t> TableReader<'t> {
 
     /// The number of a cell that must have one.
     pub(super) fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        self.columns[column].value(row).ok_or_else(|| {
-            let cell = self.columns[column].texts[row];
+        let Cells { texts, values, is_number, .. } = &self.columns[column];
+        is_number[row].then_some(values[row]).ok_or_else(|| {
+            let cell = texts[row];
             let more = match cell {
                 _ if cell.len() > 1 && cell.chars().all(|c| c == '*') => {
                     "; Fortran writes stars where the field is too narrow"

@@ -35,24 +35,6 @@ pub struct InputError {
 /// What is wrong with an input file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Complaint {
-    /// The file cannot be read.
-    #[error("cannot be read: {reason}")]
-    Unreadable {
-        /// The operating system's reason.
-        reason: String,
-    },
-    /// The file is larger than any file that people write by hand.
-    #[error("found more than {allowed} bytes; expected a file of at most {allowed} bytes")]
-    TooLarge {
-        /// Bytes allowed.
-        allowed: u64,
-    },
-    /// The file is not TOML.
-    #[error("not valid TOML: {reason}")]
-    Malformed {
-        /// The parser's reason.
-        reason: String,
-    },
     /// A key that has no meaning here.
     #[error("unknown key `{found}`{}; expected {allowed}", did_you_mean(.suggestion))]
     UnknownKey {
@@ -63,12 +45,6 @@ pub enum Complaint {
         /// The keys known here.
         allowed: String,
     },
-    /// A key without default is missing.
-    #[error("missing; expected {allowed}")]
-    Missing {
-        /// What would have to be there, in words.
-        allowed: String,
-    },
     /// A value of the wrong type, out of range, or in conflict with another.
     #[error("found {found}; expected {allowed}")]
     NotAllowed {
@@ -77,7 +53,7 @@ pub enum Complaint {
         /// The values allowed, in words.
         allowed: String,
     },
-    /// A text that cannot be read.
+    /// A file or a text that cannot be read, or a key without default that is missing.
     #[error("{reason}")]
     Invalid {
         /// Why.

@@ -4,9 +4,8 @@
 //! value with its place. Readers ask them for values and never compute the position of a message.
 
 mod error;
-mod field;
-mod section;
 mod settings;
+mod values;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -19,8 +18,7 @@ pub mod error_table;
 
 pub use crate::text::visible::visible;
 pub use error::{Complaint, InputError, Place};
-pub use field::{Field, Misread, POSITIVE, shorten};
-pub use section::Section;
+pub use values::{Field, Misread, POSITIVE, Section, shorten};
 
 /// Largest file that is read, in bytes. Study files are small; this keeps a wrong path from filling the memory.
 const FILE_BYTES: u64 = 10_000_000;
@@ -62,7 +60,7 @@ fn failed(file: &str, complaint: Complaint) -> InputError {
 }
 
 fn unreadable(file: &str, error: &io::Error) -> InputError {
-    failed(file, Complaint::Unreadable { reason: error.to_string() })
+    failed(file, Complaint::Invalid { reason: format!("cannot be read: {error}") })
 }
 
 /// The whole text of anything that can be read; messages name `file`.
@@ -72,7 +70,8 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
     source.take(FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(file, &error))?;
     if bytes.len() as u64 > FILE_BYTES {
-        return Err(fail(Complaint::TooLarge { allowed: FILE_BYTES }));
+        let allowed = format!("a file of at most {FILE_BYTES} bytes");
+        return Err(fail(Complaint::NotAllowed { found: format!("more than {FILE_BYTES} bytes"), allowed }));
     }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         let allowed = "UTF-8 text: save the file as UTF-8".to_owned();
@@ -137,6 +136,6 @@ fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputErro
     // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
     DeTable::parse(text).map(Spanned::into_inner).map_err(|error| {
         let offset = error.span().map_or(text.len(), |span| span.start);
-        source.error(offset, None, Complaint::Malformed { reason: error.message().to_owned() })
+        source.error(offset, None, Complaint::Invalid { reason: format!("not valid TOML: {}", error.message()) })
     })
 }

@@ -1,9 +1,7 @@
 //! Every value of a document, by its dotted path: what a baseline keeps of a study file.
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
-
-use super::field::whole;
+use toml::de::{DeInteger, DeTable, DeValue};
 
 /// Every value of a table: its dotted path, such as `expect[0].tolerance`, and its [`text`].
 ///
@@ -61,6 +59,11 @@ fn text(value: &DeValue<'_>) -> String {
         }
         DeValue::Table(_) => "{}".to_owned(),
     }
+}
+
+/// The value of an integer in any notation.
+pub(super) fn whole(integer: &DeInteger<'_>) -> Option<i128> {
+    i128::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
 /// All digits that tell the number from its neighbours, and no more.

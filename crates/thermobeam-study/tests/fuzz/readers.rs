@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use convergence_study::input::error_table::{Choice, RateTable};
-use convergence_study::judge::claims::Claim;
-use convergence_study::judge::verdict::Judge;
+use convergence_study::judge::{claims::Claim, verdict::Judge};
 use convergence_study::store::baseline::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg;
@@ -181,8 +180,7 @@ impl Bench {
             }
             Reading::Rates => {
                 let table = RateTable::read_with(&path, &Choice::default()).map_err(|error| said(&error))?;
-                let judge = Judge::new(0.05).expect("a judge");
-                table.columns.iter().for_each(|column| drop(column.judge(&judge, &Claim::new(1.0, 0.05))));
+                table.columns.iter().for_each(|column| drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05))));
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),
             Reading::Manifest => self.resumed(bytes, b"")?,

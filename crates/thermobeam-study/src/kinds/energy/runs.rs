@@ -54,9 +54,6 @@ pub struct EnergyRuns {
 /// Where the problem of a run comes from.
 type ProblemSource = Arc<dyn Fn() -> Problem + Send + Sync>;
 
-/// A problem with its name; whether it is that of a scene.
-type Named = (String, bool, ProblemSource);
-
 /// A run, and what is claimed of it.
 #[derive(Clone)]
 struct EnergyRun {
@@ -140,19 +137,11 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let steps = section.count("steps", 1..=limits::STEPS)?;
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
     let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
-    // Random beams and further schemes would crowd the figures.
-    let scenes = scenes
-        .into_iter()
-        .map(|scene| -> Named { (scene.name.clone(), true, Arc::new(move || simulate::problem(&scene))) });
-    let smooth = |k: u64| -> Named {
-        let (mesh, seed) = (mesh.clone(), seed.wrapping_add(k));
-        (format!("random-{k}"), false, Arc::new(move || beams::smooth(&mesh, seed)))
-    };
-    let origins = scenes.chain((0..random as u64).map(smooth));
     let settings = Settings { tolerance: SOLVED, ..Settings::default() };
-    let by_scheme = |(name, is_scene, problem): Named| {
+    let by_scheme = |name: String, is_scene: bool, problem: ProblemSource| {
         schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
             name: format!("{name}, {}", scheme.name),
+            // Random beams and further schemes would crowd the figures.
             is_drawn: k == 0 && is_scene,
             elements,
             problem: problem.clone(),
@@ -164,7 +153,12 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
             drift: None,
         })
     };
-    Ok(origins.flat_map(by_scheme).collect())
+    let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, Arc::new(move || simulate::problem(&scene)));
+    let smooth = |k: u64| {
+        let (mesh, seed) = (mesh.clone(), seed.wrapping_add(k));
+        by_scheme(format!("random-{k}"), false, Arc::new(move || beams::smooth(&mesh, seed)))
+    };
+    Ok(scenes.into_iter().flat_map(of_scene).chain((0..random as u64).flat_map(smooth)).collect())
 }
 
 /// The runs of `[[case]]`.

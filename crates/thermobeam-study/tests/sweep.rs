@@ -30,22 +30,14 @@ fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, L
     lines.into_inner().unwrap()
 }
 
-/// The line of a case that runs alone.
-fn alone(sweep: &Sweep, case: usize) -> Line {
-    let line = Mutex::new(None);
-    let kept = |found| {
-        assert!(line.lock().unwrap().replace(found).is_none(), "one case, one line");
-        Ok(())
-    };
-    sweep::run(sweep, &[case], 1, None, kept).unwrap();
-    line.into_inner().unwrap().unwrap()
-}
+/// With a limit each case runs alone.
+const HOUR: Option<Duration> = Some(Duration::from_secs(3600));
 
 #[test]
 fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = sweep(folder.path());
-    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, alone(&sweep, case))).collect();
+    let alone = all(&sweep, 1, HOUR);
     let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
     assert_eq!(
         (sweep.cases(), with("\"done\""), with("\"kind\":\"indefinite\""), with("time.dt: found")),
@@ -55,7 +47,7 @@ fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
     for jobs in [1, 3] {
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
-    assert_eq!(all(&sweep, 1, Some(Duration::from_secs(3600))), alone);
+    assert_eq!(all(&sweep, 3, HOUR), alone);
 }
 
 #[test]
@@ -77,7 +69,7 @@ fn small(folder: &std::path::Path) -> (Sweep, Vec<String>) {
     let grid = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = [0.0, 1.0, 2.0]\ntime.t_end = [0.1]\n";
     std::fs::write(folder.join("sweep.toml"), grid).unwrap();
     let sweep = Sweep::read(folder.join("sweep.toml")).unwrap();
-    let lines = (0..sweep.cases()).map(|case| alone(&sweep, case).json + "\n").collect();
+    let lines = all(&sweep, 1, HOUR).into_values().map(|line| line.json + "\n").collect();
     (sweep, lines)
 }
 
@@ -125,7 +117,7 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
     let text =
         std::fs::read_to_string(folder.path().join("sweep.toml")).unwrap().replace("[0.0, 1.0, 2.0]", "[0.0, 1.5]");
     std::fs::write(other.path().join("sweep.toml"), text).unwrap();
-    let foreign = alone(&Sweep::read(other.path().join("sweep.toml")).unwrap(), 1).json + "\n";
+    let foreign = all(&Sweep::read(other.path().join("sweep.toml")).unwrap(), 1, HOUR)[&1].json.clone() + "\n";
     let half: Share = "1/2".parse().unwrap();
     let not_held = (0..3).find(|&case| !half.holds(sweep.case(case).hash())).unwrap();
     for (share, line, words) in [
@@ -158,7 +150,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     write("sweep.toml", ANY_ORDER[1]);
     // Of the cases with dt = 0.013, those with restart_dt = 0.015 have no scene; a sweep refuses only what no case can have.
     let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
-    let alone: BTreeMap<_, _> = (0..sweep.cases()).map(|case| (case, alone(&sweep, case))).collect();
+    let alone = all(&sweep, 1, HOUR);
     let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
     assert_eq!((sweep.cases(), with("time.restart_dt: found 0.015")), (32, 8));
     assert_eq!(with("\"scheme\":\"dg\""), 24);
@@ -167,7 +159,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     for jobs in [1, 3] {
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
-    assert_eq!(all(&sweep, 2, Some(Duration::from_secs(3600))), alone);
+    assert_eq!(all(&sweep, 2, HOUR), alone);
     // Each case belongs to one share; a journal of half of the lines is gone on with, and refused once one is altered.
     let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
     let held = |case: usize| shares.iter().filter(|share| share.holds(sweep.case(case).hash())).count();

@@ -50,15 +50,6 @@ pub fn initial(exact: &Manufactured) -> Initial {
     }
 }
 
-/// Errors of a level in L2, and of its slopes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LevelErrors {
-    /// `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖`.
-    pub values: [f64; 5],
-    /// The same of the derivatives with respect to x.
-    pub slopes: [f64; 5],
-}
-
 /// Measures the errors of levels against a manufactured solution, whose functions of x it evaluates once.
 pub struct ErrorMeter<'a> {
     exact: &'a Manufactured,
@@ -92,8 +83,9 @@ impl<'a> ErrorMeter<'a> {
         Self { exact, theta_a, space: space.clone(), points, shapes, factors: Factors::default() }
     }
 
-    /// The errors of a level against the exact solution at its time.
-    pub fn errors(&mut self, level: &Level) -> LevelErrors {
+    /// The errors of a level against the exact solution at its time: `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖`
+    /// in L2, and those of the derivatives with respect to x.
+    pub fn errors(&mut self, level: &Level) -> [[f64; 5]; 2] {
         self.factors.at(self.exact, level.t);
         let Factors { u, phi, theta } = &self.factors;
         let [shapes_u, shapes_phi, shapes_theta] = &self.shapes;
@@ -120,6 +112,6 @@ impl<'a> ErrorMeter<'a> {
                 square[1] += weight * slope * slope;
             }
         }
-        LevelErrors { values: squares.map(|square| square[0].sqrt()), slopes: squares.map(|square| square[1].sqrt()) }
+        [squares.map(|square| square[0].sqrt()), squares.map(|square| square[1].sqrt())]
     }
 }

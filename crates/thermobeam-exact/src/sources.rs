@@ -68,7 +68,8 @@ pub struct Sources {
     tip: Vec<f64>,
     /// Where the boundary loads at x = 1 belong: the last node, or its block.
     tip_index: usize,
-    boundary: Boundary,
+    /// X_j'(1), Y_k(1) and Y_k'(1) for the boundary loads; slopes are zero if the space vectors contain them.
+    boundary: [Vec<f64>; 3],
 }
 
 /// The vectors of one product, tested with the functions of each of the three equations.
@@ -76,17 +77,6 @@ type PerEquation = [Rc<Vectors>; 3];
 
 /// Quadrature points an element beyond the degree p: the loads are then exact to round-off for smooth functions.
 const EXTRA_POINTS: usize = 12;
-
-/// Values at x = 1 for the boundary loads; zero if the space vectors contain them.
-#[derive(Debug, Clone, Default)]
-struct Boundary {
-    /// X_j'(1).
-    u_slope: Vec<f64>,
-    /// Y_k(1).
-    phi: Vec<f64>,
-    /// Y_k'(1).
-    phi_slope: Vec<f64>,
-}
 
 /// The space integrals of one product: (X, N_i), (X', N_i), and the weak second derivative.
 struct Vectors {
@@ -145,28 +135,20 @@ impl Vectors {
         }
     }
 
-    /// The integrals of the nodal interpolant, by the scheme's own matrices.
-    fn discrete(product: &Product, matrices: &Matrices, mesh: &Mesh) -> Self {
+    /// The integrals of the nodal interpolant, by the scheme's own matrices: M, K and Cᵀ of (3.7).
+    fn discrete(product: &Product, [mass, stiffness, slope]: &[Tridiagonal; 3], mesh: &Mesh) -> Self {
         let nodal = nodal(product, mesh);
         let tip = nodal[nodal.len() - 1];
         Self {
-            value: matrices.mass.multiply(&nodal),
-            slope: matrices.slope.multiply(&nodal),
-            curvature: matrices.stiffness.multiply(&nodal),
+            value: mass.multiply(&nodal),
+            slope: slope.multiply(&nodal),
+            curvature: stiffness.multiply(&nodal),
             // Y(1) is a boundary load here too: -C φ = Cᵀ φ - φ(1) e for P1 functions.
             tip,
             // K u contains the derivative at the end.
             boundary_slope: 0.0,
         }
     }
-}
-
-/// The matrices of (3.7).
-struct Matrices {
-    mass: Tridiagonal,
-    stiffness: Tridiagonal,
-    /// Cᵀ: (u_x, N_i).
-    slope: Tridiagonal,
 }
 
 /// X of a product at the n + 1 nodes, exactly zero at x = 0 if it is zero there up to its rounding error.
@@ -245,12 +227,12 @@ impl Sources {
 
     /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
-        let matrices = Matrices { mass: mass(mesh), stiffness: stiffness(mesh), slope: coupling(mesh).transpose() };
+        let matrices = [mass(mesh), stiffness(mesh), coupling(mesh).transpose()];
         let vectors = |product: &Product| alike(Vectors::discrete(product, &matrices, mesh));
         let nodal: Vec<_> = exact.u.iter().map(|product| nodal(product, mesh)).collect();
         let mut gram = vec![];
         for left in &nodal {
-            let image = matrices.stiffness.multiply(left);
+            let image = matrices[1].multiply(left);
             gram.extend(nodal.iter().map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()));
         }
         Self::assemble(exact, beam, vectors, gram, mesh.elements())
@@ -274,11 +256,8 @@ impl Sources {
         let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<PerEquation>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));
         let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
-        let boundary = Boundary {
-            u_slope: u.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
-            phi: phi.iter().map(|[vectors, ..]| vectors.tip).collect(),
-            phi_slope: phi.iter().map(|[vectors, ..]| vectors.boundary_slope).collect(),
-        };
+        let slopes = |of: &[PerEquation]| of.iter().map(|[vectors, ..]| vectors.boundary_slope).collect();
+        let boundary = [slopes(&u), phi.iter().map(|[vectors, ..]| vectors.tip).collect(), slopes(&phi)];
         let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
         for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
             add(0, [0, j], inertia, in_u.value.clone());
@@ -353,14 +332,15 @@ impl Sources {
         let (Factors { u, phi, .. }, zeta) = (factors, self.beam.zeta);
         let tension = |j: usize| (1.0 + n_value) * u.value[j] + zeta * u.rate[j];
         let rotation = |k: usize| phi.value[k] + zeta * phi.rate[k];
-        let stretch: f64 = self.boundary.u_slope.iter().enumerate().map(|(j, slope)| slope * tension(j)).sum();
-        stretch - self.boundary.phi.iter().enumerate().map(|(k, value)| value * rotation(k)).sum::<f64>()
+        let [u_slopes, phi_values, _] = &self.boundary;
+        let stretch: f64 = u_slopes.iter().enumerate().map(|(j, slope)| slope * tension(j)).sum();
+        stretch - phi_values.iter().enumerate().map(|(k, value)| value * rotation(k)).sum::<f64>()
     }
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
     fn tip_moment(&self, Factors { phi, .. }: &Factors) -> f64 {
         let rotation = |k: usize| phi.value[k] + self.beam.zeta * phi.rate[k];
-        self.boundary.phi_slope.iter().enumerate().map(|(k, slope)| slope * rotation(k)).sum()
+        self.boundary[2].iter().enumerate().map(|(k, slope)| slope * rotation(k)).sum()
     }
 }
 

@@ -33,7 +33,7 @@ use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simula
 use super::prelude::*;
 use super::tables::{Layout, control, manufactured};
 use crate::error::free_vibration;
-use crate::exact::any_order::{self, ErrorMeter, LevelErrors, ManufacturedLoad};
+use crate::exact::any_order::{self, ErrorMeter, ManufacturedLoad};
 use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
@@ -232,14 +232,14 @@ impl Kind for AnyOrder {
                 let (from, to) = (simulation.old_level().t, simulation.t());
                 for s in INSIDE {
                     if simulation.level_into(from + s * (to - from), &mut level) {
-                        let LevelErrors { values: [u, _, u_t, ..], .. } = meter.errors(&level);
+                        let [[u, _, u_t, ..], _] = meter.errors(&level);
                         inside_u = max_or_nan(inside_u, u);
                         inside_u_t = max_or_nan(inside_u_t, u_t);
                     }
                 }
             }
         }
-        let LevelErrors { values, slopes } = meter.errors(simulation.level());
+        let [values, slopes] = meter.errors(simulation.level());
         let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
         Ok(match self.over {
             Over::Time => vec![("ends", together(values)), ("u inside", inside_u), ("u_t inside", inside_u_t)],

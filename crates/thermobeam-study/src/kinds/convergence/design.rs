@@ -143,7 +143,7 @@ impl<'a> Prepared<'a> {
 }
 
 /// Elements, steps and errors of a level.
-pub(in crate::kinds) type Measured = ((usize, usize), Norms);
+pub(in crate::kinds) type LevelNorms = ((usize, usize), Norms);
 
 /// All levels of a study, prepared once for runs with many faults.
 pub(in crate::kinds) struct Detector<'a> {
@@ -158,7 +158,7 @@ impl<'a> Detector<'a> {
     }
 
     /// The errors of every level; NaN where a run breaks down, on which every study fails.
-    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<Measured> {
+    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<LevelNorms> {
         let measure = |(prepared, level): &mut (Prepared<'_>, (usize, usize))| {
             (*level, prepared.run(level.1, solver, None).unwrap_or(Norms::NAN))
         };
@@ -175,10 +175,10 @@ impl<'a> Detector<'a> {
 /// The verdicts of a study on errors over its levels, coarse to fine: one for each norm that it judges.
 pub(in crate::kinds) fn verdicts<'a>(
     study: &'a Convergence,
-    levels: &'a [Measured],
+    levels: &'a [LevelNorms],
 ) -> impl Iterator<Item = Verdict> + 'a {
     study.expect.iter().map(move |&(norm, claim)| {
-        let error = |&((n, steps), errors): &Measured| Error { step: study.step(n, steps), error: errors[norm] };
+        let error = |&((n, steps), errors): &LevelNorms| Error { step: study.step(n, steps), error: errors[norm] };
         judge(&levels.iter().map(error).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
     })
 }

@@ -39,8 +39,6 @@ pub struct Traced {
     pub levels: Vec<Level>,
     /// Energies (3.9) at the same times, of a run of any order those of the polynomials.
     pub energies: Vec<f64>,
-    /// (t, u(1, t)) at equidistant times, as many as a figure shows.
-    pub tip: Vec<(f64, f64)>,
     /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
 }
@@ -50,11 +48,10 @@ impl Traced {
     ///
     /// * `mesh`: where its values are kept; a mesh that contains the nodes of all that is compared.
     /// * `samples`: times of comparison, each the end of a step.
-    /// * `curve`: points of the curve of u(1, t), at least.
     ///
     /// # Errors
     /// [`CaseFailure`] where the run does not come to its end.
-    pub fn compute(scene: &Scene, mesh: Mesh, samples: usize, curve: usize) -> Result<Self, CaseFailure> {
+    pub fn compute(scene: &Scene, mesh: Mesh, samples: usize) -> Result<Self, CaseFailure> {
         let t_end = scene.t_end;
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
         let times: Vec<f64> = (1..=samples).map(time).collect();
@@ -67,10 +64,10 @@ impl Traced {
             }
             Ok(ControlFlow::Continue(()))
         };
-        let run = Simulator::new(scene)?.watched(Recording::Curve(curve), &times, &mut observe);
+        let run = Simulator::new(scene)?.watched(Recording::Summary, &times, &mut observe);
         let run = run.finished()?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
-        Ok(Self { tip: run.tip(), mesh, levels, energies, tip_range })
+        Ok(Self { mesh, levels, energies, tip_range })
     }
 
     /// The largest distance of two references at their times, in the norm of Theorem 3.4; NaN where they cannot be compared.

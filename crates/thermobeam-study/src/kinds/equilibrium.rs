@@ -134,7 +134,7 @@ impl Kind for EndStates {
             return end(&scene, &scene.mesh, t, &level);
         }
         let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
-        let found = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1, 0)?;
+        let found = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
         end(scene, &found.mesh, *t_end, found.levels.last().ok_or_else(|| absent("the run has no end"))?)
     }
 

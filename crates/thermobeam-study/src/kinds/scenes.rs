@@ -50,7 +50,7 @@ pub const ROW: KindRow = KindRow {
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
 };
 
-/// Times of a curve in the figure.
+/// Times of a history.
 const TIMES: usize = 200;
 
 /// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10 or more, and may stop one
@@ -228,20 +228,10 @@ impl Kind for Scenes {
         let strain = answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within).fold(0.0, max_or_nan);
         let headline =
             format!("{} scenes, at most {strain:.2} of the distance allowed to an independent answer", found.len());
-        let drawn = found.iter().filter(|(whole, _)| whole.end == End::Answer);
-        let curve =
-            |(whole, shown): &(&Whole, &Shown)| plots::Series { label: whole.name.clone(), points: shown.tip.clone() };
-        let history = plots::History {
-            y: plots::Axis::linear("displacement u(1, t) (dimensionless)"),
-            series: drawn.map(curve).collect(),
-            ..plots::History::default()
-        };
-        let caption = "Displacement of the free end in the scenes that end with an answer.";
         let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"];
         let rows: Vec<_> = found.iter().map(|(whole, shown)| (whole.cells(shown), whole.readings(shown))).collect();
         Outcome {
             tables: vec![readings::table("Scenes against an independent implementation", &head, &rows)],
-            figures: vec![over_time(&self.header.id, "tip", caption, &history)],
             quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
             headline: headline.clone(),
             ..Outcome::new(headline, vec![], checks)

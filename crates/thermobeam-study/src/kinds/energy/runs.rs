@@ -388,19 +388,30 @@ impl EnergyRuns {
             ..plots::History::default()
         };
         let balance = plots::History {
-            y: plots::Axis::log("residual / initial energy"),
-            series: not_zero(series(&|_, sample| (sample.t, sample.residual))),
+            y: plots::Axis::log("largest residual up to t / initial energy"),
+            series: largest_so_far(not_zero(series(&|_, sample| (sample.t, sample.residual)))),
             looks,
             guides: allowed(|run| run.share),
             ..plots::History::default()
         };
-        let caption =
-            "Residual of the energy balance, the largest of each group of steps, in units of the initial energy.";
+        let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
         vec![
             over_time(id, "energy", "The energy, in units of its initial size: it never rises.", &energy),
             over_time(id, "balance", caption, &balance),
         ]
     }
+}
+
+/// Each value replaced by the largest up to there: residuals scatter too much for several curves in one figure.
+fn largest_so_far(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
+    for series in &mut series {
+        let mut largest = 0.0;
+        for (_, value) in &mut series.points {
+            largest = max_or_nan(largest, *value);
+            *value = largest;
+        }
+    }
+    series
 }
 
 /// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.

@@ -6,7 +6,6 @@ use convergence_study::study::levels::{Rates, rate_table};
 
 use super::{ComparedRun, SelfConvergence, Traced};
 use crate::error::reference::distance_of_curves;
-use crate::figures::obstacle_lines;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
 
@@ -132,28 +131,25 @@ fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: 
     )
 }
 
-/// The tip's displacement over time, with the obstacles.
+/// How far u(1) of each level is from the reference over time.
 fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
-    let (reference, finest) = (study.levels.len(), study.levels.len() - 1);
+    let reference = study.levels.len();
     let name = |k: usize| match study.axis {
         Axis::Time => format!("{} steps", study.levels[k].1),
         Axis::Space | Axis::Both => format!("n = {}", study.levels[k].0),
     };
-    let curve = |(k, label): (usize, String)| plots::Series {
-        label,
-        points: found(ran, k).map_or(vec![], |found| found.tip.clone()),
+    let curve = |level: usize| {
+        let distance = |k: usize| (tip_at(ran, level, k) - tip_at(ran, reference, k)).abs();
+        let points = (1..=study.samples).map(|k| (study.t_end * k as f64 / study.samples as f64, distance(k)));
+        plots::Series { label: name(level), points: points.collect() }
     };
-    let shown =
-        [(reference, format!("reference, {}", study.references[0].label())), (0, name(0)), (finest, name(finest))];
-    let svg = plots::history(&plots::History {
-        title: Some(format!("Tip of {}", study.scene.name)),
-        y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
-        series: shown.into_iter().map(curve).collect(),
-        guides: obstacle_lines(study.scene.obstacles),
+    let history = plots::History {
+        title: Some(format!("Tip of {}: distance to the reference", study.scene.name)),
+        y: plots::Axis::log("|u(1, t) - reference|"),
+        series: (0..reference).map(curve).collect(),
         ..plots::History::default()
-    });
-    let caption = "Tip displacement on the coarsest and the finest level and in the reference run, with the obstacles.";
-    Figure::new(&study.header.id, "tip", caption, svg)
+    };
+    over_time(&study.header.id, "tip", "Distance of u(1, t) to the reference on each level.", &history)
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.

@@ -60,9 +60,6 @@ pub const ROW: KindRow = KindRow {
               reference fail, scheme and reference solve different equations.",
 };
 
-/// Points of a curve in a figure: more than pixels.
-const CURVE_POINTS: usize = 2000;
-
 /// A study of rates without exact solution.
 #[derive(Debug)]
 pub struct SelfConvergence {
@@ -200,7 +197,7 @@ impl Kind for SelfConvergence {
             ComparedRun::Level(elements, steps) => self.by_the_scheme(elements, steps),
             ComparedRun::Reference(k) => {
                 let scene = self.references[k].of(&self.scene, self.t_end)?;
-                Traced::compute(&scene, self.common_mesh()?, self.samples, CURVE_POINTS)
+                Traced::compute(&scene, self.common_mesh()?, self.samples)
             }
         }
     }
@@ -222,17 +219,11 @@ impl SelfConvergence {
         let scene = at(&self.scene, mesh.clone(), steps, self.t_end);
         let method = Method::OneStep(Stepping { scheme: self.scheme, ..scene.one_step()? });
         let scene = Scene { method, ..scene };
-        // As many points as fit a figure, and all the times that are compared.
-        let (per_sample, most) = (steps / self.samples, (CURVE_POINTS / self.samples).max(1));
-        let stride = (1..=most.min(per_sample)).rev().find(|&divisor| per_sample.is_multiple_of(divisor)).unwrap_or(1);
-        let (mut tip, mut levels, mut energies) = (vec![], vec![], vec![]);
-        let trace = traced(&scene, self.samples * stride, |simulation, level| {
-            tip.push((simulation.t(), level.u[elements]));
-            if tip.len() % stride == 0 {
-                levels.push(level.clone());
-                energies.push(simulation.energy(level).total());
-            }
-        })?;
-        Ok(Traced { mesh, levels, energies, tip, tip_range: trace.tip })
+        let sample = |simulation: &thermobeam::simulation::Simulation, level: &Level| {
+            (level.clone(), simulation.energy(level).total())
+        };
+        let trace = traced(&scene, self.samples, sample)?;
+        let (levels, energies) = trace.samples.into_iter().unzip();
+        Ok(Traced { mesh, levels, energies, tip_range: trace.tip })
     }
 }

@@ -151,7 +151,7 @@ impl WorkPrecision {
     fn agreed(&self, scene: &Scene, by: &[Discretisation; 2], agreement: f64) -> Result<Traced, CaseFailure> {
         let finest = self.elements.last().copied().unwrap_or(1);
         let run = |how: &Discretisation| {
-            Traced::compute(&how.of(scene, self.family.t_end)?, fine_mesh(scene, finest)?, self.observations(), 0)
+            Traced::compute(&how.of(scene, self.family.t_end)?, fine_mesh(scene, finest)?, self.observations())
         };
         let (one, other) = (run(&by[0])?, run(&by[1])?);
         let apart = one.distance(&other);

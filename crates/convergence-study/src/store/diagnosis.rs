@@ -278,7 +278,8 @@ impl Diagnosis {
         };
         let shared: Vec<&str> = shared.iter().map(|(_, value)| value.as_str()).collect();
         let all_with = if shared.is_empty() { String::new() } else { format!("; all with {}", shared.join(", ")) };
-        lines.push(("fails", format!("{what}: {failed} of {all}{all_with}")));
+        let count = if *failed == 0 { "numbers moved".to_owned() } else { format!("{failed} of {all}") };
+        lines.push(("fails", format!("{what}: {count}{all_with}")));
         if !passes.is_empty() {
             let group = |(name, [passing, all]): &(String, [usize; 2])| format!("{name}: {passing} of {all}");
             lines.push(("passes", passes.iter().map(group).collect::<Vec<_>>().join("; ")));

@@ -10,6 +10,9 @@ use crate::study::settings::{STUDY, Setting};
 /// Taken off for a second setting: it must tell more than it costs to read.
 const SECOND: f64 = 0.02;
 
+/// Taken off where a study is named: a setting that separates as well says more.
+const ALONE: f64 = 0.06;
+
 /// What a conjunction must do better than no setting at all.
 const GAIN: f64 = 0.04;
 
@@ -20,10 +23,10 @@ const COMBINED: usize = 80;
 const GROUPS: usize = 3;
 
 /// A setting that all failing items share says something where at most this share of the passing ones has it.
-const RARE: f64 = 0.7;
+const RARE: f64 = 0.95;
 
 /// Settings that all failing items share, of which so many are named.
-const SHARED: usize = 2;
+const SHARED: usize = 3;
 
 /// Items of one study with the same settings: one vote, however many levels the study has.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +44,7 @@ pub(super) struct Vote {
 pub struct Contrast {
     /// The settings; empty where none separates.
     pub settings: Vec<Setting>,
-    /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting.
+    /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a study.
     pub score: f64,
     /// Items with these settings: how many fail, of how many.
     pub fails: [usize; 2],
@@ -64,9 +67,10 @@ fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<
     let failing = votes.iter().filter(|vote| vote.fails).count() as f64;
     let with = holds.iter().filter(|holds| **holds).count() as f64;
     let both = votes.iter().zip(&holds).filter(|(vote, holds)| vote.fails && **holds).count() as f64;
-    let price = if settings.len() > 1 { SECOND } else { 0.0 };
+    let second = if settings.len() > 1 { SECOND } else { 0.0 };
+    let alone = if settings.iter().any(|(key, _)| key == STUDY) { ALONE } else { 0.0 };
     let score = if both == 0.0 { 0.0 } else { both / (failing * with).sqrt() };
-    Set { settings, holds, score: score - price }
+    Set { settings, holds, score: score - second - alone }
 }
 
 /// The best conjunction of at most two settings. Of equals the one that is named first.

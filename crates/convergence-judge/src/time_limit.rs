@@ -1,10 +1,10 @@
 //! A limit on the time that one case may take.
 //!
 //! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
-//! case, and every time loop asks its own [`Patience`] before a step. The clock is read about once a millisecond, and not at all where
-//! there is no limit. What is computed is the same with a limit and without.
+//! case, and every time loop asks its own [`Patience`] before a step. The clock is read about once a millisecond, and
+//! never without a limit. The limit does not affect the results.
 //!
-//! The rounds are counted, too. A limit on that work ends a case at the same step on every machine.
+//! Rounds are counted, too. A limit on that work ends a case at the same step on every machine.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -15,13 +15,13 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("stopped at the limit of {}, after step {step}, t = {t}", self.allowed())]
 pub struct TimeUp {
-    /// Steps, or whatever the case counts, that were done.
+    /// Steps done, or whatever the case counts.
     pub step: usize,
     /// Simulated time reached.
     pub t: f64,
-    /// The limit of time; none of it is left where that of work was reached.
+    /// The limit of time; zero if the limit of work was reached.
     pub limit: Duration,
-    /// The limit of work, where it was that.
+    /// The limit of work, if that was reached.
     pub work: Option<u64>,
 }
 
@@ -43,11 +43,11 @@ struct Deadline {
 thread_local! {
     static DEADLINE: Cell<Option<Deadline>> = const { Cell::new(None) };
     static REACHED: Cell<Option<TimeUp>> = const { Cell::new(None) };
-    /// Work that this thread has counted of its case, and the most that the case may do.
+    /// Work that this thread has counted for its case, and the most that the case may do.
     static WORK: Cell<(u64, Option<u64>)> = const { Cell::new((0, None)) };
 }
 
-/// Runs a case on this thread, with a limit on its work or without.
+/// Runs a case on this thread, with or without a limit on its work.
 ///
 /// * Returns the result of `case`, and the work that its loops have counted: the same at every run.
 pub fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
@@ -56,12 +56,12 @@ pub fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
     (result, WORK.replace(before).0)
 }
 
-/// Runs a case on this thread, with a limit or without.
+/// Runs a case on this thread, with or without a limit.
 ///
-/// * Returns the result of `case`, and [`TimeUp`] where the limit was reached, even if the case ignored it.
+/// * Returns the result of `case`, and [`TimeUp`] if the limit was reached, even if the case ignored it.
 pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
     let now = Instant::now();
-    // A limit beyond what the clock can count to is none.
+    // A limit that the clock cannot represent is no limit.
     let deadline = limit.and_then(|limit| Some(Deadline { at: now.checked_add(limit)?, limit }));
     let before = DEADLINE.replace(deadline);
     REACHED.set(None);
@@ -70,16 +70,16 @@ pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Optio
     (result, REACHED.take())
 }
 
-/// The limit of the case that this thread computes, for a case that cannot be asked before each round; `None` for none.
+/// The limit of the case that this thread computes, for a case that cannot be asked before each round; `None` without one.
 pub fn granted() -> Option<Duration> {
     DEADLINE.get().map(|deadline| deadline.limit)
 }
 
-/// Asked by a loop before each of its rounds whether there is time for it.
+/// A loop asks this before each of its rounds whether there is time for it.
 #[derive(Debug, Clone)]
 pub struct Patience {
     deadline: Option<Deadline>,
-    /// Work of a round and work since it was last added up, in units of some 10 to 100 ns.
+    /// Work of a round and work since the last sum, in units of about 10 to 100 ns.
     round: usize,
     since: usize,
     /// Whether the clock has been read.
@@ -89,16 +89,16 @@ pub struct Patience {
 impl Patience {
     /// Work between two looks at the clock: about a millisecond.
     const WORK: usize = 1 << 15;
-    /// What a step costs beside its elements.
+    /// Cost of a step in addition to its elements.
     const STEP: usize = 8;
 
-    /// For rounds that each advance so many elements by a step.
+    /// For rounds that each advance `elements` elements by a step.
     pub fn new(elements: usize) -> Self {
         let round = elements.saturating_add(Self::STEP);
         Self { deadline: DEADLINE.get(), round, since: 0, begun: false }
     }
 
-    /// For rounds of another kind, each long enough for a look at the clock.
+    /// For rounds of another kind, each long enough to look at the clock.
     pub fn of_long_rounds() -> Self {
         Self::new(Self::WORK)
     }
@@ -108,10 +108,10 @@ impl Patience {
     /// * `t`: the simulated time reached, for the message.
     ///
     /// # Errors
-    /// [`TimeUp`] where the limit is reached.
+    /// [`TimeUp`] if the limit is reached.
     pub fn check(&mut self, step: usize, t: impl FnOnce() -> f64) -> Result<(), TimeUp> {
         self.since = self.since.saturating_add(self.round);
-        // A loop of few, long rounds is not to go on until the first look.
+        // A loop of few, long rounds must not run on until the first look.
         if self.since < Self::WORK && self.begun {
             return Ok(());
         }
@@ -134,7 +134,7 @@ impl Patience {
 mod tests {
     use super::*;
 
-    /// Rounds done until it is stopped, at most so many.
+    /// Rounds done until stopped, at most `most`.
     fn rounds(limit: Option<Duration>, most: usize, pause: Duration) -> (usize, Option<TimeUp>) {
         within(limit, || {
             let mut patience = Patience::new(100);

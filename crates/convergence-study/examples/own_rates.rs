@@ -1,4 +1,4 @@
-//! The rule for rates on errors of three quadrature formulas for the integral of exp.
+//! The rule applied to the errors of three quadrature formulas for the integral of exp.
 //!
 //! `cargo run -p convergence-study --example own_rates`
 
@@ -28,7 +28,7 @@ fn main() {
         println!("{name}: {}", judge(formula, order).reason);
     }
     assert_eq!(judge(midpoint, 2.0).verdict, Verdict::Pass);
-    // Better than claimed is not what was claimed.
+    // A better rate than claimed fails, too.
     assert_eq!(judge(midpoint, 1.0).verdict, Verdict::Fail);
 }
 

@@ -1,19 +1,19 @@
-//! Two versions of a program, by their records: is anything lost, has an order, an error or the cost of an accuracy changed?
+//! Compares two versions of a program by their records: is anything lost, has an order, an error or the cost of an accuracy changed?
 //!
-//! Every error of every study of the old record is held against itself, by four questions; the first that finds a difference names the
-//! reason.
+//! Four questions are asked about every error of every study of the old record; the first that finds a difference names
+//! the reason.
 //!
 //! 1. *Lost*: the new record lacks a study, an error, a judged rate, or ends at a coarser level.
 //! 2. *Order*: the intervals of the rates have no point in common and the rates are more than [`ORDER_SHIFT`] apart, or a claim that
 //!    passed does not.
-//! 3. *Error*: at a level that both have, errors are deterministic; one that is larger by more than [`WITHIN`], negative or not finite
-//!    is worse. Where the levels differ, the old error is interpolated linearly in logarithms; with Δ the change of the pairwise rate
-//!    there and x the distance of the neighbours in log h, this is off by at most Δ x / 8 for smooth data, and twice as much is allowed
-//!    for. Errors are better where every level is, and the same where every level is.
-//! 4. *Work* for the smallest error that both have reached, interpolated likewise: more or less by [`WORK_WITHIN`], as seconds are no counts.
+//! 3. *Error*: errors are deterministic; at a level of both records, one that is larger by more than [`WITHIN`], negative or not finite
+//! is worse. If the levels differ, the old error is interpolated linearly in logarithms; with Δ the change of the pairwise rate there
+//! and x the distance of the neighbours in log h, this is off by at most Δ x / 8 for smooth data, and twice as much is allowed. Errors
+//! are better if every level is better, and the same if every level is the same.
+//! 4. *Work* for the smallest error of both, interpolated likewise: it may differ by [`WORK_WITHIN`], as seconds are not counts.
 //!
-//! A study with a worse verdict is worse although no error of it is. What only the new record has is named, and changes nothing. Errors
-//! that are not above the floor count as the floor.
+//! A study with a worse verdict is worse even if none of its errors is. What only the new record has is named, and
+//! changes nothing. Errors below the floor count as the floor.
 
 use serde::Serialize;
 
@@ -26,32 +26,32 @@ use crate::study::outcome::Outcome;
 use crate::text::lists::distinct;
 use crate::text::number::plain_text;
 
-/// Rates that are closer are one order.
+/// Rates closer than this are the same order.
 const ORDER_SHIFT: f64 = 0.05;
 
 /// Errors at the same step that differ by less, as a share, are the same; the default of `--within`.
 pub const WITHIN: f64 = 0.01;
 
-/// The same of the work for the same error.
+/// The same for the work for the same error.
 const WORK_WITHIN: f64 = 0.05;
 
-/// Logarithms of steps that differ by less are of one step: records may be rounded to six digits.
+/// Steps whose logarithms differ by less are the same step: records may be rounded to six digits.
 const SAME_STEP: f64 = 1e-5;
 
-/// What has become of something. Ordered, so that the maximum of several is what became of all.
+/// What has become of something. Ordered: the maximum of several is what became of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shift {
     /// The same.
     Same,
-    /// The data prove neither a difference nor that there is none.
+    /// The data prove neither a difference nor its absence.
     #[serde(rename = "not proven")]
     NotProven,
     /// Better.
     Better,
     /// Worse.
     Worse,
-    /// There is less to compare than there was.
+    /// There is less to compare than before.
     Lost,
 }
 
@@ -76,13 +76,13 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// * `floor`: errors not above it have no say; without it that of [`Judge`].
+    /// * `floor`: errors not above it are ignored; by default the floor of [`Judge`].
     /// * `within`: errors that differ by less, as a share, are the same.
     ///
     /// # Errors
-    /// [`JudgeError`] for a floor that is none.
+    /// [`JudgeError`] for an invalid floor.
     pub fn new(floor: Option<f64>, within: f64) -> Result<Self, JudgeError> {
-        // The tolerance decides nothing here: what is claimed was judged in the runs.
+        // The tolerance decides nothing here: the runs have judged the claims.
         let judge = Judge::new(ORDER_SHIFT)?;
         Ok(Self { judge: floor.map_or(Ok(judge.clone()), |floor| judge.with_floor(floor))?, within })
     }
@@ -93,13 +93,13 @@ impl Settings {
 pub struct Finding {
     /// The study.
     pub study: String,
-    /// The error; nothing where it is the study as a whole.
+    /// The error; `None` for the study as a whole.
     pub norm: Option<String>,
     /// What became of it.
     pub change: Shift,
     /// Why.
     pub reason: String,
-    /// Rate and interval in the old and in the new record; nothing where there are too few levels.
+    /// Rate and interval in the old and in the new record; `None` with too few levels.
     pub orders: [Option<Order>; 2],
 }
 
@@ -121,7 +121,7 @@ pub struct Comparison {
     pub change: Shift,
     /// Studies that both have.
     pub studies: usize,
-    /// Every error and every study that has changed as a whole, in the order of the old record.
+    /// Every error, and every study that has changed as a whole, in the order of the old record.
     pub findings: Vec<Finding>,
     /// What only the new record has.
     pub gained: Vec<String>,
@@ -186,10 +186,10 @@ fn names(outcome: &Outcome) -> Vec<&String> {
 /// One error on the levels of one record that have it, and its rate.
 struct ErrorSequence<'r> {
     points: Vec<(&'r LevelErrors, Level)>,
-    /// Whether the steps fall from level to level; a grid of parameters has no one step.
+    /// Whether the steps fall from level to level; a grid of parameters has no single step.
     is_sequence: bool,
     rate: Option<&'r RateVerdict>,
-    /// The rate that was judged, or one that is read off the errors.
+    /// The rate that was judged, or one computed from the errors.
     order: Option<Order>,
 }
 
@@ -213,13 +213,13 @@ impl<'r> ErrorSequence<'r> {
         self.points.iter().find(|(known, _)| known.parameters == level.parameters).map(|(_, level)| level.error)
     }
 
-    /// Interpolates linearly in logarithms: y over x, and how far off it may be.
+    /// Interpolates linearly in logarithms: y over x, and its uncertainty.
     fn interpolated(&self, place: impl Fn(&LevelErrors, &Level) -> Option<[f64; 2]>, x: f64) -> Option<[f64; 2]> {
         let place = |(level, at): &(&LevelErrors, Level)| Some(place(level, at)?.map(f64::ln));
         between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, x.ln())
     }
 
-    /// The logarithm of the work that an error takes, and how far off it may be.
+    /// The logarithm of the work that an error takes, and its uncertainty.
     fn work_at(&self, error: f64) -> Option<[f64; 2]> {
         self.interpolated(|level, at| Some([at.error, work(level)?]), error)
     }
@@ -238,7 +238,7 @@ fn label(level: &LevelErrors) -> String {
     level.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Linear interpolation between points whose x falls, and the doubt about it.
+/// Linear interpolation between points with decreasing x, and its uncertainty.
 fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
     if let Some([_, y]) = points.iter().find(|[known, _]| (known - x).abs() <= SAME_STEP) {
         return Some([*y, 0.0]);
@@ -314,7 +314,7 @@ impl Both<'_> {
         (!broken.is_empty()).then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
     }
 
-    /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its doubt.
+    /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its uncertainty.
     fn ratios(&self) -> Vec<(&LevelErrors, [f64; 2])> {
         let floor = self.settings.judge.floor();
         let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
@@ -363,8 +363,8 @@ impl Both<'_> {
         (change, format!("the same error takes {:.3} times the work", ratio.exp()))
     }
 
-    /// The logarithm of the new work over the old one for the smallest error that both have reached, and its doubt: an error within the
-    /// limit is taken for the same, so the work is known no better than it grows with the accuracy.
+    /// The logarithm of the new work over the old one for the smallest error that both have reached, and its uncertainty: errors within
+    /// the limit count as equal, so the work is uncertain by its growth over that share of the error.
     fn work(&self) -> Option<[f64; 2]> {
         let error = self.old.points.last()?.1.error.max(self.new.points.last()?.1.error);
         if !(error > self.settings.judge.floor()) {

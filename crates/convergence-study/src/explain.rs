@@ -1,4 +1,4 @@
-//! What studies, reasons for a verdict and a project's own terms mean, in words.
+//! The meaning of studies, reasons for a verdict and a project's own terms, in words.
 
 use std::fmt::Write;
 
@@ -8,14 +8,14 @@ use crate::study::{KindRow, Study};
 use crate::text::lists::grouped;
 use crate::text::names::nearest;
 
-/// The code of a case that was stopped at its limit of work.
+/// The code of a case stopped at its limit of work.
 const WORK: &str = "work";
 
 const WORK_MEANS: &str = "The case has counted three times the node-steps of its blessing, and two per cent of its tier's: it was stopped, at \
     the same step on every machine. An iteration needs more steps, a run does not come to rest, or steps have become smaller. If more \
     work is meant: `verify --bless`, which limits nothing, takes the new counts for `studies/work.json`.";
 
-/// A term of the project, a reason or a kind, in words; `None` where nothing has that name.
+/// A term of the project, a reason or a kind, in words; `None` if the name is unknown.
 pub fn term(project: &Project, name: &str) -> Option<String> {
     if let Some(term) = project.terms.iter().find(|term| term.name == name) {
         let mut text = format!("{name}, {}\n", term.what);
@@ -62,7 +62,7 @@ fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
     groups
 }
 
-/// A study in words; `None` where the project does not know its kind.
+/// A study in words; `None` if the project does not know its kind.
 pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
     let header = study.header();
     let kind = project.kinds.iter().find(|kind| kind.name == header.kind)?;
@@ -77,7 +77,7 @@ pub fn meant<'i>(project: &Project, ids: impl IntoIterator<Item = &'i str>, name
     nearest(name, ids.into_iter().chain(terms(project))).map(str::to_owned)
 }
 
-/// * `details`: paragraphs of one study, each with its title.
+/// * `details`: paragraphs on one study, each with its title.
 fn describe(text: &mut String, kind: &KindRow, details: &[(String, String)]) {
     section(text, "why it should hold", kind.why);
     details.iter().for_each(|(title, paragraph)| section(text, title, paragraph));

@@ -2,7 +2,7 @@
 //!
 //! # In a test
 //!
-//! [`assert_order`] judges errors that are there, [`levels()`](levels()) makes a study of a function that computes them.
+//! [`assert_order`] judges existing errors; [`levels()`](levels()) makes a study of a function that computes them.
 //!
 //! ```
 //! // The midpoint rule for the integral of exp: of second order.
@@ -24,14 +24,14 @@
 //!           input               cases     threads      Outcome
 //! ```
 //!
-//! A study is data. Its [`Kind`](study::Kind), which a project writes, says what its cases compute and how their results are
-//! judged; all that was found is an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
+//! A study is data. A project writes its [`Kind`](study::Kind), which says what its cases compute and how their results are
+//! judged; all findings are an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
 //! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
 //! # Features
 //!
-//! With `default-features = false` there are [`text`], [`judge`], [`study`] and [`run`]: verdicts, and studies on all threads, whose outcomes
-//! have no figures. The feature `files` adds [`input`] and studies that files describe, `reports` all but the command line, `command-line` that.
+//! `default-features = false` leaves [`text`], [`judge`], [`study`] and [`run`]: verdicts, and studies on all threads, whose outcomes have no
+//! figures. The feature `files` adds [`input`] and studies described by files, `reports` all but the command line, `command-line` that.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
 //! `compare`, `report`, `explain`, `verify`, `cli`. The first two are the crate `convergence-judge`, with `run::time_limit`.

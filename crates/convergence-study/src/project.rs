@@ -1,4 +1,4 @@
-//! What a project says about itself to the harness.
+//! A project's description of itself for the harness.
 
 use crate::study::settings::{self, Setting};
 use crate::study::{Header, Kinds};
@@ -10,30 +10,30 @@ pub struct Project {
     pub name: &'static str,
     /// The command that users type before the harness's commands, such as `cargo xtask`.
     pub command: &'static str,
-    /// What it is, in a sentence, for `--help`.
+    /// A one-sentence description, for `--help`.
     pub about: &'static str,
-    /// The kinds of study that it knows.
+    /// The kinds of study that it has.
     pub kinds: &'static Kinds,
-    /// What studies may name as their group, in the order of reports: what is claimed, such as `space`.
+    /// The groups that studies may name, in the order of reports: the property claimed, such as `space`.
     pub groups: &'static [&'static str],
-    /// Its own words that `explain` knows beside kinds and reasons, such as norms.
+    /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.
     pub terms: &'static [Term],
-    /// Files that `new` begins with.
+    /// Files that `new` writes.
     pub templates: &'static [Template],
-    /// Figures that are also written under a fixed name beside the report: file name of the figure, fixed name.
+    /// Figures that are also written under a fixed name next to the report: file name of the figure, fixed name.
     pub front_pictures: &'static [(&'static str, &'static str)],
-    /// What the report of a run that passes begins with.
+    /// The beginning of the report of a passing run.
     pub front: Front,
-    /// What an item of a study exercises, by its name: what a diagnosis tells failing from passing items by.
+    /// What an item of a study exercises, by its name: a diagnosis distinguishes failing from passing items by these settings.
     pub settings: fn(&Header, &str) -> Vec<Setting>,
     /// Where to look: a value of a setting or a field, and the place.
     pub places: &'static [(&'static str, &'static str)],
-    /// The file of known mistakes, from the project's folder.
+    /// The file of known mistakes, relative to the project's folder.
     pub fingerprints: Option<&'static str>,
 }
 
 impl Project {
-    /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` has some.
+    /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
         let settings = settings::of_file;
@@ -54,31 +54,31 @@ impl Project {
     }
 }
 
-/// What a run that passes has verified.
+/// What a passing run has verified.
 #[derive(Debug, Clone, Copy)]
 pub struct Front {
-    /// In some sentences.
+    /// A description in a few sentences.
     pub verified: &'static str,
     /// The file name of the figure that shows it.
     pub plot: &'static str,
-    /// Statements, each with the study whose numbers answer it, and the name of the rate that does; nothing for its key numbers.
+    /// Statements, each with the study whose numbers answer it, and the name of the rate that does; an empty name means its key numbers.
     pub statements: &'static [(&'static str, &'static str, &'static str)],
 }
 
-/// Files to begin with, commented, that run as they are.
+/// Commented files to start from, which run unchanged.
 #[derive(Debug, Clone, Copy)]
 pub struct Template {
-    /// What they begin, such as `study`.
+    /// What is started, such as `study`.
     pub name: &'static str,
     /// The same in a few words, for `--help`.
     pub about: &'static str,
-    /// What follows the user's name in the name of each file, such as `.toml`, and its text, in which `NAME` stands for that name,
-    /// `PROGRAM` for the project's command, `DIRECTORY` for the folder that it runs in, as seen from the files, and `BELOW` for their folder as
-    /// seen from there, such as `studies/`.
+    /// What follows the user's name in the name of each file, such as `.toml`, and its text. In the text `NAME` stands
+    /// for that name, `PROGRAM` for the project's command, `DIRECTORY` for the folder that it runs in, as seen from the
+    /// files, and `BELOW` for their folder as seen from there, such as `studies/`.
     pub files: &'static [(&'static str, &'static str)],
-    /// The text of `.gitignore` beside the files, where none is there yet; empty for none.
+    /// The text of `.gitignore` next to the files, if there is none yet; may be empty.
     pub ignored: &'static str,
-    /// Commands that take the first file, for the user to go on with: two at most.
+    /// Commands that take the first file, as the user's next steps: two at most.
     pub next: &'static [&'static str],
 }
 

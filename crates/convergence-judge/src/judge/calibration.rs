@@ -1,25 +1,25 @@
 //! How far the verdicts can be trusted: the rules of this module applied to errors whose order is known.
 //!
-//! One generator for all: the 29 [laws], most of them not made for the rule. What is counted comes as [sheets](Sheet) of shares.
+//! One generator serves all of them: the 29 [laws], most of them not designed for the rule. The counts are reported as [sheets](Sheet) of shares.
 //!
-//! * *rules*: every table is held against its order and against claims above and below it, off by twice the tolerance, by this rule, by this rule where finer
-//!   levels are added from four on while it is inconclusive, and by what people use: the slope of a straight line; the finest pairwise rate; and the defaults of
-//!   physverify 0.6, which passes a slope of the four finest levels between 0.3 below and 1 above the order where the error has fallen by 1.2 at last. Only ours knows a third answer.
-//!   Where the errors have no order, the wrong claims are beside the p that they show.
-//! * *levels*: the same at the default tolerance with steps halved, by number of levels. A claim is *visibly off* where it is not the p that the coarse levels show.
-//! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often the interval holds the order. Laws for which intervals are
-//!   not made are in brackets.
-//! * *hidden*: the claim that the levels show, where a term of lower order makes up a share of the finest error.
+//! * *rules*: every table is judged against its order, and against claims that are too high or too low by twice the tolerance. Five rules judge: this rule; this rule with finer
+//!   levels added, from four on, while it is inconclusive; and what people use: the slope of a straight line, the finest pairwise rate, and the defaults of physverify 0.6, which
+//!   passes if the slope of the four finest levels lies between 0.3 below and 1 above the order and the last refinement reduces the error by a factor of 1.2. Only our rule has a
+//!   third answer. Where the errors have no order, the wrong claims lie around the p that they show.
+//! * *levels*: the same at the default tolerance with steps halved, by number of levels. A claim is *visibly off* if it differs from the p that the coarse levels show.
+//! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often the interval holds
+//!   the order. Laws that intervals are not made for are in brackets.
+//! * *hidden*: the order that the levels show is claimed, but a term of lower order makes up a share of the finest error.
 //! * *limits*: second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`, f from 1 to 90 % of the finest of eight errors; and three terms of either sign, the hidden one
 //!   `h^(p-1)` of 10 to 22 %.
-//! * *claims*: an order at least, half an order too high and too low; and the constant of laws that have one, 1, held against 0.8 to 1.25 and against 1.25 to 2. Steps halved, ±0.25.
+//! * *claims*: a least order, claimed half an order too high and too low; and the constant of laws that have one, 1, held against 0.8 to 1.25 and against 1.25 to 2. Steps halved, ±0.25.
 //! * *bars*: values `q_k = Q ± e_k`, Q uniform in [-1, 1], and how often their error bar, and the grid convergence index of ASME V&V 20, hold the error.
 //! * *noise*: limits of values `1 + h^2` whose errors scatter by 2 %.
 //! * *grids*: see [`grids`].
 //!
 //! # Measured
 //!
-//! 100 tables of each law and mesh, seed 104729, on which nothing was tuned, in per cent; all sheets are in the report of the study `rule-calibration-full`.
+//! 100 tables of each law and mesh, seed 104729, with which nothing was tuned, in per cent; the report of the study `rule-calibration-full` has all sheets.
 //!
 //! | 4 to 8 levels, ratios 1.5 to 3 | wrong pass at ±0.05, 0.1, 0.25 | true pass | true fail |
 //! | --- | --: | --: | --: |
@@ -29,13 +29,13 @@
 //! | last pair | 8.02, 8.95, 9.06 | 46.8, 57.0, 73.1 | 53.2, 43.0, 26.9 |
 //! | physverify 0.6 | 81.36, 78.29, 48.01 | 87.9, 87.9, 87.9 | 12.1, 12.1, 12.1 |
 //!
-//! physverify passes from 0.3 below to 1 above the order, whatever the tolerance asked of the others: its wrong claims are those that it is not made to see.
+//! physverify passes from 0.3 below to 1 above the order, whatever the tolerance of the others: its wrong passes are those that it is not designed to catch.
 //!
-//! So the price of certainty is paid in inconclusive verdicts, and it falls with the number of levels: five are worth the fifth run, and adding them while nothing is decided is cheaper than any fixed number. What levels
-//! that were added cannot see is a lower order that shows on finer ones only. The bar is an eighth of the index and holds the error as often as an interval of 95 % should; of *five* values with noise it
-//! holds the limit 9 times in 10 only, for two rates may agree by chance. No difference of values can see that their limit is the wrong one.
+//! Certainty is paid for in inconclusive verdicts, and its price falls with the number of levels: a fifth level is worth its run, and adding levels until there is a decision is cheaper than any fixed number. Added
+//! levels cannot reveal a lower order that shows only on still finer ones. The bar is an eighth of the index and holds the error as often as an interval of 95 % should. For *five* noisy values it holds the limit only 9
+//! times in 10, because two rates may agree by chance. No difference of values can show that their limit is wrong.
 //!
-//! The generator is splitmix64, so the same seed gives the same numbers on every machine with the same libm.
+//! The generator is splitmix64: the same seed gives the same numbers on every machine with the same libm.
 
 use thiserror::Error;
 
@@ -58,19 +58,19 @@ pub const CLAIMS: [(f64, f64); 3] = [(0.05, 0.1), (0.1, 0.2), (DEFAULT_TOLERANCE
 /// The rules, ours first.
 pub const RULES: [&str; 5] = ["this rule", "this rule, levels added", "least squares", "last pair", "physverify 0.6"];
 
-/// Tolerances and numbers of levels at which hidden terms are looked for.
+/// Tolerances and numbers of levels at which hidden terms are tested.
 const HIDDEN: [(&str, f64, usize); 3] = [("hidden-6", 0.1, 6), ("hidden-8", 0.1, 8), ("hidden-wide", 0.2, 8)];
 
 /// Tables of hidden terms for each table of a law.
 const HIDDEN_TABLES: usize = 20;
 
-/// Levels at the first look where levels are added.
+/// Levels at the first look when levels are added.
 const FIRST_LOOK: usize = 4;
 
-/// Numbers of levels that are drawn: 3 to 8.
+/// Numbers of levels drawn: 3 to 8.
 const LEVEL_COUNTS: usize = 6;
 
-/// Laws that are far from asymptotic, or whose rates wander too slowly, or without end, for an interval.
+/// Laws that intervals are not made for: far from asymptotic, or with rates that wander too slowly or endlessly.
 const NO_INTERVAL: [&str; 12] = [
     "h^p |1 + a h^r|, r 0.25 to 0.5, |a| < 0.5",
     "h^p (1 + a h^(1/3)), a 0.5 to 3",
@@ -86,7 +86,7 @@ const NO_INTERVAL: [&str; 12] = [
     "one outlier, up to a factor of 3",
 ];
 
-/// Laws for which bars are not made: a tenth of the error and more is chance, on every level.
+/// Laws that bars are not made for: chance makes up a tenth of the error or more on every level.
 const NO_BAR: [&str; 5] = [
     "h^p |1 - a h^r|, a 1 to 30",
     "h^p (1 ± a), odd and even",
@@ -115,7 +115,7 @@ pub struct Row {
     pub name: String,
     /// Whether the rule answers for it.
     pub declared: bool,
-    /// Shares, or medians of a length; NaN of nothing.
+    /// Shares, or medians of a length; NaN if nothing was counted.
     pub values: Vec<f64>,
 }
 
@@ -130,7 +130,7 @@ fn row(name: impl Into<String>, declared: bool, shares: &[Share]) -> Row {
     Row { name: name.into(), declared, values: shares.iter().map(|share| share.value()).collect() }
 }
 
-/// How often something was so.
+/// How often something was true.
 #[derive(Debug, Clone, Copy, Default)]
 struct Share {
     hits: usize,
@@ -143,27 +143,27 @@ impl Share {
         self.of += 1;
     }
 
-    /// NaN of nothing.
+    /// NaN if nothing was counted.
     fn value(self) -> f64 {
         self.hits as f64 / self.of as f64
     }
 }
 
-/// What judging a table costs, in elements advanced by a step: 65 µs against 25 ns.
+/// Cost of judging a table, in elements advanced by a step: 65 µs against 25 ns.
 pub const ELEMENTS_OF_A_TABLE: usize = 2600;
 
-/// Why there is no calibration.
+/// Why a calibration was not completed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CalibrationError {
-    /// The rule cannot be set up as it is declared.
+    /// The rule cannot be set up as declared.
     #[error(transparent)]
     Judge(#[from] JudgeError),
-    /// The limit on the time of a case was reached.
+    /// The case reached its time limit.
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
 }
 
-/// Random numbers, with a look at the clock for each table.
+/// Random numbers; the clock is checked for each table.
 struct Draw {
     random: SplitMix,
     patience: Patience,
@@ -182,19 +182,19 @@ impl Draw {
     }
 }
 
-/// The errors of the laws are exact to the last digit: there is no floor.
+/// The errors of the laws are exact to the last digit: no floor is needed.
 fn judge(tolerance: f64) -> Result<Judge, JudgeError> {
     Judge::new(tolerance)?.with_floor(0.0)
 }
 
-/// The order, or what is shown of none, and claims that are `off` on either side of it.
+/// The order, or the one shown if there is none, and claims that are `off` on either side of it.
 fn wrong(table: &Table, off: f64) -> [f64; 2] {
     [-off, off].map(|off| table.order.unwrap_or(table.shown) + off)
 }
 
 /// The sheets of the rule: *rules* on two sets of meshes, *levels*, *laws*, *hidden* three times, *limits*.
 ///
-/// * `tables`: for each law and mesh.
+/// * `tables`: number of tables for each law and mesh.
 ///
 /// # Errors
 /// [`CalibrationError`].
@@ -214,7 +214,7 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
     Ok(sheets)
 }
 
-/// What each of the [`RULES`] goes by.
+/// What each of the [`RULES`] decides by.
 struct Evidence<'a> {
     /// Four levels, five, and so on to all of them.
     looks: Vec<Reading<'a>>,
@@ -237,7 +237,7 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The verdict of the rule of that place in [`RULES`].
+    /// The verdict of the rule at this place in [`RULES`].
     fn decide(&self, rule: usize, judge: &Judge, order: f64) -> Verdict {
         let inside = |rate: f64, [low, high]: [f64; 2]| {
             if order - low <= rate && rate <= order + high { Verdict::Pass } else { Verdict::Fail }
@@ -253,7 +253,7 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The verdict where levels are added while it is inconclusive, and how many were.
+    /// The verdict when levels are added while it is inconclusive, and how many were added.
     fn added(&self, judge: &Judge, order: f64) -> (Verdict, usize) {
         let mut looks = self.looks.iter().map(|look| judge.decide(look, order)).enumerate();
         let decided = looks.find(|(_, verdict)| *verdict != Verdict::Inconclusive);
@@ -311,7 +311,7 @@ fn rules(
     Ok(Sheet { columns, ..Sheet::new(key, &title, &[], rows) })
 }
 
-/// Steps halved, at the default tolerance: levels fixed, or added up to so many.
+/// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that number.
 fn levels(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
@@ -352,7 +352,7 @@ fn levels(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     Ok(Sheet::new("levels", title, &columns, rows))
 }
 
-/// What each law does to claims 0.1 off at ±0.05, and to intervals.
+/// What each law does to claims 0.1 off at ±0.05 and to intervals.
 fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let (tolerance, off) = CLAIMS[0];
     let judge = judge(tolerance)?;
@@ -519,7 +519,7 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
     Ok(Sheet::new("claims", "Other claims at ±0.25, steps halved", &columns, rows))
 }
 
-/// Lengths of bars, in units of the true error, beside what a bar holds.
+/// Lengths of bars, in units of the true error, and how often the bars hold it.
 #[derive(Debug, Clone, Default)]
 struct Bars {
     shares: [Share; 3],
@@ -527,7 +527,7 @@ struct Bars {
 }
 
 impl Bars {
-    /// * `error`: the true one.
+    /// * `error`: the true error.
     fn count(&mut self, bar: Option<[f64; 2]>, index: Option<f64>, error: f64) {
         self.shares[0].count(bar.is_none());
         let Some([low, high]) = bar else { return };
@@ -552,9 +552,9 @@ fn median(values: &[f64]) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The sheets of error bars: *bars*, *noise*. The order claimed is the one that a law shows on coarse levels, at a tolerance of 0.1.
+/// The sheets of error bars: *bars*, *noise*. The order claimed is the one that a law shows on coarse levels, with a tolerance of 0.1.
 ///
-/// * `tables`: sequences of values of each law.
+/// * `tables`: number of sequences of values for each law.
 ///
 /// # Errors
 /// [`CalibrationError`].

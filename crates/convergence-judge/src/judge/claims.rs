@@ -1,22 +1,22 @@
 //! Claims other than an order within a tolerance, each judged by what the [rule](super::verdict) reads.
 //!
-//! `RULE.md` has a paragraph on each, `judge::calibration` how often it errs.
+//! `RULE.md` has a paragraph on each; `judge::calibration` measures how often it errs.
 
 use std::fmt;
 
 use super::fit::Level;
 use super::verdict::{Judge, RateVerdict, Reason};
 
-/// What theory claims of an error.
+/// What theory claims about an error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
     /// The order.
     pub order: f64,
-    /// How far the rate may be from it, above or below.
+    /// How far the rate may differ from it in either direction.
     pub tolerance: f64,
-    /// Whether the order is the least one, so that no rate is too high.
+    /// Whether the order is a lower bound, so that no rate is too high.
     pub at_least: bool,
-    /// Between which two numbers the constant lies, if that is claimed.
+    /// The two numbers between which the constant must lie, if that is claimed.
     pub constant: Option<[f64; 2]>,
 }
 
@@ -26,7 +26,7 @@ impl Claim {
         Self { order, tolerance, at_least: false, constant: None }
     }
 
-    /// The rate of these levels, held against all that is claimed. (The tolerance of `judge` is not asked.)
+    /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not used.)
     pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
         let rate = judge.judge(levels, self.order);
         let rate = if self.at_least { at_least(rate) } else { rate };
@@ -46,7 +46,7 @@ impl fmt::Display for Claim {
     }
 }
 
-/// An order as people write it: `2`, or `>= 2` where it is the least one; `None` where it is neither.
+/// An order as people write it: `2`, or `>= 2` for a lower bound; `None` if it is neither.
 pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
     let least = text.trim().strip_prefix(">=");
     let order = least.unwrap_or(text).trim().parse::<f64>().ok()?;
@@ -57,21 +57,21 @@ pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
 /// errors with noise and pollution at least 9 times in 10 for any number of levels.
 const DOUBT_OF_A_CONSTANT: f64 = 5.0;
 
-/// The step that an error over degrees is judged over: `e = C F^-p` is a power `e = C step^(log F)` of it.
+/// The step for judging an error over degrees: `e = C F^-p` is a power `e = C step^(log F)` of it.
 ///
-/// * `degree`: p or q of the elements, or another count by which the error falls by a factor each.
+/// * `degree`: p or q of the elements, or another count; each increment divides the error by the factor.
 pub fn step_of_degree(degree: f64) -> f64 {
     (-degree).exp()
 }
 
-/// The order in [`step_of_degree`] of an error that falls by this factor a degree; > 0 for a factor > 1.
+/// The order in [`step_of_degree`] of an error that falls by this factor per degree; > 0 for a factor > 1.
 pub fn order_of_factor(factor: f64) -> f64 {
     factor.ln()
 }
 
-/// The same rate where the order claimed is the least one: a higher rate is no failure.
+/// The same rate judged against a lower bound on the order: a higher rate does not fail.
 ///
-/// The interval has to lie above the band's lower end, and so has the finest rate; rates that move upwards are not leaving.
+/// The interval and the finest rate must both lie above the band's lower end; rates that move upwards do not depart.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
     let least = rate.order - rate.tolerance;
     let kind = match (rate.kind, rate.interval, &rate.pairwise[..rate.used.end.saturating_sub(1)]) {
@@ -85,10 +85,10 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
     rate.with_reason(kind, kind.text())
 }
 
-/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` where there is no rate.
+/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` if there is no rate.
 ///
-/// Beyond the finest level, h and e, the rates approach p from q, the finest, by half of what is left at each refinement by ρ, so that `log C` changes by
-/// `(p - q) log ρ` in all. The interval answers for slower pollution and for scatter by five half-widths of the rate's, times log ρ.
+/// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest, halving the remaining distance at each refinement by ρ, so
+/// that `log C` changes by `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower pollution and for scatter.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
     let [low, high] = rate.interval?;
     let [.., before, finest] = levels.get(rate.used.clone())? else { return None };
@@ -99,7 +99,7 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
     Some([(middle - half).exp(), (middle + half).exp()])
 }
 
-/// The same rate where its constant has to lie between two numbers, too: a mistake of the scheme's own order changes nothing else.
+/// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own order changes nothing else.
 pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
     let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else { return rate };
     let kind = if high < least || low > most {
@@ -112,7 +112,7 @@ pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2
     rate.with_reason(kind, &format!("{} ({low:.4} to {high:.4}, claimed {least} to {most})", kind.text()))
 }
 
-/// The largest error, and whether all of them are at most `bound`: what is exact up to round-off. NaN never is.
+/// The largest error, and whether all errors are at most `bound`, for results that are exact up to round-off. NaN never passes.
 pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
     let largest = errors.into_iter().map(f64::abs).fold(f64::NEG_INFINITY, crate::text::number::max_or_nan);
     (largest, largest <= bound && largest >= 0.0)

@@ -6,12 +6,12 @@
 //!     e(h) = C h^p (1 + c h^r + ...),        log e = log C + p log h + log(1 + c h^r + ...)      (a)
 //! ```
 //!
-//! and the order p is what theory claims. Its data are deterministic: what bends log e away from a straight line is
-//! the *pollution* c h^r, and what looks like noise is small. Each of the readings here answers one part of that:
+//! and the order p is what theory claims. The data are deterministic: the *pollution* c h^r bends log e away from a
+//! straight line, and apparent noise is small. Each reading here answers one part of the question:
 //!
 //! * [`pairwise_rates`]: the raw rates, level by level, nothing left out;
 //! * [`fit_line`]: least squares with a Student-t interval, right when the scatter outweighs the bend;
-//! * [`rate_interval`]: several least-squares fits, with the bend and without, weighed against each other: right in both cases;
+//! * [`rate_interval`]: several weighted least-squares fits, with and without the bend: right in both cases;
 //! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
 
@@ -31,11 +31,11 @@ pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic
 pub struct Level {
     /// Step size, h or dt; positive, and smaller from level to level.
     pub step: f64,
-    /// Norm of the error at that step. Kept as measured: NaN, infinite, zero and negative values are for the judge to see.
+    /// Norm of the error at that step. Kept as measured: the judge deals with NaN, infinite, zero and negative values.
     pub error: f64,
 }
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as libraries of statistics compute them.
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as statistics libraries compute them.
 const STUDENT: [f64; 30] = [
     12.70620473617469,
     4.302652729749467,
@@ -69,9 +69,9 @@ const STUDENT: [f64; 30] = [
     2.042272456301077,
 ];
 
-/// `t` such that a Student variable with so many degrees of freedom lies in [-t, t] at 95 % confidence; infinite without any.
+/// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] at 95 % confidence; infinite if `dof` is 0.
 ///
-/// Above 30 degrees of freedom the last entry of the table is used, which is the wider (safe) side.
+/// Above 30 degrees of freedom it returns the last entry of the table, which is larger and therefore safe.
 pub fn student_t(dof: usize) -> f64 {
     dof.checked_sub(1).map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
 }

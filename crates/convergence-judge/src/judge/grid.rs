@@ -2,71 +2,70 @@
 //!
 //! # Derivation
 //!
-//! Let what space and time contribute add, or let their squares add:
+//! Let the contributions of space and time add, or let their squares add:
 //!
 //! ```text
 //!     e(h, dt)^s = A(h)^s + B(dt)^s,        s = 1: they have the same shape;  s = 2: they are orthogonal       (a)
 //!     A(h) = C_h h^p (1 + a h^r + ...),     B(dt) = C_t dt^q (1 + b dt^r' + ...)                               (b)
 //! ```
 //!
-//! *One sequence for each order.* The differences of e^s over h at one and the same dt hold nothing of B, of whatever order and however polluted it is:
+//! *One sequence for each order.* The differences of e^s over h at fixed dt do not contain B, whatever its order and pollution:
 //!
 //! ```text
 //!     e(h_k, dt)^s - e(h_(k+1), dt)^s = A(h_k)^s - A(h_(k+1))^s = A(h_k)^s (1 - ρ_k^(-s p)) (1 + s a (K - 1) h_k^r + ...)
 //!     ρ_k = h_k / h_(k+1),    K = (1 - ρ_k^(-s p - r)) / (1 - ρ_k^(-s p)),   between 1 and 1 + r / (s p).
 //! ```
 //!
-//! Divided by `1 - ρ_k^(-s p)` and with the s-th root taken they are A(h_k) for k = 1..m-1, polluted by the powers that A itself has, and by no more
-//! than 1 + r / (s p) times as much. [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure, scatter and
-//! round-off. With one ratio ρ the divisor is the same for all k and the rate does not depend on it; otherwise p is the number for which the rate read is p.
-//! The rate read grows with the p assumed, but slowly: its derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ. So there is one such
-//! number. The same over dt for B and q.
+//! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same powers as A itself, and by at most 1 + r / (s p) times as
+//! much. [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure, scatter and round-off. With one ratio ρ the divisor
+//! is the same for all k and does not affect the rate; otherwise p is the number for which the rate read is p. The rate read grows with the p assumed, but
+//! slowly: its derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ. So there is exactly one such number. The same holds over dt for B and q.
 //!
-//! *Where.* At the finest dt, and for q at the finest h: there scatter and round-off of the other contribution are least, and so are terms such
-//! as `h^i dt^k`, which (a) does not have.
+//! *Where.* At the finest dt, and for q at the finest h: there the other contribution has the least scatter and
+//! round-off, and terms such as `h^i dt^k`, which (a) lacks, are smallest.
 //!
-//! *Whether (a) holds* tell the errors that are not in the two sequences. With M and N the finest levels,
+//! *Whether (a) holds* is tested with the errors outside the two sequences. With M and N the finest levels,
 //!
 //! ```text
 //!     e_jk^s = e_jN^s + e_Mk^s - e_MN^s,          misfit μ = root mean square of log(right) / s - log(left).
 //! ```
 //!
-//! *Floor.* The last differences are small beside e^s where the other contribution is large. What (a) misses is not known of e, so that `s μ e^s` is not known
-//! of e^s: differences up to [`MISFITS`] times that, and the round-off, have no say.
+//! *Floor.* If the other contribution is large, the last differences are small compared with e^s. The misfit of (a) limits what is known of e, so e^s is
+//! uncertain by `s μ e^s`: differences up to [`MISFITS`] times that, and up to the round-off, are not used.
 //!
 //! # Why not a surface
 //!
-//! `C_h h^p + C_t dt^q` fitted to all errors has intervals that are too narrow. m n errors that obey (a) are m + n - 1 numbers, so that there are not
-//! m n - 4 degrees of freedom; and residuals of smooth data bend, they do not scatter. Of 202 smooth grids of 3 × 3 to 5 × 5 errors with a, b in
-//! [-0.8, 2] such intervals of 95 % held p 59 times and q 32 times.
+//! `C_h h^p + C_t dt^q` fitted to all errors has intervals that are too narrow. m n errors that obey (a) are m + n - 1 numbers, so there are fewer
+//! than m n - 4 degrees of freedom; and residuals of smooth data bend, they do not scatter. For 202 smooth grids of 3 × 3 to 5 × 5 errors with a, b
+//! in [-0.8, 2], such intervals of 95 % held p 59 times and q 32 times.
 //!
-//! # Three steps more than the rule
+//! # Three steps beyond the rule
 //!
-//! *The line beside.* With (a) the differences at the next finest dt are the same. By as much as their rate is another one the interval is longer on either
-//! side: for terms that (a) does not have, and for scatter that a few differences do not show. (Where those differences are below their floor, as with a finest
+//! *The neighbouring line.* If (a) holds, the differences at the next finest dt are the same. The interval is extended on either side by the difference of
+//! their rates: for terms that (a) lacks, and for scatter that a few differences do not show. (If those differences are below their floor, as with a finest
 //! step far beyond the others, there is nothing to compare with.)
 //!
-//! *Two rates.* Four levels have three differences and two rates. Where the last order is one lower than that claimed and its term has just begun to show, the
-//! interval alone lets 7 of 100 such tables pass (4 × 4, tolerance 0.2). A term that fades moves the rates towards the order, one that takes over moves them
-//! away. So where there are two rates, the second may not be farther from the order than the first by more than [`DEPARTURE_OF_TWO_RATES`] of the tolerance:
-//! else not a pass, but inconclusive. Neither does a claim pass whose differences change their sign.
+//! *Two rates.* Four levels have three differences and two rates. If the true order is one lower than that claimed and its term has just begun to show, the
+//! interval alone lets 7 of 100 such tables pass (4 × 4, tolerance 0.2). A fading term moves the rates towards the order, an emerging one moves them away. So
+//! with two rates, the second may be farther from the order than the first by at most [`DEPARTURE_OF_TWO_RATES`] of the tolerance; otherwise a pass becomes
+//! inconclusive. A claim whose differences change sign does not pass either.
 //!
 //! # What is left over
 //!
-//! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2 and 1. So where both orders pass, what h and dt leave of the finest
-//! error is asked for. The differences beyond the finest levels continue the last one with rates that approach the order claimed as those seen do,
+//! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2 and 1. So where both orders pass, we ask what is left of the finest
+//! error without h and dt. The differences beyond the finest levels continue the last one with rates that approach the order claimed as those seen do,
 //!
 //! ```text
 //!     A_M^s = D + D' + D'' + ...,   D = d ρ^(-s q_1),   D' = D ρ^(-s q_2), ...     q_j = p + (q_last - p) φ^j,    φ = (q_last - p) / (q_before - p)
 //! ```
 //!
-//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 where there is one rate), and B_N the same. What is left of `e^s - A_M^s - B_N^s` is stated as a share λ of
-//! `s e^s`: of the error itself, where that is small. It is known up to what φ = 1/2 instead, or a tenth of the correction, would change, and [`MISFITS_OF_REST`] times the misfit.
+//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 if there is one rate), and B_N the same. The remainder `e^s - A_M^s - B_N^s` is stated as a share λ of `s
+//! e^s`: of the error itself, if it is small. Its uncertainty is the change from φ = 1/2 instead, or from a tenth of the correction, and [`MISFITS_OF_REST`] times the misfit.
 //!
 //! | λ | verdict |
 //! | --- | --- |
-//! | at most 0.075, and at most 0.005 or what it is known to | both orders pass |
-//! | more than 0.1 and twice what it is known to | *fail*: a limit that is not zero, `(s λ)^(1/s) e` |
+//! | at most 0.075, and at most 0.005 or its uncertainty | both orders pass |
+//! | more than 0.1 and more than twice its uncertainty | *fail*: a limit that is not zero, `(s λ)^(1/s) e` |
 //! | otherwise | *inconclusive*, with the same number |
 //!
 //! # Measured
@@ -81,8 +80,8 @@
 //! | 6 × 6 | 100 | 82, 93 | 0, 0 | |
 //! | 8 × 8 | 99.7 | 98, 100 | 0, 0 | 99.3, 98.4 |
 //!
-//! Of the claim p + 1 where the error in h is `h^(p+1) + f h^p`, f from 0.01 to 1, none of 1000 tables passes with any of these numbers of levels. Three levels are
-//! two differences: always inconclusive. With noise 1 % 0.7 % of right claims fail at 0.2.
+//! If p + 1 is claimed and the error in h is `h^(p+1) + f h^p`, f from 0.01 to 1, none of 1000 tables passes with any of these numbers of levels. Three levels give
+//! two differences: always inconclusive. With 1 % noise, 0.7 % of right claims fail at 0.2.
 
 use super::fit::Level;
 use super::richardson::{RATES, crossing};
@@ -92,19 +91,19 @@ use crate::text::number::error_text;
 /// Share of the tolerance by which the second of two rates may be farther from the order than the first.
 pub const DEPARTURE_OF_TWO_RATES: f64 = 0.05;
 
-/// Differences are known where they are more than this times what the misfit leaves unknown: three standard deviations.
+/// Differences are known if they exceed the uncertainty from the misfit by this factor: three standard deviations.
 pub const MISFITS: f64 = 3.0;
 
-/// Between what factors the distance of a rate from the order shrinks from one level to the next.
+/// Bounds on the factor by which the distance of a rate from the order shrinks from one level to the next.
 pub const FADE: [f64; 2] = [0.25, 0.75];
 
-/// What is left over is known no better than this many misfits.
+/// The remainder is never known more accurately than this many misfits.
 pub const MISFITS_OF_REST: f64 = 4.0;
 
-/// Shares of the finest error: what is left over is none, is too much whatever is known of it, is a limit.
+/// Shares of the finest error: negligible, too large however uncertain, a limit.
 const REST: [f64; 3] = [0.005, 0.075, 0.1];
 
-/// How the contributions of space and time make up the error.
+/// How the contributions of space and time combine to the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Adding {
     /// e = A(h) + B(dt): they have the same shape.
@@ -131,21 +130,21 @@ pub enum Refined {
     Time,
 }
 
-/// Errors of all pairs of mesh widths and time steps.
+/// Errors for all pairs of mesh widths and time steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridErrors<'a> {
     /// Mesh widths, coarsest first.
     pub h: &'a [f64],
     /// Time steps, coarsest first.
     pub dt: &'a [f64],
-    /// The errors, all time steps of the first mesh width, then those of the next; `h.len() * dt.len()`.
+    /// The errors: all time steps of the first mesh width, then those of the next; `h.len() * dt.len()`.
     pub errors: &'a [f64],
 }
 
 impl GridErrors<'_> {
-    /// Root mean square, over all errors but those of the finest mesh and the finest step, of how far log e is from what these make of it.
+    /// Root mean square distance of log e from the value that these give, over all errors except those of the finest mesh and the finest step.
     ///
-    /// NaN where an error is not finite; infinite where the sum is negative, which no error is.
+    /// NaN if an error is not finite; infinite if the sum is negative, which no error can be.
     pub fn misfit(&self, adding: Adding) -> f64 {
         let (rows, columns, power) = (self.h.len(), self.dt.len(), adding.power());
         if rows < 2 || columns < 2 || self.errors.len() != rows * columns {
@@ -154,7 +153,7 @@ impl GridErrors<'_> {
         let at = |j: usize, k: usize| self.errors[j * columns + k];
         let (last_row, last) = (rows - 1, columns - 1);
         let square = |j: usize, k: usize| {
-            // In units of the error itself, so that no power of it overflows.
+            // In units of the error itself, so that no power overflows.
             let share = |error: f64| (error / at(j, k)).powf(power);
             let sum = share(at(j, last)) + share(at(last_row, k)) - share(at(last_row, last));
             if sum <= 0.0 { f64::INFINITY } else { (sum.ln() / power).powi(2) }
@@ -163,12 +162,12 @@ impl GridErrors<'_> {
         (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
     }
 
-    /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the levels k and k + 1 that were refined.
+    /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the refined levels k and k + 1.
     ///
-    /// * `orders`, `tolerance`: what is claimed.
+    /// * `orders`, `tolerance`: the claim.
     ///
     /// # Errors
-    /// [`JudgeError`] for a tolerance that tells nothing.
+    /// [`JudgeError`] for a meaningless tolerance.
     pub fn judge(&self, adding: Adding, orders: [f64; 2], tolerance: f64) -> Result<[RateVerdict; 2], JudgeError> {
         let [p, q] = orders;
         let both = [
@@ -191,7 +190,7 @@ impl GridErrors<'_> {
         Ok(both.map(|rate| rate.with_reason(kind, &because)))
     }
 
-    /// What h and dt leave of the finest error, and how well that is known: shares of it.
+    /// What is left of the finest error without h and dt, and its uncertainty: shares of that error.
     fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
         let power = adding.power();
         let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
@@ -200,7 +199,7 @@ impl GridErrors<'_> {
             let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
             let off: Vec<f64> = judged.pairwise[..judged.used.end - 1].iter().map(|rate| rate - judged.order).collect();
             let fade = match off[..] {
-                // Two rates of just that order: nothing to fade.
+                // Both rates equal the order: nothing fades.
                 [.., before, last] if before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
                 _ => 0.5,
             };
@@ -235,7 +234,7 @@ impl GridErrors<'_> {
         Ok(if doubtful { finest.judge_as(&reading, order, Reason::NotAsymptotic) } else { judged })
     }
 
-    /// The errors over the levels that are refined, on the finest of the others or that many before it; NaN where there is none.
+    /// The errors over the refined levels, at the finest level of the other step or this many before it; NaN if there is none.
     fn line(&self, refined: Refined, from_finest: usize) -> Vec<Level> {
         let (rows, columns) = (self.h.len(), self.dt.len());
         let steps = if refined == Refined::Space { self.h } else { self.dt };
@@ -248,23 +247,23 @@ impl GridErrors<'_> {
     }
 }
 
-/// What the differences have to exceed, in the unit of the errors.
+/// What the differences must exceed, in the unit of the errors.
 fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
-    // What is not known of e by a share m or an amount r is not known of e^s by s m e^s and s r e^(s - 1).
+    // A relative uncertainty m or an absolute one r of e is one of s m e^s or s r e^(s - 1) of e^s.
     let finest = errors.last().map_or(f64::NAN, |level| level.error);
     let unknown = MISFITS * misfit * finest + ROUND_OFF_FLOOR;
     let floor = (power * unknown * finest.powf(power - 1.0)).powf(1.0 / power);
-    // Where (a) misses everything, nothing is known.
+    // If (a) misses everything, nothing is known.
     if floor.is_finite() { floor } else { f64::MAX }
 }
 
-/// What one contribution is by itself, with the divisors of the rate that it then has; with those of `order` where it has none.
+/// One contribution by itself, with the divisors for the rate that it then has, or for `order` if it has none.
 fn reduced(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level> {
     let excess = |rate: f64| Some(judge.read(&alone(errors, power, rate)).fit?.rate - rate);
     alone(errors, power, crossing(excess, RATES).unwrap_or(order))
 }
 
-/// What one contribution is by itself at all levels but the finest, `|e_k^s - e_(k+1)^s| / (1 - ρ_k^(-s p))` to the power 1/s.
+/// One contribution by itself at all levels except the finest, `|e_k^s - e_(k+1)^s| / (1 - ρ_k^(-s p))` to the power 1/s.
 ///
 /// * `power`: s.
 /// * `rate`: p.
@@ -279,7 +278,7 @@ fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
 
 /// Sum of all differences beyond the finest level, in units of the last one.
 ///
-/// * `off`: how far the last rate is from the order; `fade`: what is left of that from one level to the next.
+/// * `off`: how far the last rate is from the order; `fade`: the factor by which that shrinks per level.
 fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
     let (mut next, mut sum) = (1.0, 0.0);
     for _ in 0..40 {
@@ -287,18 +286,18 @@ fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
         next *= ratio.powf(-power * (order + off));
         sum += next;
     }
-    // The rates are those of the order by now: what remains is a geometric series.
+    // By now the rates are those of the order: what remains is a geometric series.
     sum + next / (ratio.powf(power * order) - 1.0)
 }
 
-/// Whether the errors fall on one of the refinements that were used and grow on another.
+/// Whether the errors fall on one of the refinements used and grow on another.
 fn turns(errors: &[Level], judged: &RateVerdict) -> bool {
     let falls = |pair: &[Level]| pair[1].error < pair[0].error;
     let used = &errors[judged.used.start..=judged.used.end];
     used.windows(2).any(|pair| falls(pair) != falls(&used[..2]))
 }
 
-/// Whether two rates are all that there is, and the second is farther from the order.
+/// Whether there are only two rates, and the second is farther from the order.
 fn leaves(judged: &RateVerdict) -> bool {
     let rates = &judged.pairwise[judged.used.start..judged.used.end - 1];
     let [first, second] = rates else { return false };

@@ -1,10 +1,10 @@
-//! A generator that is the same everywhere: splitmix64 (Steele, Lea, Flood 2014).
+//! A generator that gives the same numbers everywhere: splitmix64 (Steele, Lea, Flood 2014).
 
 /// State of the generator.
 pub struct SplitMix(u64);
 
 impl SplitMix {
-    /// The generator that starts from this seed.
+    /// The generator with this seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }

@@ -1,4 +1,4 @@
-//! Errors beside their rates, as text: for terminals, and for the message of a test that fails.
+//! Errors next to their rates, as text: for terminals, and for the message of a failing test.
 
 use super::fit::Level;
 use super::verdict::{Aside, RateVerdict, Verdict};
@@ -7,21 +7,21 @@ use crate::text::number::{decimals, interval_places, plain_text};
 /// Most decimals of a rate.
 pub const MOST_PLACES: usize = 6;
 
-/// A column of a table: an error with what was judged of it.
+/// A column of a table: an error with its judgement.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its levels, coarse to fine; NaN where there is no result.
+    /// Its levels, coarse to fine; NaN for a missing result.
     pub levels: &'a [Level],
-    /// What was judged.
+    /// Its judgement.
     pub rate: &'a RateVerdict,
-    /// By how many levels its rates begin later than those of errors: 1 for values, whose differences have the rates.
+    /// How many levels later its rates begin than those of errors: 1 for values, whose differences have the rates.
     pub late: usize,
 }
 
 impl Shown<'_> {
-    /// Rate, claim, and the reason where that is no pass.
+    /// Rate and claim, with the reason unless it is a pass.
     pub fn found(&self) -> String {
         let rate = self.rate.rate_in_words(MOST_PLACES);
         if self.rate.order.is_nan() {
@@ -35,7 +35,7 @@ impl Shown<'_> {
         self.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because)
     }
 
-    /// The error at a level, with a mark where it has no say.
+    /// The error at a level, with a mark if it was not used.
     fn error(&self, level: usize) -> String {
         let mark = match self.because(level) {
             Some(Aside::AtFloor) => "_",
@@ -45,7 +45,7 @@ impl Shown<'_> {
         format!("{:.4e}{mark:1}", self.levels[level].error)
     }
 
-    /// The rate between a level and the one before; a dash where there is none.
+    /// The rate between a level and the one before; a dash if there is none.
     fn pairwise(&self, level: usize) -> String {
         let before = level.checked_sub(1 + self.late);
         let places = self.rate.interval.map_or(3, |interval| interval_places(interval, MOST_PLACES));
@@ -54,10 +54,10 @@ impl Shown<'_> {
     }
 }
 
-/// Step, and each error with its mark and rate, coarsest level first, below their names; then what the marks mean.
+/// Names, then step and each error with its mark and rate, coarsest level first, then the meaning of the marks.
 ///
 /// * `step`: the name of the step.
-/// * `floor`: that of the rule which judged.
+/// * `floor`: of the rule that judged.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     let names = columns.iter().flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
     let mut rows = vec![std::iter::once(step.to_owned()).chain(names).collect::<Vec<_>>()];
@@ -74,7 +74,7 @@ pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     rows.iter().map(line).collect::<String>() + &legend(columns, floor)
 }
 
-/// What the marks mean, as far as they occur.
+/// The meaning of the marks that occur.
 fn legend(columns: &[Shown<'_>], floor: f64) -> String {
     let occurs = |because: &Aside| {
         columns.iter().any(|shown| shown.rate.set_aside.iter().any(|aside| aside.because == *because))
@@ -86,7 +86,7 @@ fn legend(columns: &[Shown<'_>], floor: f64) -> String {
     [Aside::PreAsymptotic, Aside::Outlier, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
 }
 
-/// Table, findings and advice, for the message of a test that fails.
+/// Table, findings and advice, for the message of a failing test.
 pub fn explained(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     let mut text = table(step, columns, floor);
     for shown in columns {

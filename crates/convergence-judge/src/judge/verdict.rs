@@ -19,26 +19,26 @@ pub(crate) use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away, grows, scatter};
 
-/// Two rates and one difference of them: with less, nothing tells a rate from chance.
+/// Two rates and one difference of them: with fewer, nothing tells a rate from chance.
 pub const FEWEST_LEVELS: usize = 3;
 
-/// Tolerances must stay below: half the distance between two integer orders accepts either.
+/// Upper bound on tolerances: half the distance between two integer orders would accept either.
 pub const WIDEST_TOLERANCE: f64 = 0.5;
 
 /// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and from 2.5.
 pub const DEFAULT_TOLERANCE: f64 = 0.25;
 
-/// Distance from the order beyond which a pairwise rate is no pre-asymptotic effect: an error that falls 32 times faster or
-/// slower than theory when the step is halved is a different solution, not a worse one.
+/// Distance from the order beyond which a pairwise rate is not a pre-asymptotic effect: an error that falls 32 times
+/// faster or slower than theory when the step is halved is a different solution, not a worse one.
 pub const WILD: f64 = 5.0;
 
 /// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order changes no rate.
 pub const LEAST_SPAN: f64 = 1.5;
 
-/// Floor of errors of quantities of order 1, [`FLOOR_MARGIN`] times some hundred rounding errors: the default of [`Judge`].
+/// Floor of errors of quantities of order 1, [`FLOOR_MARGIN`] times about a hundred rounding errors: the default of [`Judge`].
 pub const ROUND_OFF_FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
-/// A setting of [`Judge`] under which no verdict would mean anything.
+/// A setting of [`Judge`] that would make every verdict meaningless.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JudgeError {
     /// See [`WIDEST_TOLERANCE`].
@@ -80,10 +80,10 @@ impl Judge {
         Ok(Self { tolerance, floor: ROUND_OFF_FLOOR })
     }
 
-    /// The same rule with another floor, in the unit of the errors: fine levels whose errors are not above it have no say. 0 drops no level.
+    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to the floor are not used. 0 drops no level.
     ///
-    /// Where the round-off is known, give [`FLOOR_MARGIN`] times as much. See [`asymptotic_range`](crate::judge::fit::asymptotic_range) for why it is
-    /// not read off the data. [`RateVerdict::set_aside`] names the levels.
+    /// If the round-off is known, pass [`FLOOR_MARGIN`] times as much. [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not
+    /// estimated from the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         if floor >= 0.0 && floor.is_finite() { Ok(Self { floor, ..self }) } else { Err(JudgeError::Floor(floor)) }
     }
@@ -93,7 +93,7 @@ impl Judge {
         self.tolerance
     }
 
-    /// Errors that are not above it have no say.
+    /// Errors up to this one are not used.
     pub fn floor(&self) -> f64 {
         self.floor
     }
@@ -103,34 +103,34 @@ impl Judge {
         self.judge_read(&self.read(levels), order)
     }
 
-    /// The same for levels that have been read, by a judge of the same floor and confidence.
+    /// The same for levels already read by a judge with the same floor and confidence.
     pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
         RateVerdict::new(reading, order, self.tolerance, reading.reason(order, self.tolerance))
     }
 
-    /// The same where another rule has found the reason.
+    /// The same with a reason found by another rule.
     pub(crate) fn judge_as(&self, reading: &Reading<'_>, order: f64, reason: Reason) -> RateVerdict {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
-    /// What does not depend on claim and tolerance, to be held against several of them.
+    /// The part that does not depend on claim and tolerance, to be compared with several claims.
     pub(crate) fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
         Reading::new(levels, self.floor)
     }
 
-    /// The outcome for levels that have been read, by a judge of the same floor and confidence.
+    /// The outcome for levels already read by a judge with the same floor and confidence.
     pub(crate) fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
         reading.reason(order, self.tolerance).verdict()
     }
 
-    /// The same for (step, error) pairs from anywhere, a CSV file for example.
+    /// The same for (step, error) pairs from any source, such as a CSV file.
     pub fn judge_pairs(&self, pairs: impl IntoIterator<Item = (f64, f64)>, order: f64) -> RateVerdict {
         let levels: Vec<Level> = pairs.into_iter().map(|(step, error)| Level { step, error }).collect();
         self.judge(&levels, order)
     }
 }
 
-/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is inconclusive, with the rate all the same.
+/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is inconclusive, but the rate is still given.
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let refused = match Judge::new(tolerance) {
         Ok(judge) => return judge.judge(levels, order),

@@ -1,4 +1,4 @@
-//! Cells lined up in columns, for the terminal and for the source of Markdown alike.
+//! Cells aligned in columns, for the terminal and for the source of Markdown alike.
 
 /// Widths of the columns of a table, in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Measures a table: the head gives the number of columns; a column of numbers alone is set to the right.
+    /// Measures a table: the head gives the number of columns; a column that holds only numbers is aligned right.
     pub fn of(head: &[String], rows: &[Vec<String>]) -> Self {
         let column = |i: usize| rows.iter().filter_map(move |row| row.get(i));
         let width = |i: usize| column(i).chain(head.get(i)).map(|cell| cell.chars().count()).max().unwrap_or(0);
@@ -26,12 +26,12 @@ impl Columns {
         self.widths[column]
     }
 
-    /// Whether a column is set to the right.
+    /// Whether a column is aligned right.
     pub fn is_numeric(&self, column: usize) -> bool {
         self.numeric[column]
     }
 
-    /// The cells of a row, filled up to the widths; as many as there are columns.
+    /// The cells of a row, padded to the widths; one per column.
     pub fn pad<'r>(&'r self, row: &'r [String]) -> impl Iterator<Item = String> + 'r {
         (0..self.count()).map(|i| {
             let cell = row.get(i).map_or("", String::as_str);

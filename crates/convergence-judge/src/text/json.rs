@@ -1,4 +1,4 @@
-//! How numbers stand in JSON: one that is not finite is `null`, and `null` is read as NaN; named numbers are an object in their own order.
+//! Numbers in JSON: a number that is not finite is `null`, and `null` is read as NaN; named numbers are an object in their own order.
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde::ser::{SerializeMap, Serializer};
@@ -8,13 +8,13 @@ pub fn nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> 
     Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::NAN))
 }
 
-/// The same of each number of a list.
+/// The same for each number of a list.
 pub fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let numbers: Vec<Option<f64>> = Vec::deserialize(deserializer)?;
     Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
-/// The same of both ends of an interval.
+/// The same for both ends of an interval.
 pub fn nan_pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 2]>, D::Error> {
     let ends: Option<[Option<f64>; 2]> = Option::deserialize(deserializer)?;
     Ok(ends.map(|ends| ends.map(|end| end.unwrap_or(f64::NAN))))
@@ -43,7 +43,7 @@ pub mod named {
     }
 }
 
-/// The same; whole numbers stand without a decimal point.
+/// The same, with whole numbers written without a decimal point.
 pub mod counted {
     use super::{SerializeMap, Serializer};
 

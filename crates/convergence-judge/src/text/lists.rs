@@ -1,4 +1,4 @@
-//! Lists for people: each name once, what belongs together in one place, and how many more there are. The order is that of the first.
+//! Lists for people: each name once, related items together, and how many more there are. The order is that of first occurrence.
 
 /// Each item once.
 pub fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
@@ -23,7 +23,7 @@ pub fn grouped<K: PartialEq, T>(items: impl IntoIterator<Item = (K, T)>) -> Vec<
     groups
 }
 
-/// ` and 3 more`, where `shown` of `count` are; nothing where all are.
+/// ` and 3 more`, if `shown` of `count` are shown; empty if all are.
 pub fn and_more(count: usize, shown: usize) -> String {
     if count > shown { format!(" and {} more", count - shown) } else { String::new() }
 }

@@ -1,4 +1,4 @@
-//! Names as messages have them: the known one closest to a misspelt one, and quoted for a shell.
+//! Names in messages: the known name closest to a misspelt one, and names quoted for a shell.
 
 /// Longest name for which a suggestion is sought: the distance costs the product of both lengths.
 const LONGEST: usize = 40;
@@ -10,8 +10,8 @@ pub fn did_you_mean(suggestion: &Option<String>) -> String {
 
 /// The candidate closest to `name`, or `None` if none is close enough to be a typing error.
 ///
-/// Distance: insertions, deletions, replacements and swaps of neighbours (optimal string alignment), upper and lower case
-/// counting as equal; at most one edit for every three letters, and at least one. Of equally close candidates the first.
+/// Distance: insertions, deletions, replacements and swaps of neighbours (optimal string alignment), ignoring case; at
+/// most one edit for every three letters, and at least one. The first of equally close candidates wins.
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let name = name.to_lowercase();
     let letters = name.chars().count();
@@ -22,13 +22,13 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     candidates
         .into_iter()
         .map(|candidate| (strsim::osa_distance(&name, &candidate.to_lowercase()), candidate))
-        // A distance as long as the candidate itself means that no letter of it was written.
+        // A distance as long as the candidate itself means that none of its letters was written.
         .filter(|&(distance, candidate)| distance <= granted && distance < candidate.chars().count())
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// A word as a shell takes it, which would otherwise resolve patterns.
+/// A word quoted for a shell, which would otherwise expand patterns.
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
     let is_whole = !word.is_empty() && word.chars().all(is_plain);

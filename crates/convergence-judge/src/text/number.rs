@@ -1,4 +1,4 @@
-//! Numbers as reports have them: a maximum that keeps NaN, and how they are written where the bytes must stay the same.
+//! Numbers for reports: a maximum that keeps NaN, and formats whose bytes must stay the same.
 
 /// Significant digits of a number in a committed file: more than anyone compares, fewer than two machines agree on.
 const DIGITS: usize = 6;
@@ -9,10 +9,10 @@ const NOISE_PLACE: i32 = 15;
 /// Decimal places of a rate in a committed file: a relative change of an error by 1e-5 does not show.
 pub const RATE_PLACES: usize = 4;
 
-/// Width of an interval beyond which its middle is not shown as a rate: it would seem to be known.
+/// Width of an interval above which its middle is not shown as a rate: it would look known.
 pub const WIDEST_INTERVAL: f64 = 0.5;
 
-/// The larger of two numbers; NaN if one of them is, which `f64::max` would hide.
+/// The larger of two numbers; NaN if one of them is, unlike `f64::max`.
 pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
@@ -22,10 +22,10 @@ pub fn min_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a <= b { a } else { b }
 }
 
-/// The number that a committed file has for `value`: six significant digits, none of them beyond 1e-15 but the first.
+/// The number that a committed file holds for `value`: six significant digits, none of them beyond 1e-15 except the first.
 ///
-/// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical libraries need not make the
-/// same ones: 4.4541e-8 is kept, of 4.4413e-15 there remains 4e-15. Numbers that are not finite are left alone.
+/// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical libraries need not
+/// make the same ones: 4.4541e-8 is kept, 4.4413e-15 becomes 4e-15. Numbers that are not finite stay as they are.
 pub fn committed(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -35,9 +35,9 @@ pub fn committed(value: f64) -> f64 {
     reread(format!("{value:.*e}", digits - 1), value)
 }
 
-/// The number that a committed file has for a rate: four decimals.
+/// The number that a committed file holds for a rate: four decimals.
 pub fn committed_rate(rate: f64) -> f64 {
-    // Without the sum, a rate that is rounded to nothing would show its sign.
+    // Without the sum, a rate that is rounded to zero would show its sign.
     reread(format!("{rate:.RATE_PLACES$}"), rate) + 0.0
 }
 
@@ -51,7 +51,7 @@ pub fn error_text(value: f64) -> String {
     if value == 0.0 || !value.is_finite() { value.to_string() } else { format!("{value:.3e}") }
 }
 
-/// A rate as reports show it: three decimals; a dash where there is none.
+/// A rate as reports show it: three decimals; a dash if there is none.
 pub fn rate_text(rate: Option<f64>) -> String {
     rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, 3))
 }
@@ -66,8 +66,8 @@ pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
     needed.clamp(most.min(2), most)
 }
 
-/// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`. One that is narrower than
-/// the last of them is its place and what was rounded off: `2.0000 ± 0.00005`.
+/// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`. If it is narrower
+/// than the last decimal, a number and the rounding: `2.0000 ± 0.00005`.
 pub fn interval_text(interval: [f64; 2], most: usize) -> String {
     let places = interval_places(interval, most);
     let [low, high] = interval.map(|end| decimals(end, places));
@@ -79,13 +79,13 @@ pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
-/// A number with so many decimals; one that is rounded to nothing shows no sign.
+/// A number with `places` decimals; without a sign if it is rounded to zero.
 pub fn decimals(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     if text.parse() == Ok(0.0) { text.replace('-', "") } else { text }
 }
 
-/// Any other number as reports show it: like an error where it is very small or large, plainly elsewhere.
+/// Any other number as reports show it: like an error if it is very small or large, plainly otherwise.
 pub fn plain_text(value: f64) -> String {
     written(committed(value))
 }
@@ -99,19 +99,19 @@ fn written(value: f64) -> String {
     }
 }
 
-/// An order as it is claimed: four decimals, fewer where they are zeros: `2`, `0.6667`.
+/// An order as claimed: four decimals without trailing zeros: `2`, `0.6667`.
 pub fn order_text(order: f64) -> String {
     let rounded = committed_rate(order);
     if rounded == 0.0 { plain_text(order) } else { rounded.to_string() }
 }
 
-/// A number of which only the size matters, with two digits: `0.52`, `2.3e11`.
+/// A number whose size alone matters, with two digits: `0.52`, `2.3e11`.
 pub fn short_text(value: f64) -> String {
     written(reread(format!("{value:.1e}"), value))
 }
 
-/// Two numbers as [`plain_text`] has them; where they would look alike or almost alike, with as many digits as make them
-/// differ, and one more.
+/// Two numbers as [`plain_text`] writes them; if they would look alike or almost alike, with enough digits to differ,
+/// and one more.
 pub fn pair_text(pair: [f64; 2]) -> [String; 2] {
     let rounded = |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));
     let differs = |digits: &usize| rounded(*digits)[0] != rounded(*digits)[1];

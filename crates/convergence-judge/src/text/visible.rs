@@ -1,4 +1,4 @@
-//! Text of unknown origin as it can be shown: a terminal obeys control characters, a continuous integration obeys lines.
+//! Text of unknown origin made safe to show: terminals obey control characters, and CI systems obey lines.
 
 use std::path::Path;
 
@@ -7,18 +7,18 @@ pub fn visible(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
-/// A path as messages name it, [`visible`].
+/// A path for messages, [`visible`].
 pub fn path(path: &Path) -> String {
     visible(&path.display().to_string())
 }
 
-/// Text of several lines without control characters but line ends and tabs.
+/// Text of several lines without control characters other than line ends and tabs.
 pub fn lines(text: &str) -> String {
     let is_shown = |c: char| !c.is_control() || c == '\n' || c == '\t';
     text.chars().map(|c| if is_shown(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
-/// Text in which no line is a command to GitHub Actions, which obeys lines of a log that begin with `::`.
+/// Text without lines that are commands to GitHub Actions, which obeys lines of a log that begin with `::`.
 pub fn without_commands(text: &str) -> String {
     let is_command = |line: &str| line.trim_start().starts_with("::");
     if !text.contains("::") || !text.split(['\n', '\r']).any(is_command) {

@@ -22,7 +22,7 @@ pub struct Arguments {
     /// Errors at the same step that differ by less, as a share, are the same
     #[arg(long, value_name = "SHARE", default_value_t = WITHIN, value_parser = share, allow_hyphen_values = true)]
     within: f64,
-    /// Errors not above this have no say [default: 1e-10]
+    /// Errors not above this are not used [default: 1e-10]
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     floor: Option<f64>,
     /// Every error, not only those that differ
@@ -37,10 +37,10 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or("expected a number >= 0, such as 0.01".to_owned())
 }
 
-/// Compares the records and prints what differs.
+/// Compares the records and prints the differences.
 ///
 /// # Errors
-/// Files that are no records, and records without a common study.
+/// Files that are not records, and records without a common study.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let Arguments { old, new, within, floor, all, flags } = arguments;
     let settings = Settings::new(*floor, *within)?;

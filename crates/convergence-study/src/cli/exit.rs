@@ -30,12 +30,12 @@ impl Unusable {
         Self(format!("{}: {error}", visible::path(path)))
     }
 
-    /// Something that is wrong with the arguments.
+    /// A problem with the arguments.
     pub fn because(reason: &str) -> Self {
         Self(reason.to_owned())
     }
 
-    /// What is unusable, in words.
+    /// The problem, in words.
     pub fn message(&self) -> &str {
         &self.0
     }
@@ -56,7 +56,7 @@ impl<E: Error> From<E> for Unusable {
 /// What a command returns.
 pub type Outcome = Result<Ended, Unusable>;
 
-/// Reports what is unusable, and turns the outcome into the exit status.
+/// Reports unusable input, and turns the outcome into the exit status.
 pub fn status(outcome: Outcome) -> u8 {
     match outcome {
         Ok(Ended::Well) => 0,

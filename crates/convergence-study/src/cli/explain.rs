@@ -31,7 +31,7 @@ pub struct Arguments {
 /// Prints the explanation.
 ///
 /// # Errors
-/// A name that nothing has, and a study file that cannot be used.
+/// An unknown name, and a study file that cannot be used.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Some(name) = arguments.name.as_deref() else {
         return show(arguments, &contents(project));
@@ -57,13 +57,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
 fn show(arguments: &Arguments, text: &str) -> Outcome {
     let Arguments { name, flags, .. } = arguments;
-    // The first line is the name with what it is.
+    // The first line is the name and what it names.
     let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || text.to_owned());
     flags.show("explain", Verdict::Pass, &json!({"name": name, "text": text}), &words)?;
     Ok(Ended::Well)
 }
 
-/// A file that was read has a kind that the project knows.
+/// The kind of a file that was read is one that the project knows.
 fn of_study(project: &Project, file: &StudyFile) -> String {
     explain::study(project, file.study.as_ref()).unwrap_or_default()
 }

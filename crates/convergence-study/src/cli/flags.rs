@@ -1,4 +1,4 @@
-//! The flags that all commands have in common: one name and one meaning, defined here once, and how a result is shown by them.
+//! The flags common to all commands, with one name and one meaning, defined here once, and how they affect the output.
 
 use std::io;
 use std::num::NonZeroUsize;
@@ -14,10 +14,10 @@ use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
 use crate::store::{atomic, json};
 
-/// Number of the form of [`Printed`]: higher where a key of any command has changed its meaning or is gone.
+/// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or disappears.
 const SCHEMA: u32 = 2;
 
-/// What every command takes.
+/// The flags that every command accepts.
 #[derive(Debug, Clone, Args)]
 pub struct Flags {
     /// Say only what went wrong, and the verdict: no progress bar, no tables
@@ -34,12 +34,12 @@ pub struct Flags {
     pub jobs: Option<NonZeroUsize>,
 }
 
-/// A number of threads, as it is given on the command line.
+/// A number of threads on the command line.
 fn jobs(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "expected a whole number >= 1".to_owned())
 }
 
-/// The JSON object of a command: its verdict before what it found.
+/// The JSON object of a command: its verdict, then what it found.
 #[derive(Serialize)]
 struct Printed<'a, T> {
     schema: u32,
@@ -53,19 +53,19 @@ fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
 }
 
 impl Flags {
-    /// Threads and time of a run; as many threads as the machine has where no number is given.
+    /// Threads and time of a run; without a number, all threads of the machine.
     pub fn effort(&self, case_limit: Option<Duration>) -> Effort {
         Effort { jobs: self.jobs.unwrap_or_else(run::available), case_limit, fail_fast: false }
     }
 
-    /// What a command found, for people: all of it, or with `--quiet` the verdict in a sentence.
+    /// What a command found, for people: all of it, or the verdict in a sentence with `--quiet`.
     pub fn words(&self, verdict: Verdict, sentence: &str, whole: impl FnOnce() -> String) -> String {
         if self.quiet { format!("{}: {sentence}\n", screen::verdict(verdict)) } else { whole() }
     }
 
-    /// Prints what a command found, as words or as JSON object.
+    /// Prints what a command found, as words or as a JSON object.
     ///
-    /// * `verdict`: [`Verdict::Pass`] where the command judges nothing and ended well.
+    /// * `verdict`: [`Verdict::Pass`] if the command judges nothing and ended well.
     pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
         match self.format {
             Format::Json => output::print(&object(verdict, found)?),
@@ -73,7 +73,7 @@ impl Flags {
         }
     }
 
-    /// The same, and writes the object as `COMMAND.json` to the folder that was named.
+    /// The same; also writes the object as `COMMAND.json` to the folder given.
     pub fn show(&self, command: &str, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
         if let Some(folder) = &self.out {
             atomic::prepare_folder(folder)?;

@@ -13,12 +13,12 @@ use crate::cli::output::{self, Format};
 
 /// Appends the table to the job summary and annotates what did not pass.
 ///
-/// * `format`: where standard output is one JSON object, the annotations go to standard error; GitHub reads both.
+/// * `format`: if standard output is one JSON object, the annotations go to standard error; GitHub reads both.
 pub(super) fn announce(findings: &Findings<'_>, format: Format) {
     summarise(&findings.digest());
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
         let annotations = annotations(findings);
-        // Where a stream is closed, annotations cannot be shown.
+        // If a stream is closed, annotations cannot be shown.
         let _ = match format {
             Format::Text => output::print_as_is(&annotations),
             Format::Json => io::stderr().write_all(annotations.as_bytes()),
@@ -51,10 +51,10 @@ fn annotations(findings: &Findings<'_>) -> String {
     capped(studies.chain(changes).collect())
 }
 
-/// GitHub shows so many annotations of a step and drops the others without a word.
+/// GitHub shows this many annotations of a step and silently drops the others.
 const SHOWN: usize = 10;
 
-/// As many as are shown; the last one says how many more there are.
+/// At most as many as are shown; the last one says how many more there are.
 fn capped(mut annotations: Vec<String>) -> String {
     if annotations.len() > SHOWN {
         let more = annotations.split_off(SHOWN - 1).len();

@@ -1,4 +1,4 @@
-//! `guard`: what the harness starts beside every program that it runs; not for users.
+//! `guard`: the harness starts it next to every program that it runs; not for users.
 
 use crate::program::guard;
 
@@ -8,14 +8,14 @@ use super::exit::{Ended, Outcome, Unusable};
 #[derive(Debug, clap::Args)]
 #[command(hide = true)]
 pub struct Arguments {
-    /// What marks the processes of the group
+    /// The mark of the processes of the group
     mark: String,
 }
 
 /// Guards the process group that it leads.
 ///
 /// # Errors
-/// Started by anyone but the harness: it would end the process group of its caller.
+/// Started by anyone except the harness: it would end the process group of its caller.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     if !guard::is_guard() {
         return Err(Unusable::because(

@@ -1,6 +1,6 @@
 //! Ctrl-C: pending writes are finished, the work done so far is reported, and the process exits with status 130.
 //!
-//! A thread of its own answers, so that the process exits within a second whatever the others do. No file is then
+//! A separate thread answers, so that the process exits within a second whatever the others do. No file is left
 //! half-written: see [`writing`].
 
 use std::process;
@@ -12,7 +12,7 @@ use crate::store::writing;
 
 use crate::cli::output;
 
-/// The status of a process that ended on request: 128 and the number of SIGINT, as shells have it.
+/// The exit status of a process that ended on request: 128 plus the number of SIGINT, as in shells.
 const STATUS: i32 = 130;
 
 /// Longest wait for pending writes.
@@ -22,8 +22,8 @@ type Said = Box<dyn Fn() -> String + Send>;
 
 static SAID: Mutex<Option<Said>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, where the operating system has one. A guard has no work of its own to finish, and its thread would be one
-/// that signals end.
+/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it has no work of its own to
+/// finish, and signals would end its thread.
 pub fn listen() {
     if guard::is_guard() {
         return;
@@ -37,7 +37,7 @@ pub fn listen() {
     });
 }
 
-/// Sets the report on the work done so far that an interruption prints.
+/// Sets the report on the work done so far, printed on an interruption.
 pub fn say(said: impl Fn() -> String + Send + 'static) {
     *SAID.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(said));
 }

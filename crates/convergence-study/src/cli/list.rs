@@ -34,9 +34,9 @@ struct Listed {
     id: String,
     tier: &'static str,
     kind: String,
-    /// The last verdict; none where it never ran.
+    /// The last verdict; `None` if it never ran.
     last: Option<String>,
-    /// Estimated, in millions of the units of cost of its kind.
+    /// Estimated, in millions of its kind's units of cost.
     work: f64,
     seconds: Option<f64>,
     claim: String,
@@ -72,7 +72,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         width.iter().for_each(|width| make_room(&mut head, &mut rows, *width));
         screen::table_within(width, &head, &rows)
     });
-    // The verdict is the worst of the last ones.
+    // The worst of the last verdicts.
     arguments.flags.show("list", verdict, &json!({"studies": studies}), &words)?;
     Ok(Ended::Well)
 }
@@ -97,7 +97,7 @@ fn row(study: &Listed) -> Vec<String> {
     vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
 }
 
-/// Leaves out columns for a claim to have room.
+/// Leaves out columns to make room for the claim.
 fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
     for dispensable in ["kind", "work", "tier"] {
         let column = head.iter().position(|name| *name == dispensable);
@@ -108,7 +108,7 @@ fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
     }
 }
 
-/// What the other columns leave to the last one.
+/// The width that the other columns leave to the last one.
 fn room(head: &[&str], rows: &[Vec<String>], width: usize) -> usize {
     let head: Vec<String> = head.iter().map(|name| (*name).to_owned()).collect();
     let columns = Columns::of(&head, rows);

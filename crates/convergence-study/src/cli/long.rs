@@ -1,4 +1,4 @@
-//! Commands that take minutes: how long is said beforehand, and how far they are.
+//! Commands that take minutes: they announce their duration and report their progress.
 
 use std::fs;
 use std::path::Path;
@@ -8,18 +8,18 @@ use super::output;
 use crate::run;
 use crate::store::provenance::Provenance;
 
-/// A command that takes minutes, and writes the page that says how many.
+/// A command that takes minutes, and writes the page that records how many.
 #[derive(Debug)]
 pub struct LongRun {
     started: Instant,
-    /// Seconds of the run whose page is there.
+    /// Seconds of the run that wrote the existing page.
     before: Option<f64>,
     quiet: bool,
 }
 
 impl LongRun {
-    /// Starts the clock, and says how long the run took whose page is there.
-    ///
+    /// Starts the clock, and says how long the run took that wrote the existing page.
+    /// * `what`: the work, in words.
     /// * `what`: what is done, in words.
     /// * `page`: written by an earlier run, with [`ended`](Self::ended) in it.
     pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
@@ -33,7 +33,7 @@ impl LongRun {
         run
     }
 
-    /// Says what is done, with the time that it took until now.
+    /// Says what has been done, and the time since the start.
     pub fn done(&self, what: &str) {
         let of = self.before.map_or(String::new(), |before| format!(" of about {before:.0}"));
         self.tell(&format!("{what}, at {:.0}{of} s", self.started.elapsed().as_secs_f64()));
@@ -62,7 +62,7 @@ fn sentence(seconds: f64) -> String {
     format!("{BEFORE}{seconds:.0}{AFTER}")
 }
 
-/// The seconds of [`sentence`] in a page.
+/// The seconds in the [`sentence`] of a page.
 fn seconds(page: &str) -> Option<f64> {
     let (number, _) = page.split_once(BEFORE)?.1.split_once(AFTER)?;
     number.parse().ok()

@@ -35,7 +35,7 @@ use clap::{Parser, Subcommand};
 use crate::program;
 use crate::project::Project;
 
-/// The commands of the harness. What each does stands at its arguments, from where `--help` takes it.
+/// The commands of the harness. `--help` takes their descriptions from their arguments.
 #[allow(missing_docs)]
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -84,7 +84,7 @@ fn program_name(project: &Project) -> String {
 
 /// The command line of the program `P`, under the name that its users type, its commands in groups.
 ///
-/// * `groups`: heading, and names of commands. A command of no group is not listed by `--help`.
+/// * `groups`: heading, and names of commands. `--help` does not list a command outside all groups.
 pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
     let command = P::command().name(project.command).bin_name(project.command).about(project.about);
     grouped(new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")), groups)
@@ -92,7 +92,7 @@ pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) ->
 
 /// The command line with its subcommands listed under headings, and the exit status explained.
 ///
-/// * `groups`: heading, and names of subcommands. A subcommand of no group is not listed.
+/// * `groups`: heading, and names of subcommands. A subcommand outside all groups is not listed.
 fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
     let mut text = String::new();
     let width = groups.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max().unwrap_or(0);
@@ -110,7 +110,7 @@ fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command 
     command.help_template(template)
 }
 
-/// Parses the arguments of the process, runs what they ask for, and turns the outcome into the exit status.
+/// Parses the arguments of the process, runs the command, and turns the outcome into the exit status.
 pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
     ExitCode::from(status(line, env::args_os(), run))
 }
@@ -141,7 +141,7 @@ pub fn main(project: &Project) -> ExitCode {
     ExitCode::from(main_with(project, env::args_os()))
 }
 
-/// The same with these arguments, the first of which is the program; returns the exit status.
+/// The same with these arguments, starting with the program; returns the exit status.
 pub fn main_with(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
     let line = program(project);
     status(line.clone(), arguments, |asked: CommandLine| asked.command.run(project, line))

@@ -1,4 +1,4 @@
-//! `new WHAT NAME`: files to begin with.
+//! `new WHAT NAME`: files to start from.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -31,16 +31,16 @@ fn name(text: &str) -> Result<String, String> {
     if is_name(text) { Ok(text.to_owned()) } else { Err(format!("expected {NAME}")) }
 }
 
-/// The command line with the templates of a project as the values of `WHAT`; without any, the command is not shown.
+/// The command line with the templates of a project as values of `WHAT`; without templates, the command is hidden.
 pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap::Command {
-    // An argument that is changed is put behind the others: hence the places, `index`, above.
+    // A changed argument moves behind the others: hence the positions, `index`, above.
     let values = project.templates.iter().map(|template| PossibleValue::new(template.name).help(template.about));
     let values = PossibleValuesParser::new(values);
     let is_hidden = project.templates.is_empty();
     command.mut_subcommand("new", |new| new.mut_arg("what", |what| what.value_parser(values)).hide(is_hidden))
 }
 
-/// Runs the command. No file that is there is written over.
+/// Runs the command. It never overwrites an existing file.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Arguments { what, name, flags } = arguments;
     let template = project.templates.iter().find(|template| template.name == what);
@@ -75,8 +75,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Ended::Well)
 }
 
-/// The folder that the command runs in as seen from the files, and theirs as seen from there, with the slash behind it. A folder that is not
-/// below is the one that everything is in.
+/// The folder that the command runs in as seen from the files, and theirs as seen from there, both with a trailing
+/// slash. For a folder that is not below it, the folder that contains both.
 fn places(folder: Option<&Path>) -> (String, String) {
     let parts: Vec<Component<'_>> =
         folder.into_iter().flat_map(Path::components).filter(|part| *part != Component::CurDir).collect();

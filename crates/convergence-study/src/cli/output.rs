@@ -18,7 +18,7 @@ pub enum Format {
 
 /// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
 ///
-/// No line is a command to GitHub Actions, whatever names and claims it holds.
+/// No line is a command to GitHub Actions, whatever names and claims it contains.
 pub fn print(text: &str) -> io::Result<()> {
     print_as_is(&visible::without_commands(text))
 }
@@ -37,8 +37,8 @@ pub fn complain(message: &str) {
     tell(&format!("error: {message}"));
 }
 
-/// Prints a message to standard error, without control characters but line ends.
+/// Prints a message to standard error, without control characters other than line ends.
 pub fn tell(message: &str) {
-    // Where standard error is closed, the message cannot be shown.
+    // If standard error is closed, the message cannot be shown.
     let _ = writeln!(io::stderr(), "{}", visible::without_commands(&visible::lines(message)));
 }

@@ -1,4 +1,4 @@
-//! `report`: the pages of a record, made anew; nothing is run.
+//! `report`: writes the pages of a record anew; runs nothing.
 
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ use crate::verify::{rebuild, reports_around};
 
 /// Write the report on a record anew, without running anything
 ///
-/// The record is results.json of a report, with its pictures in figures/ beside it, or what `study --format json` printed, without pictures.
+/// The record is results.json of a report, with its pictures in figures/, or what `study --format json` printed, without pictures.
 /// The exit status is that of the run.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -29,7 +29,7 @@ pub struct Arguments {
     flags: Flags,
 }
 
-/// Writes the report to `--out`, else to the folder of the record where that is a report's.
+/// Writes the report to `--out`, otherwise to the record's folder if that holds a report.
 ///
 /// # Errors
 /// A record that cannot be used, and a report that cannot be written.
@@ -60,7 +60,7 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
     Ok(verdict.into())
 }
 
-/// Reads the pictures of all figures; a figure without one is left out, and named.
+/// Reads the pictures of all figures; a figure without one is left out and named.
 fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusable> {
     let mut missing = vec![];
     for study in &mut record.studies {

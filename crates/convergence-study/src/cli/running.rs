@@ -1,4 +1,4 @@
-//! What commands that run studies share: progress bar, report on an interruption, the limit on time.
+//! Shared by the commands that run studies: progress bar, report on an interruption, time limit.
 
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,7 +11,7 @@ use crate::judge::verdict::Verdict;
 use crate::run::{Progress, Spent};
 use crate::study::Study;
 
-/// Time, as the commands that run studies take it.
+/// Time limits of the commands that run studies.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Limits {
     /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
@@ -19,15 +19,15 @@ pub struct Limits {
     pub(super) case_limit: Option<Duration>,
 }
 
-/// A limit on time, as it is given on the command line.
+/// A time limit on the command line.
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
     seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("expected a number > 0".to_owned())
 }
 
-/// Shows the progress of a run, and reports it when the run is interrupted.
+/// Shows the progress of a run, and reports it if the run is interrupted.
 pub struct Watched {
-    /// For the cases of studies, with the time left estimated from the cost of what is left.
+    /// For the cases of studies; the time left is estimated from the cost of the remaining ones.
     bar: ProgressBar,
     ids: Vec<String>,
     done: Arc<Mutex<Vec<String>>>,
@@ -37,7 +37,7 @@ impl Watched {
     /// Steps of the bar.
     const STEPS: f64 = 1000.0;
 
-    /// For these studies; `bar`: whether a progress bar is wanted.
+    /// For these studies; `bar`: whether to show a progress bar.
     pub fn new(studies: &[Box<dyn Study>], bar: bool) -> Self {
         let ids: Vec<String> = studies.iter().map(|study| study.header().id.clone()).collect();
         let done = Arc::new(Mutex::new(vec![]));
@@ -72,7 +72,7 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// How many results are those of an earlier run; `None` where none is.
+/// How many results an earlier run computed; `None` for zero.
 pub fn kept(spent: &Spent) -> Option<String> {
     let Spent { cases, kept, .. } = spent;
     (*kept > 0).then(|| format!("{kept} of {cases} cases kept from an earlier run"))
@@ -83,7 +83,7 @@ fn sentence(done: &[String], count: usize) -> String {
     format!("{} of {count} studies had run{names}", done.len())
 }
 
-/// A bar on standard error for so many things, which `unit` names; hidden with `quiet`, or where standard error is not a terminal.
+/// A bar on standard error for `count` things, which `unit` names; hidden with `quiet`, or if standard error is not a terminal.
 pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();

@@ -1,4 +1,4 @@
-//! Tables for a terminal: columns lined up, verdicts coloured where colours are shown.
+//! Tables for a terminal: aligned columns, and coloured verdicts if colours are shown.
 
 use std::env;
 use std::io::{self, IsTerminal};
@@ -18,9 +18,9 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     table_within(None, head, rows)
 }
 
-/// The same, the last column cut so that no line is wider.
+/// The same, with the last column cut so that no line is wider than the terminal.
 ///
-/// * `width`: columns of the terminal; `None` where nothing is cut.
+/// * `width`: columns of the terminal; `None` to cut nothing.
 pub fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<String>]) -> String {
     let head: Vec<String> = head.iter().map(|title| visible(title)).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| visible(cell)).collect()).collect();
@@ -43,7 +43,7 @@ pub fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<String>]) -
     std::iter::once(&head).chain(&rows).map(line).collect()
 }
 
-/// Text of at most so many characters; what is cut off is an ellipsis.
+/// Text of at most `room` characters; an ellipsis replaces the rest.
 fn cut(text: &str, room: usize) -> String {
     if text.chars().count() <= room {
         return text.to_owned();
@@ -57,18 +57,18 @@ pub fn verdict(verdict: Verdict) -> String {
     if colours() { coloured(verdict.to_string()) } else { verdict.to_string() }
 }
 
-/// Columns of the terminal; `None` where standard output is none.
+/// Columns of the terminal; `None` if standard output is not a terminal.
 pub fn width() -> Option<usize> {
     let terminal = console::Term::stdout();
     terminal.size_checked().map(|(_, columns)| usize::from(columns)).filter(|_| io::stdout().is_terminal())
 }
 
-/// Whether colours are seen: on a terminal, unless `NO_COLOR` is set to anything.
+/// Whether to use colours: on a terminal, unless `NO_COLOR` is set to anything.
 fn colours() -> bool {
     io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// A cell in the colour of the verdict that it holds; any other cell as it is.
+/// A cell in the colour of the verdict that it holds; any other cell unchanged.
 fn coloured(cell: String) -> String {
     let colour = match cell.trim() {
         "pass" => 32,

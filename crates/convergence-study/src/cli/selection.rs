@@ -12,10 +12,10 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
     PossibleValuesParser::new(Tier::ALL.map(Tier::name)).map(tier)
 }
 
-/// Whether each study is meant.
+/// Whether each study is selected.
 ///
-/// * `asked`: ids and patterns (`*`, `?`, `[a-z]`). None at all: every study of the tier. An id that is written out is
-///   meant whatever its tier; a pattern stays within the tier. The full tier holds the quick one.
+/// * `asked`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id selects its study whatever
+///   the tier; a pattern stays within the tier. The full tier includes the quick one.
 ///
 /// * `list`: the command that lists all studies, for messages.
 ///

@@ -1,4 +1,4 @@
-//! `study`: runs study files from anywhere, compares them with no baseline and writes nothing but what `--out` asks for.
+//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out` requests.
 
 use std::path::PathBuf;
 
@@ -40,7 +40,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let flags = &arguments.flags;
-    // A folder that cannot be written is found before the run.
+    // A folder that is not writable is reported before the run.
     flags.out.as_deref().map_or(Ok(()), atomic::prepare_folder)?;
     let watched = Watched::new(&studies, !flags.quiet);
     let effort = flags.effort(arguments.limits.case_limit);
@@ -49,7 +49,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let mut finished = finished?;
     let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
-    // Looked for only where it is shown.
+    // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;
     for (study, finished) in studies.iter().zip(&mut finished) {
         if is_shown && finished.outcome.verdict == Verdict::Pass {
@@ -69,7 +69,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             finished.iter().map(text).collect::<Vec<_>>().join("\n") + &cause.unwrap_or_default()
         }
     };
-    // What was found is shown first: no file that cannot be written takes it away.
+    // The results are printed first, so that a file that cannot be written does not lose them.
     output::print(&text)?;
     github::announce(&findings, flags.format);
     if let Some(folder) = &flags.out {
@@ -82,7 +82,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(verdict.into())
 }
 
-/// What a study is no test of, looked for no longer than a case may take.
+/// What a study fails to test; the search takes no longer than a case may.
 fn untested(study: &dyn Study, effort: Effort) -> Vec<Untested> {
     match time_limit::within(effort.case_limit, || study.untested()) {
         (untested, None) => untested,
@@ -90,7 +90,7 @@ fn untested(study: &dyn Study, effort: Effort) -> Vec<Untested> {
     }
 }
 
-/// The table of what a study is no test of although it passes; empty where there is nothing.
+/// The table of what a passing study does not test; empty if there is nothing.
 fn no_test_of(untested: &[Untested]) -> String {
     let rows: Vec<Vec<String>> = untested.iter().map(|one| vec![one.what.clone(), one.why.clone()]).collect();
     if rows.is_empty() { String::new() } else { format!("\n{}", screen::table(&["no test of", "because"], &rows)) }

@@ -71,7 +71,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let ids = if arguments.failed { failed(&root)? } else { arguments.ids.clone() };
     let meant = selection::select(&headers, arguments.tier, &ids, &list)?;
     let scope = match scope(arguments.tier, &ids, &all) {
-        // Studies may be missing: it is no report on a tier.
+        // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
         scope => scope,
     };
@@ -80,7 +80,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
     let Arguments { bless, reason, only, .. } = arguments;
     if *bless {
-        // What is blessed was computed by the programs as they are.
+        // Blessed numbers must come from the programs as they are now.
         studies.iter_mut().for_each(|study| study.compute_anew());
     }
     let flags = &arguments.flags;
@@ -100,7 +100,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(verification.verdict.into())
 }
 
-/// The studies that did not pass, or of which a number moved, in the newest record.
+/// The studies that did not pass, or with a number that moved, in the newest record.
 fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
     let Some(Record { changes, studies, .. }) = workspace::records(root)?.pop() else {
         return Err(Unusable::because("--failed: found no record of a run; expected reports/results.json"));
@@ -111,14 +111,14 @@ fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
     if ids.is_empty() { Err(Unusable::because("--failed: nothing failed in the newest record")) } else { Ok(ids) }
 }
 
-/// A reason: it is kept in a file that people read, one line of text.
+/// A reason: one line of text, kept in a file that people read.
 fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
     let is_line = !text.is_empty() && !text.contains(char::is_control);
     if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
 }
 
-/// The tier where nothing is named.
+/// The tier, if nothing is named.
 fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     if ids.is_empty() {
         Scope::Tier(tier, all.iter().map(|file| file.study.header().clone()).collect())
@@ -127,8 +127,8 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     }
 }
 
-/// Of a run that passes the table of studies and the verdict. Of any other the verdict, its cause, and the clearest failures first:
-/// all of it is seen at once.
+/// For a run that passes: the table of studies and the verdict. For any other: the verdict, its cause, and the clearest
+/// failures first, all visible at once.
 ///
 /// * `took`: from start to end.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments, took: Duration) -> String {
@@ -140,7 +140,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     }
     let took = if *quiet { String::new() } else { format!(" in {:.1} s", took.as_secs_f64()) };
     let clearest = found.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
-    // A study that fails has said why: its numbers have moved for the same reason.
+    // A failing study has already said why: its numbers moved for the same reason.
     let failed =
         |id: &str| found.finished.iter().any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass);
     let is_said = |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
@@ -156,7 +156,7 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
     parts.join("\n\n") + "\n"
 }
 
-/// What became of the blessing, or which command blesses.
+/// What was blessed, or which command blesses.
 fn blessed(project: &Project, found: &Verification, request: &Request) -> String {
     match &found.blessing {
         Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
@@ -169,7 +169,7 @@ fn blessed(project: &Project, found: &Verification, request: &Request) -> String
     }
 }
 
-/// The table of studies where all pass or all are wanted, how many more fail where not, and where the reports are.
+/// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the reports are.
 fn overview(found: &Verification, request: &Request, Arguments { verbose, durations, .. }: &Arguments) -> String {
     let (verbose, durations) = (*verbose, *durations);
     let mut text = String::new();
@@ -214,10 +214,10 @@ fn below(path: &Path, root: &Path) -> String {
 /// Studies that `--durations` lists.
 const SLOWEST: usize = 10;
 
-/// Changes that are listed one by one; more are grouped by their cause.
+/// Changes listed one by one; more are grouped by their cause.
 const LISTED: usize = 6;
 
-/// Claims that changed, under a head, after the numbers, one line each where they are few or all are wanted.
+/// Changed claims, under a head, after the numbers, one line each if they are few or all are wanted.
 fn moved_lines(changes: &[Change], all: bool) -> String {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
         changes.iter().partition(|change| change.movement.needs_a_reason());

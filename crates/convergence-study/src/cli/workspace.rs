@@ -1,4 +1,4 @@
-//! The workspace: its studies, and what earlier runs have left there: their records, and the times of the last one.
+//! The workspace: its studies, and what earlier runs have left in it: their records, and the times of the last one.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use crate::text::visible;
 /// The folder of the project: the nearest one with `studies/`, here or above.
 ///
 /// # Errors
-/// Where there is none.
+/// If there is no such folder.
 pub fn root() -> Result<PathBuf, Unusable> {
     let here = env::current_dir()?;
     let root = here.ancestors().find(|folder| folder.join("studies").is_dir());
@@ -41,7 +41,7 @@ pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusabl
     Ok(files)
 }
 
-/// Says on standard error which files of the workspace hold a study and are not run, for their extension is not `toml`.
+/// Warns on standard error about files that hold a study but are not run, because their extension is not `toml`.
 pub fn warn_of_near_names(root: &Path) {
     let entries = fs::read_dir(root.join("studies")).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_study = |path: &PathBuf| {
@@ -56,14 +56,14 @@ pub fn warn_of_near_names(root: &Path) {
     }
 }
 
-/// Whether the extension is `toml` but for capitals, another letter or what follows it.
+/// Whether the extension is almost `toml`: capitals, one wrong letter, or something after it.
 fn has_near_extension(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     let is_toml = path.extension().is_some_and(|extension| extension == "toml");
     !is_toml && [".toml", ".tml", ".tom", ".toml.txt", ".toml~"].iter().any(|end| name.ends_with(end))
 }
 
-/// The study files of a folder that can be read, for looking one up by its id.
+/// The readable study files of a folder, for looking one up by its id.
 pub fn readable_studies(project: &Project, folder: &Path) -> Vec<StudyFile> {
     let paths = toml_files(folder).unwrap_or_default();
     paths.iter().filter_map(|path| StudyFile::read(project.kinds, path).ok()).collect()
@@ -79,20 +79,20 @@ fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths.iter().map(|path| path.strip_prefix(&here).unwrap_or(path).to_owned()).collect())
 }
 
-/// Where `verify` leaves its records, below the workspace; of two of the same age the later one counts.
+/// Where `verify` leaves its records, below the workspace; of two equally old ones the later in this list counts.
 const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
 
 /// Where `verify` leaves the times of its last run.
 const TIMES: &str = "reports/local/provenance.json";
 
-/// All records that there are, the newest last.
+/// All existing records, the newest last.
 pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
     let mut records: Vec<(SystemTime, Record)> = vec![];
     for path in RECORDS.map(|path| root.join(path)).iter().filter(|path| is_there(path)) {
         let written = fs::metadata(path).and_then(|data| data.modified());
         records.push((written.map_err(|error| Unusable::file(path, &error))?, Record::read(path)?));
     }
-    // Stable, so that the order of RECORDS decides between equals.
+    // The sort is stable, so the order of RECORDS decides between equals.
     records.sort_by_key(|(written, _)| *written);
     Ok(records.into_iter().map(|(_, record)| record).collect())
 }
@@ -105,10 +105,10 @@ pub(super) struct Earlier {
 }
 
 impl Earlier {
-    /// Reads what there is.
+    /// Reads the existing records and times.
     ///
     /// # Errors
-    /// A file that is there and cannot be read, or is no record.
+    /// A file that exists but cannot be read, or is not a record.
     pub(super) fn read(root: &Path) -> Result<Self, Unusable> {
         // A later one overwrites.
         let studies = records(root)?.into_iter().flat_map(|record| record.studies);
@@ -129,7 +129,7 @@ impl Earlier {
     }
 }
 
-/// Whether there is anything at that place, be it something that cannot be read.
+/// Whether anything exists at that path, readable or not.
 fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }

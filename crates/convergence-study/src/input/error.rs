@@ -1,4 +1,4 @@
-//! The error of everything that reads input files.
+//! The error of all code that reads input files.
 
 use std::fmt;
 
@@ -18,15 +18,15 @@ pub struct Place {
 
 /// An input file that cannot be used: where, which field, what was found and what is allowed.
 ///
-/// Shown as one line `file:line:column: field: complaint`, the complaint being what is wrong; that about an expression may add two lines, with a
+/// Shown as one line `file:line:column: field: complaint`; a complaint about an expression may add two lines, with a
 /// caret below the place.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct InputError {
-    /// The file, as it was given.
+    /// The file, as given.
     pub file: String,
-    /// The place; `None` where the file could not be read at all.
+    /// The place; `None` if the file could not be read at all.
     pub place: Option<Place>,
-    /// The field by its dotted name, such as `solver.tolerance`; `None` where the whole file is meant.
+    /// The field by its dotted name, such as `solver.tolerance`; `None` for the whole file.
     pub field: Option<String>,
     /// What is wrong.
     pub complaint: Box<Complaint>,
@@ -40,7 +40,7 @@ pub enum Complaint {
     UnknownKey {
         /// The key.
         found: String,
-        /// A known key that is a typing error away.
+        /// A known key that is one typing error away.
         suggestion: Option<String>,
         /// The keys known here.
         allowed: String,
@@ -53,7 +53,7 @@ pub enum Complaint {
         /// The values allowed, in words.
         allowed: String,
     },
-    /// A file or a text that cannot be read, or a key without default that is missing.
+    /// A file or a text that cannot be read, or a missing key without a default.
     #[error("{reason}")]
     Invalid {
         /// Why.

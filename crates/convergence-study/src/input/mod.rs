@@ -1,7 +1,7 @@
 //! Reads TOML files; every error names file, line, field, the value found and the values allowed.
 //!
-//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its place in the file, a [`Field`] a
-//! value with its place. Readers ask them for values and never compute the position of a message.
+//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its place in the file, a
+//! [`Field`] a value with its place. Readers take values from them and never compute the position of a message.
 
 mod error;
 mod settings;
@@ -20,7 +20,7 @@ pub use crate::text::visible::visible;
 pub use error::{Complaint, InputError, Place};
 pub use values::{Field, Misread, POSITIVE, Section, shorten};
 
-/// Largest file that is read, in bytes. Study files are small; this keeps a wrong path from filling the memory.
+/// Largest file that is read, in bytes. Study files are small; this prevents a wrong path from filling the memory.
 const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
@@ -63,7 +63,7 @@ fn unreadable(file: &str, error: &io::Error) -> InputError {
     failed(file, Complaint::Invalid { reason: format!("cannot be read: {error}") })
 }
 
-/// The whole text of anything that can be read; messages name `file`.
+/// The whole text of any reader; messages name `file`.
 pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputError> {
     let fail = |complaint| failed(file, complaint);
     let mut bytes = Vec::new();
@@ -86,7 +86,7 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     })
 }
 
-/// Parses `text` and hands its topmost table to `read`.
+/// Parses `text` and passes its topmost table to `read`.
 pub fn parse<T>(
     text: &str,
     file: &str,
@@ -97,7 +97,7 @@ pub fn parse<T>(
     read(&Section::root(source, &root))
 }
 
-/// As [`parse`]; `read` is also handed the folder of the file, which its own file names are relative to.
+/// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are relative.
 pub fn parse_beside<T>(
     text: &str,
     file: &Path,
@@ -118,7 +118,7 @@ pub fn parse_overlaid<T>(
 ) -> Result<T, InputError> {
     let whole = format!("{text}\n{overlay}");
     let source = Source { file, text: &whole };
-    // Behind as much blank space as the text is long, values have the places that they have in the whole.
+    // Preceded by as much blank space as the text is long, values keep their places in the whole.
     let shifted = " ".repeat(text.len() + 1) + overlay;
     let mut root = table(source, text)?;
     for (key, value) in table(source, &shifted)? {

@@ -1,12 +1,12 @@
-//! Every value of a document, by its dotted path: what a baseline keeps of a study file.
+//! Every value of a document, by its dotted path: a baseline keeps these of a study file.
 
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 /// Every value of a table: its dotted path, such as `expect[0].tolerance`, and its [`text`].
 ///
-/// A list of plain values is one value; a list that holds tables or lists is taken apart. An empty table or list is a value, so
-/// that it does not come and go unseen.
+/// A list of plain values is one value; a list that holds tables or lists is taken apart. An empty table or list is a
+/// value, so that adding or removing it does not go unnoticed.
 pub(super) fn of_table(table: &DeTable<'_>) -> Vec<(String, String)> {
     let mut found = Vec::new();
     table.iter().for_each(|(key, value)| collect(key_text(key.get_ref()), value.get_ref(), &mut found));
@@ -39,8 +39,8 @@ fn key_text(key: &str) -> String {
     if bare { key.to_owned() } else { format!("{key:?}") }
 }
 
-/// A value in one form, however it is written: 0.05 and 5e-2, 3 and 3.0, 0x10 and 16 are the same text; a number and the same
-/// digits in quotes are not.
+/// A value in one form, however it is written: 0.05 and 5e-2, 3 and 3.0, 0x10 and 16 have the same text; a number and
+/// the same digits in quotes do not.
 fn text(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("{text:?}"),
@@ -66,7 +66,7 @@ pub(super) fn whole(integer: &DeInteger<'_>) -> Option<i128> {
     i128::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
-/// All digits that tell the number from its neighbours, and no more.
+/// Enough digits to tell the number from its neighbours, and no more.
 fn number(value: f64) -> String {
     let size = value.abs();
     let plain = size == 0.0 || !value.is_finite() || (1e-3..1e16).contains(&size);

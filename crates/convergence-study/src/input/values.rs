@@ -15,13 +15,13 @@ use crate::text::visible;
 /// An error of a reader of texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Misread {
-    /// Byte of the text.
+    /// Byte offset in the text.
     pub offset: usize,
     /// What is wrong, in words.
     pub reason: String,
 }
 
-/// What [`Field::positive`] takes, in words.
+/// The values that [`Field::positive`] accepts, in words.
 pub const POSITIVE: &str = "a finite number > 0";
 
 /// A value of the document, with its dotted name.
@@ -39,12 +39,12 @@ impl<'a> Field<'a> {
         self.complain(self.span.start, Complaint::NotAllowed { found: found.into(), allowed: allowed.into() })
     }
 
-    /// An error about this value, which is quoted as the file has it.
+    /// An error about this value, quoted as in the file.
     pub fn refuse_as_written(&self, allowed: impl Into<String>) -> InputError {
         self.refuse(self.as_written(), allowed)
     }
 
-    /// A finite number. A whole number is as good as one with a point.
+    /// A finite number. A whole number will do, without a point.
     pub fn number(&self) -> Result<f64, InputError> {
         self.number_where("a finite number", |_| true)
     }
@@ -90,7 +90,7 @@ impl<'a> Field<'a> {
         self.value.as_str().ok_or_else(|| self.refuse_as_written("a text in quotes"))
     }
 
-    /// The file of that name in `folder`; one that is not there is refused here, where it is named.
+    /// The file of that name in `folder`; a missing one is refused here, where it is named.
     pub fn file(&self, folder: &Path) -> Result<PathBuf, InputError> {
         let path = folder.join(self.text()?);
         match fs::metadata(&path) {
@@ -113,13 +113,13 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// What `parse` makes of a text; an error points into the text.
+    /// The result of `parse` for a text; an error points into the text.
     ///
-    /// * `expected`: what the text would have to be, for a value that is no text.
+    /// * `expected`: what the text must be, for a value that is not a text.
     pub fn parsed<T>(&self, expected: &str, parse: impl FnOnce(&str) -> Result<T, Misread>) -> Result<T, InputError> {
         let text = self.value.as_str().ok_or_else(|| self.refuse_as_written(expected))?;
         parse(text).map_err(|misread| {
-            // A text with escapes is not in the file as it is; its first byte is then the place.
+            // A text with escapes differs from the file; the place is then its first byte.
             let inside = self.raw().find(text).map_or(0, |start| start + misread.offset);
             self.complain(self.span.start + inside, Complaint::Invalid { reason: misread.reason })
         })
@@ -163,7 +163,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The value as the file has it, with its type where that would not be seen.
+    /// The value as in the file, with its type if that is not obvious.
     pub fn as_written(&self) -> String {
         match self.value {
             DeValue::Table(_) => "a table".to_owned(),
@@ -202,7 +202,7 @@ impl<'a> Section<'a> {
         self.source.text
     }
 
-    /// The name of the document's file, as messages have it.
+    /// The name of the document's file in messages.
     pub fn file(&self) -> &'a str {
         self.source.file
     }
@@ -231,12 +231,12 @@ impl<'a> Section<'a> {
         Some(Field { source: self.source, value: value.get_ref(), path: self.name_of(key), span: value.span() })
     }
 
-    /// The value of a key that has no default; `allowed` says what would have to be there.
+    /// The value of a key that has no default; `allowed` says what must be there.
     pub fn require(&self, key: &str, allowed: &str) -> Result<Field<'a>, InputError> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
     }
 
-    /// The table of that name, which has no keys but these.
+    /// The table of that name, which may have only these keys.
     pub fn table(&self, key: &str, keys: &[&str]) -> Result<Section<'a>, InputError> {
         let table = self.require(key, &format!("a table with {}", keys.join(", ")))?.section()?;
         table.allow(keys)?;
@@ -314,7 +314,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The table of that name; `None` if it is not there.
+    /// The table of that name; `None` if it is absent.
     pub fn section(&self, key: &str) -> Result<Option<Section<'a>>, InputError> {
         self.get(key).map(|field| field.section()).transpose()
     }

@@ -1,10 +1,10 @@
 //! The page: the one place that emits SVG.
 //!
-//! Plotters' SVG backend places everything on whole pixels and knows neither dashes nor clipping. So the page is drawn
-//! on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives
-//! it the dash pattern, the clip rectangle or the halo, which SVG lets its children inherit.
+//! Plotters' SVG backend places everything on whole pixels and has neither dashes nor clipping. So the page is drawn on
+//! a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives it
+//! the dash pattern, the clip rectangle or the halo, which its children inherit in SVG.
 //!
-//! Names and values stand in the picture, for a page that reads them: a viewer alone shows nothing of it.
+//! The picture contains names and values for a page that reads them; a viewer alone does not show them.
 //!
 //! | attribute | on | holds |
 //! | --- | --- | --- |
@@ -12,7 +12,7 @@
 //! | `data-x`, `data-y` | the picture | `linear` or `log`, and the ends of the range, decimal logarithms for `log` |
 //! | `data-x-label`, `data-y-label` | the picture | what the axes measure |
 //! | `data-series` | what is drawn of a series | its name |
-//! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines tell as much |
+//! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines give as much detail |
 //! | `data-entry` | an entry of the legend | the name of the series |
 
 use super::Scale;
@@ -38,10 +38,10 @@ pub fn grid(v: f64) -> i32 {
     (v * RESOLUTION).round().clamp(-1e6, 1e6) as i32
 }
 
-/// What everything in one layer has in common: clip rectangle, dash pattern, halo.
+/// The common properties of everything in one layer: clip rectangle, dash pattern, halo.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Layer {
-    /// Nothing outside of this rectangle is shown.
+    /// Nothing outside this rectangle is shown.
     pub clip: Option<Rect>,
     /// Of lines.
     pub dash: Option<Dash>,
@@ -50,7 +50,7 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Nothing outside of this rectangle is shown.
+    /// Nothing outside this rectangle is shown.
     pub fn clipped(clip: Rect) -> Self {
         Self { clip: Some(clip), ..Self::default() }
     }
@@ -145,12 +145,12 @@ impl Canvas {
     }
 }
 
-/// What plotters writes, without its own document around every layer and without attributes at their default values: a
+/// The output of plotters, without a document around every layer and without attributes at their default values: a
 /// third of the bytes.
 fn without_ballast(fragment: &str) -> String {
     let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
     fragment.lines().filter(is_frame).fold(String::with_capacity(fragment.len()), |mut kept, line| {
-        // Texts stand on lines of their own, and start with anything but a tag.
+        // Texts stand on lines of their own, and do not start with a tag.
         let element = line.starts_with('<');
         let bare = element.then(|| line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
         kept.push_str(bare.as_deref().unwrap_or(line));
@@ -191,7 +191,7 @@ impl Pen<'_> {
 
     /// An open line through points, of this width in px.
     pub fn line(&self, points: &[Point], colour: RGBColor, width: f64) {
-        // Plotters moves what lies off the page to its edge, which would bend the line.
+        // Plotters moves points off the page to its edge, which would bend the line.
         for piece in keep_inside(points, &self.page) {
             self.path(&piece, colour, width);
         }
@@ -248,7 +248,7 @@ impl Pen<'_> {
     /// Diagonal strokes over a rectangle, continuing those of its neighbours.
     pub fn hatch(&self, r: Rect) {
         const SPACING: f64 = 9.0;
-        // A stroke is where x + y is a multiple of the spacing.
+        // Strokes lie where x + y is a multiple of the spacing.
         let first = ((r.left + r.top) / SPACING).ceil() as i32;
         let last = ((r.right + r.bottom) / SPACING).floor() as i32;
         for k in first..=last {
@@ -274,8 +274,8 @@ fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(grid(width).max(1) as u32)
 }
 
-/// A series with more points than this is read off its line, to the tenth of a pixel: values would cost more than they
-/// tell.
+/// A series with more points than this is read off its line, to the tenth of a pixel: its values would cost too many
+/// bytes.
 const MOST_POINTS: usize = 200;
 
 /// The attributes of a picture with axes.
@@ -290,7 +290,7 @@ pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
     attributes
 }
 
-/// The attributes of what is drawn of a series; `points` where they are data.
+/// The attributes of the marks of a series; `points` if they are data.
 pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
     let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
     if let Some(points) = points {
@@ -308,7 +308,7 @@ pub(super) fn entry(name: &str) -> String {
     format!(" data-entry=\"{}\"", escape_attribute(name))
 }
 
-/// To five digits, so that the last bits of a result, which vary between machines, are not to be seen.
+/// To five digits, so that the last bits of a result, which vary between machines, do not show.
 fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -9,7 +9,7 @@ use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};
 use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap, ViridisRGB};
 
-/// Colours of a scale. Few enough to merge equal neighbours, too many to see steps; odd, so that zero has its own.
+/// Colours of a scale: few enough to merge equal neighbours, too many to see steps; odd, so that zero has its own.
 const LEVELS: usize = 65;
 const BAR_GAP: f64 = 22.0;
 const BAR_WIDTH: f64 = 20.0;
@@ -65,7 +65,7 @@ impl ColourScale {
         self.ruler.ticks(8)
     }
 
-    /// Room that the bar takes up to the right of the plot.
+    /// Width of the bar, to the right of the plot.
     pub(super) fn margin(&self) -> f64 {
         BAR_GAP + BAR_WIDTH + self.widest_label() + 28.0 + LABEL_SIZE
     }
@@ -85,7 +85,7 @@ impl ColourScale {
             let step = bar.height() / LEVELS as f64;
             for (k, &colour) in self.colours.iter().enumerate() {
                 let bottom = bar.bottom - k as f64 * step;
-                // Each reaches under the next, so that no seam shows between them.
+                // Each overlaps the next, so that no seam shows between them.
                 let top = (bottom - 2.0 * step).max(bar.top);
                 pen.rect(Rect { top, bottom, ..bar }, colour);
             }

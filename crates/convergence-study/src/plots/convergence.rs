@@ -1,4 +1,4 @@
-//! Errors against the mesh width or the time step, with slope triangles: found a free place below a curve, so that they touch no data.
+//! Errors against the mesh width or the time step, with slope triangles in a free place below a curve, so that they touch no data.
 
 use std::ops::Range;
 
@@ -29,14 +29,14 @@ pub struct ErrorSeries {
     pub label: String,
     /// `(h or dt, error)`.
     pub points: Vec<(f64, f64)>,
-    /// What theory says, for the legend.
+    /// The order in theory, for the legend.
     pub order: Option<f64>,
-    /// Line fitted to the points; its rate stands in the legend.
+    /// Line fitted to the points; its rate is in the legend.
     pub fit: Option<PowerLaw>,
-    /// Interval of that rate, which says how many of its digits are known. Of one wider than [`WIDEST_INTERVAL`] neither rate nor
-    /// line is drawn. `None`: not known.
+    /// Interval of that rate, which says how many of its digits are known. If it is wider than [`WIDEST_INTERVAL`],
+    /// neither rate nor line is drawn. `None`: not known.
     pub interval: Option<[f64; 2]>,
-    /// Indices of the points that were fitted, over which the line is drawn; the others get open markers. `None`: all.
+    /// Indices of the fitted points, over which the line is drawn; the others get open markers. `None`: all.
     pub used: Option<Range<usize>>,
     /// Which [`look`] it has; `None`: that of its place in the figure.
     pub look: Option<usize>,
@@ -53,24 +53,24 @@ pub struct Convergence {
     pub y_label: String,
     /// One series per norm.
     pub series: Vec<ErrorSeries>,
-    /// Orders to draw slope triangles for, beside those of the series.
+    /// Orders to draw slope triangles for, in addition to those of the series.
     pub slopes: Vec<f64>,
     /// A level of note, such as the round-off floor.
     pub floor: Option<Guide>,
-    /// Everything right of this step is shaded, with the text above it.
+    /// Everything right of this step is shaded, with this text above it.
     pub beyond: Option<(f64, String)>,
-    /// Lines under the legend, such as what has no result.
+    /// Lines under the legend, such as the cases without a result.
     pub notes: Vec<String>,
 }
 
 impl ErrorSeries {
-    /// The line, where its rate is known.
+    /// The line, if its rate is known.
     pub(crate) fn line(&self) -> Option<PowerLaw> {
         let is_known = |[low, high]: [f64; 2]| high - low <= WIDEST_INTERVAL;
         self.fit.filter(|_| self.interval.is_none_or(is_known))
     }
 
-    /// What the legend says of the rate.
+    /// The rate for the legend.
     fn rate(&self) -> Option<String> {
         self.fit?;
         let Some(line) = self.line() else { return Some("no rate".to_owned()) };
@@ -115,14 +115,14 @@ pub fn convergence(figure: &Convergence) -> String {
     xy.draw()
 }
 
-/// Whether a line is fitted to some of its points only.
+/// Whether a line is fitted to only some of its points.
 fn has_unused_points(series: &ErrorSeries) -> bool {
     let len = series.points.len();
     series.line().is_some() && series.used.as_ref().is_some_and(|used| used.len() < len)
 }
 
-/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not use. Where
-/// the rate is not known, the markers alone.
+/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not
+/// use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let marked = Curve {
         name: label(series),
@@ -141,7 +141,7 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         points.map(|(_, point)| *point).collect::<Vec<_>>()
     };
     let unused = Curve { points: points(false), marks: Marks::Open, ..marked.clone() };
-    // A fitted line is thin and solid, one that only joins the points is not.
+    // A fitted line is thin and solid; a line that only joins the points is not.
     let fitted = Curve { points: points(true), width: style::THIN, fit: Some(fit), ..marked };
     let unused = Some(unused).filter(|unused| !unused.points.is_empty());
     [fitted].into_iter().chain(unused).collect()
@@ -202,7 +202,7 @@ fn place_all(orders: &[f64], trends: &[Trend], x: &Ruler, y: &Ruler) -> Option<V
     Some(placed)
 }
 
-/// Places right below a curve: curves of the very order first, then from right to left.
+/// Places right below a curve: first curves of exactly this order, then from right to left.
 fn candidates(order: f64, trends: &[Trend], x: &Ruler, y: &Ruler) -> impl Iterator<Item = Triangle> {
     let (width, height) = (x.hi - x.lo, y.hi - y.lo);
     let leg = (LEG * width).min(TALLEST * height / order);
@@ -246,7 +246,7 @@ impl Triangle {
             samples(self.left, right).all(|s| match t.at(s) {
                 None => true,
                 Some(v) if v < bottom => true,
-                // Beyond the vertical leg there is only a text, half way up.
+                // Beyond the vertical leg there is only text, half way up.
                 Some(v) => v > (self.base + self.order * (s - self.left)).min(self.top()) + 0.9 * GAP * height,
             })
         };

@@ -18,7 +18,7 @@ const HEADING: f64 = 30.0;
 /// Room above and below the rows, in px.
 const TOP: f64 = 96.0;
 const BOTTOM: f64 = 66.0;
-/// Between the rates of a study and the numbers beside them, in px.
+/// Between the rates of a study and the numbers next to them, in px.
 const CLEAR: f64 = 16.0;
 /// Widest label, in px; a longer one is cut.
 const LABELS: f64 = 300.0;
@@ -26,7 +26,7 @@ const LABELS: f64 = 300.0;
 /// A judged rate in units of its claim's tolerance: (rate - order) / tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForestRate {
-    /// Of the rate; `None` where there is none.
+    /// The rate; `None` if there is none.
     pub rate: Option<f64>,
     /// Of the ends of its interval.
     pub interval: Option<[f64; 2]>,
@@ -50,7 +50,7 @@ pub struct ForestRow {
 pub struct Forest {
     /// Above the plot.
     pub title: String,
-    /// From top to bottom: what the studies of a group claim, such as `space`, and the studies.
+    /// From top to bottom: the property that a group of studies claims, such as `space`, and the studies.
     pub groups: Vec<(String, Vec<ForestRow>)>,
 }
 
@@ -86,7 +86,7 @@ fn row_height(row: &ForestRow) -> f64 {
     (PITCH * row.rates.len() as f64 + 6.0).max(ROW)
 }
 
-/// The px of a value in tolerances; beyond the plot, its rim.
+/// The px of a value in tolerances; values beyond the plot go to its edge.
 fn px(plot: &Rect, value: f64) -> f64 {
     let fraction = (value.clamp(-REACH, REACH) + REACH) / (2.0 * REACH);
     plot.left + fraction * plot.width()
@@ -146,7 +146,7 @@ fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     draw_note(pen, row, plot, (top + 0.5 * height, ink));
 }
 
-/// What is written beside the rates of a study, on the side where there is room.
+/// Draws the note next to the rates of a study, on the side with more room.
 fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBColor)) {
     let note = note(row);
     if note.is_empty() {
@@ -163,7 +163,7 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
     pen.text(&note, (start, y), NOTE_SIZE, anchor, ink);
 }
 
-/// The note of the row, and how many of its rates there are not.
+/// The note of the row, and how many of its rates are missing.
 fn note(row: &ForestRow) -> String {
     let missing = row.rates.iter().filter(|rate| rate.rate.is_none_or(|value| !value.is_finite())).count();
     let without = match missing {
@@ -180,7 +180,7 @@ fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
     let finite = |value: &f64| value.is_finite();
     if let Some([low, high]) = rate.interval.filter(|ends| ends.iter().all(finite)) {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
-        // An interval that goes on beyond the frame; where the rate does, it has an arrow of its own.
+        // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
         let is_within = rate.rate.is_some_and(|value| value.abs() <= REACH);
         for end in [low, high].into_iter().filter(|end| is_within && end.abs() > REACH) {
             tick(pen, (px(plot, end), y), end.signum(), colour);
@@ -193,7 +193,7 @@ fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
     }
 }
 
-/// A small triangle with its point on the frame.
+/// A small triangle with its tip on the frame.
 fn tick(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
     let back = x - 5.0 * direction;
     pen.polygon(&[(x, y), (back, y - 2.5), (back, y + 2.5)], colour);
@@ -205,7 +205,7 @@ fn arrow(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
 }
 
 fn colour(verdict: Verdict) -> RGBColor {
-    // Okabe and Ito's.
+    // Colours of Okabe and Ito.
     match verdict {
         Verdict::Pass => RGBColor(0, 114, 178),
         Verdict::Inconclusive => RGBColor(230, 159, 0),
@@ -239,10 +239,10 @@ mod tests {
         for text in ["sound", "lost-order", "none", "no rate", "space", "All rates"] {
             assert!(svg.contains(text), "{text}");
         }
-        // Two sound rates and three entries of the legend; the lost order is no disc.
+        // Two sound rates and three entries of the legend; the lost order is not a disc.
         assert_eq!(svg.matches("<circle").count(), 5, "{svg}");
         assert_eq!(svg.matches("<polygon").count(), 2);
-        // Said once of a study, not once of a rate.
+        // Stated once for a study, not once for each rate.
         assert_eq!(svg.matches("no rate").count(), 1);
         assert!(svg.contains("\u{2212}2") && !svg.contains("\n-2\n"));
     }
@@ -274,7 +274,7 @@ mod tests {
             let groups = vec![("g".into(), rows)];
             forest(&Forest { title: String::new(), groups }).matches("<polygon").count()
         };
-        // One is that of the legend.
+        // One belongs to the legend.
         assert_eq!([count(1.0), count(2.0), count(5.0)], [1, 2, 3]);
     }
 

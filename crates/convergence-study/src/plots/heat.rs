@@ -1,4 +1,4 @@
-//! Values over two parameters as coloured cells: with the numbers in them where there is room, or with marks and boundary curves on top.
+//! Values over two parameters as coloured cells: with numbers in the cells if there is room, or with marks and boundary curves on top.
 //!
 //! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
@@ -21,11 +21,11 @@ const ALONE: f64 = 0.25;
 /// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Horizontal axis, `dt` say.
+    /// Horizontal axis, for example `dt`.
     pub x: Axis,
-    /// Vertical axis, `h` say.
+    /// Vertical axis, for example `h`.
     pub y: Axis,
-    /// What the colours show; logarithmic as a rule.
+    /// The quantity shown by colours; usually logarithmic.
     pub z: Axis,
     /// Values along the horizontal axis, in any order.
     pub x_values: Vec<f64>,
@@ -33,11 +33,11 @@ pub struct Surface {
     pub y_values: Vec<f64>,
     /// `values[k][j]` belongs to `y_values[k]` and `x_values[j]`.
     pub values: Vec<Vec<f64>>,
-    /// `marked[k][j]`: hatched, and grey if it has no value; cells that are not there are not marked.
+    /// `marked[k][j]`: hatched, and grey if it has no value; missing cells are not marked.
     pub marked: Vec<Vec<bool>>,
-    /// What the mark means, `"diverged"` say.
+    /// The meaning of the mark, for example `"diverged"`.
     pub marked_label: String,
-    /// Boundary curves on top: the first solid, the second dashed, and so on; the predicted one first, say.
+    /// Boundary curves on top: the first solid, the second dashed, and so on; for example the predicted one first.
     pub boundaries: Vec<Series>,
 }
 
@@ -61,7 +61,7 @@ pub fn surface(figure: &Surface) -> String {
     let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, values.iter().flatten().copied());
     let cells = HeatMap { x: edges(&x, ALONE), y: edges(&y, ALONE), values, colours };
     cells.draw(plan, |sheet, place| {
-        // Of errors, say: a bar shows small counts as well. Nothing is drawn over them.
+        // For errors, for example: a bar shows small counts as well. Nothing is drawn over the cells.
         if figure.z.scale == Scale::Log && figure.boundaries.is_empty() {
             write_values(sheet, &cells.values, place);
         }
@@ -76,16 +76,16 @@ pub(super) struct HeatMap {
     pub(super) x: Vec<f64>,
     /// Edges on the scale, one more than there are rows.
     pub(super) y: Vec<f64>,
-    /// Row by row; NaN where there is none.
+    /// Row by row; NaN if there is none.
     pub(super) values: Vec<Vec<f64>>,
     pub(super) colours: ColourScale,
 }
 
-/// Where the cell of a row and a column is.
+/// The position of the cell of a row and a column.
 type CellAt<'p> = &'p dyn Fn(usize, usize) -> Rect;
 
 impl HeatMap {
-    /// Draws them with the colour bar beside them.
+    /// Draws them, with the colour bar next to them.
     ///
     /// * `on_top`: draws on the cells.
     pub(super) fn draw(&self, plan: Layout, on_top: impl FnOnce(&mut Page, CellAt<'_>)) -> String {
@@ -149,7 +149,7 @@ fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     order
 }
 
-/// The cells of these rows and columns; `none` for those that are not there.
+/// The cells of these rows and columns; `none` for missing ones.
 fn sorted<T: Copy>(cells: &[Vec<T>], rows: &[usize], columns: &[usize], none: T) -> Vec<Vec<T>> {
     let cell = |k: usize, j: usize| cells.get(k).and_then(|row| row.get(j)).copied().unwrap_or(none);
     rows.iter().map(|&k| columns.iter().map(|&j| cell(k, j)).collect()).collect()
@@ -172,7 +172,7 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
     left_out(non_finite, missing(z) - non_finite)
 }
 
-/// Writes its value into each cell, where there is room for all of them.
+/// Writes its value into each cell, if there is room for all of them.
 fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: CellAt<'_>) {
     const CLEAR: f64 = 6.0;
     let cells = values.iter().enumerate().flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
@@ -205,7 +205,7 @@ fn entries(figure: &Surface) -> Vec<Entry> {
     entries
 }
 
-/// Whether a boundary is known at a few points only: a line between them would suggest points that were not computed.
+/// Whether a boundary is known only at a few points: a line between them would suggest points that were not computed.
 fn is_sparse(series: &Series) -> bool {
     series.points.len() < FEWEST_FOR_A_LINE
 }
@@ -230,7 +230,7 @@ fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: CellAt<'_>) {
     });
 }
 
-/// All rims before all lines: where two boundaries agree, the gaps of the dashed one show the other.
+/// All rims before all lines: if two boundaries agree, the other shows through the gaps of the dashed one.
 fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {

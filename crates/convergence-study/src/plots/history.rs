@@ -6,18 +6,18 @@ use super::{Axis, Guide, Phases, Scale, Series};
 
 /// Quantities over time or another cost, with limits and phases.
 ///
-/// Series of any length: long ones are drawn as their envelope, in which no spike is lost.
+/// Series may have any length: long ones are drawn as their envelope, which loses no spike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Above the plot.
     pub title: Option<String>,
-    /// What runs; where it is empty, `"time t"` or, of costs, `"run time (s)"`.
+    /// The quantity of the horizontal axis; if empty, `"time t"` or, for costs, `"run time (s)"`.
     pub x_label: String,
     /// The vertical axis.
     pub y: Axis,
     /// `(t, value)`, times ascending.
     pub series: Vec<Series>,
-    /// Which [`look`](super::look::look) each series has: the same wherever it is drawn. Empty: those of their places.
+    /// Which [`look`](super::look::look) each series has: the same in every figure. Empty: by place in this figure.
     pub looks: Vec<usize>,
     /// Limits and other values worth a line.
     pub guides: Vec<Guide>,
@@ -46,7 +46,7 @@ pub fn history(figure: &History) -> String {
     figure.xy(Axis::linear, "time t", |curve| curve).draw()
 }
 
-/// Draws iterations per time step, `(t at the end of the step, iterations)`, as steps from zero. The vertical axis has a label of its own.
+/// Draws iterations per time step, `(t at the end of the step, iterations)`, as steps from zero. The vertical axis has its own label.
 pub fn iterations(figure: &History) -> String {
     let held = |curve: Curve| Curve { points: steps(&curve.points), ..curve };
     Xy {
@@ -58,13 +58,13 @@ pub fn iterations(figure: &History) -> String {
     .draw()
 }
 
-/// Draws errors over cost, `(cost, error)` in order of refinement, log-log: the lower and the further left, the better.
+/// Draws errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is better.
 pub fn work_precision(figure: &History) -> String {
     let xy = figure.xy(Axis::log, "run time (s)", |curve| Curve { marks: Marks::Filled, ..curve });
     Xy { y: Axis { scale: Scale::Log, ..xy.y.clone() }, ..xy }.draw()
 }
 
-/// Every value held from the end of the step before to the end of its own.
+/// Every value held over its step, from the end of the previous one.
 fn steps(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut held = Vec::with_capacity(2 * points.len());
     for (k, &(t, value)) in points.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What sets one series of a figure apart: its colour, its dashes, and the shape of its markers.
+//! What distinguishes one series of a figure from the others: colour, dashes and shape of the markers.
 
 use super::canvas::Pen;
 use super::rect::Point;
@@ -56,7 +56,7 @@ impl Marker {
         }
     }
 
-    /// Made of strokes: there is no inside to leave white.
+    /// Made of strokes: no inside to leave white.
     fn is_strokes(self) -> bool {
         matches!(self, Marker::Cross | Marker::Plus | Marker::Star)
     }
@@ -108,18 +108,18 @@ const MARKERS: [Marker; 8] = [
 
 const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::Mixed, Dash::Short];
 
-/// What sets one series apart: each of the three is enough by itself for a handful of series.
+/// What distinguishes one series: each of the three is enough by itself for a handful of series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Of lines and markers.
+    /// Colour of lines and markers.
     pub colour: RGBColor,
-    /// Of its points.
+    /// Marker of its points.
     pub marker: Marker,
-    /// Of its line.
+    /// Dashes of its line.
     pub dash: Dash,
 }
 
-/// Look of the k-th series. The first 64 differ: from the 9th on, colours return with the next marker.
+/// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next marker.
 pub fn look(k: usize) -> Look {
     let marker = (k + k / COLOURS.len()) % MARKERS.len();
     Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[marker], dash: DASHES[k % DASHES.len()] }

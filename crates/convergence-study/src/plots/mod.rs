@@ -1,7 +1,7 @@
 //! Figures: plain data in, a self-contained SVG document out.
 //!
-//! Every figure is a struct of numbers and labels and a pure function from it to a `String`. They know nothing of the
-//! solver, read and write no files, and give the same bytes for the same data. Bad data never stops a figure: points
+//! Every figure is a struct of numbers and labels and a pure function from it to a `String`. Figures know nothing about
+//! the solver, read and write no files, and give the same bytes for the same data. Bad data never stop a figure: points
 //! that are not finite, or not positive on a logarithmic axis, are left out and counted in a note under the plot.
 //!
 //! | figure | shows |
@@ -14,7 +14,7 @@
 //! | [`forest`] | all judged rates relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
-//! What is drawn can be read back: `canvas` writes names and values into the picture, for a page that shows them.
+//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
 //! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
@@ -93,7 +93,7 @@ pub struct Series {
 pub struct Guide {
     /// Short text, set in the right margin at the line's height.
     pub label: String,
-    /// Where on the vertical axis.
+    /// Position on the vertical axis.
     pub value: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Points and rectangles; the parts of lines inside of a rectangle.
+//! Points and rectangles; the parts of lines inside a rectangle.
 
 /// A position in px, `y` downwards.
 pub type Point = (f64, f64);
@@ -55,7 +55,7 @@ fn along(a: Point, b: Point, s: f64) -> Point {
     (a.0 + s * (b.0 - a.0), a.1 + s * (b.1 - a.1))
 }
 
-/// What remains of a line within a rectangle.
+/// The parts of a line inside a rectangle.
 pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
     if line.iter().all(holds) {

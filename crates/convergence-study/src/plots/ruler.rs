@@ -7,7 +7,7 @@ const LARGEST: f64 = 1e300;
 /// A range narrower than this fraction of its values is widened: its ticks would be the same in print.
 const NARROWEST: f64 = 1e-6;
 
-/// Position of a value on its scale: itself, or its decimal logarithm. `None` where it has none.
+/// Position of a value on its scale: itself, or its decimal logarithm. `None` if it has none.
 pub fn on_scale(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         _ if !value.is_finite() || value.abs() > LARGEST => None,
@@ -46,14 +46,14 @@ pub struct Ticks {
     pub major: Vec<Tick>,
     /// Positions of those without, on the scale.
     pub minor: Vec<f64>,
-    /// The labels are to be multiplied by ten to this power.
+    /// The labels must be multiplied by ten to this power.
     pub exponent: i32,
 }
 
 impl Ruler {
-    /// The range of the values that can be drawn, widened by `margin` of its length on both sides.
+    /// The range of the drawable values, widened by `margin` of its length on both sides.
     ///
-    /// No drawable value at all gives [0, 1], or one decade.
+    /// Without drawable values it is [0, 1], or one decade.
     pub fn around(scale: Scale, values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
         for v in values.into_iter().filter_map(|v| on_scale(scale, v)) {
@@ -88,12 +88,12 @@ impl Ruler {
         Self { start, end, ..self }
     }
 
-    /// Where a value lies in px, if it can be drawn.
+    /// The px of a value, if it can be drawn.
     pub fn px(&self, value: f64) -> Option<f64> {
         on_scale(self.scale, value).map(|v| self.px_of(v))
     }
 
-    /// Where a position on the scale lies in px.
+    /// The px of a position on the scale.
     pub fn px_of(&self, v: f64) -> f64 {
         self.start + self.fraction(v) * (self.end - self.start)
     }
@@ -140,7 +140,7 @@ impl Ruler {
             return self.decade_ticks(wanted);
         }
         if round.len() >= 3 {
-            // From 1 to 1000, as counts and percentages are, powers of ten would only be in the way.
+            // From 1 to 1000, typical of counts and percentages, powers of ten would be less readable.
             let is_plain = self.lo >= -0.3 && self.hi <= 3.05 && round[0] >= 0.0;
             let label = |at: f64| if is_plain { fixed(10f64.powf(at), 0) } else { scientific(at) };
             let major = round.iter().map(|&at| Tick { at, label: label(at) }).collect();
@@ -157,7 +157,7 @@ impl Ruler {
 
 fn linear_ticks(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let step = round_step((hi - lo) / wanted.max(1) as f64);
-    // The half of a thousandth keeps an end that is a tick but for round-off.
+    // Half a thousandth keeps an end that is a tick except for round-off.
     let first = (lo / step - 5e-4).ceil() as i64;
     let last = (hi / step + 5e-4).floor() as i64;
     let values: Vec<f64> = (first..=last).take(50).map(|k| k as f64 * step).collect();

@@ -10,18 +10,18 @@ use plotters::style::RGBColor;
 
 const EDGE: f64 = 16.0;
 const NOTE_HEIGHT: f64 = 24.0;
-/// From the frame down to the middle of the tick labels, and to the middle of the axis label.
+/// From the frame down to the middle of the tick labels, and on to the middle of the axis label.
 const TICK_LABEL_DROP: f64 = 19.0;
 const AXIS_LABEL_DROP: f64 = 48.0;
 /// Guide labels closer than this would overlap.
 const GUIDE_SPACING: f64 = 21.0;
-/// Of the legend.
+/// Height of a row of the legend.
 const ROW_HEIGHT: f64 = 27.0;
 const SWATCH_WIDTH: f64 = 46.0;
 const SWATCH_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 26.0;
 
-/// What a page is to hold.
+/// The content of a page.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     pub(super) title: Option<String>,
@@ -29,7 +29,7 @@ pub(super) struct Layout {
     pub(super) y: Ruler,
     pub(super) x_label: String,
     pub(super) y_label: String,
-    /// Room wanted to the right of the plot, in px.
+    /// Room needed to the right of the plot, in px.
     pub(super) right: f64,
     /// Text above the plot, at positions on the x scale.
     pub(super) above: Option<(f64, String)>,
@@ -82,7 +82,7 @@ fn widest(ticks: &Ticks) -> f64 {
     ticks.major.iter().map(|t| text_width(&t.label, TICK_SIZE)).fold(0.0, f64::max)
 }
 
-/// The finest ticks whose labels stand clear of each other.
+/// The finest ticks whose labels do not touch.
 fn ticks_that_fit(ruler: &Ruler, width: f64) -> Ticks {
     let fits = |t: &Ticks| (widest(t) + 0.8 * TICK_SIZE) * t.major.len() as f64 <= width;
     let fewer = (2..=8).rev().map(|wanted| ruler.ticks(wanted));
@@ -95,7 +95,7 @@ impl Page {
         Some((self.x.px(x)?, self.y.px(y)?))
     }
 
-    /// Draws the grid: to be called before the data.
+    /// Draws the grid: call this before drawing the data.
     pub(super) fn draw_grid(&mut self) {
         let Page { plot, x, y, x_ticks, y_ticks, canvas, .. } = self;
         let upright = |pen: &Pen<'_>, v: f64, colour| {
@@ -132,7 +132,7 @@ impl Page {
         });
     }
 
-    /// Draws what surrounds the data, and closes the document.
+    /// Draws everything around the data, and closes the document.
     pub(super) fn finish(mut self) -> String {
         let Page { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
         canvas.draw(Layer::default(), |pen| {
@@ -202,12 +202,12 @@ fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
     }
 }
 
-/// Room that guide labels take up to the right of the plot.
+/// Width of guide labels, to the right of the plot.
 pub(super) fn guide_margin(guides: &[Guide]) -> f64 {
     guides.iter().map(|g| text_width(&g.label, TICK_SIZE) + 22.0).fold(0.0, f64::max)
 }
 
-/// Moves sorted heights apart so that labels there do not overlap, within the plot where that is possible.
+/// Moves sorted heights apart so that labels do not overlap, within the plot if possible.
 fn spread_out(heights: &[f64], plot: Rect) -> Vec<f64> {
     let mut spread = heights.to_vec();
     for k in 1..spread.len() {
@@ -244,7 +244,7 @@ pub enum Swatch {
 pub struct Entry {
     /// The sample before the text.
     pub swatch: Swatch,
-    /// The text; one that is too long is cut.
+    /// The text; cut if too long.
     pub label: String,
 }
 
@@ -274,7 +274,7 @@ impl Legend {
     /// Draws the legend centred on `centre`, its first row below `top`.
     pub(super) fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
         let width = self.columns as f64 * self.column_width - COLUMN_GAP;
-        // Centred on the plot, but on the page in any case.
+        // Centred on the plot, but always within the page.
         let left = (centre - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
         for (k, entry) in self.entries.iter().enumerate() {
             let x = left + (k % self.columns) as f64 * self.column_width;
@@ -314,7 +314,7 @@ impl Legend {
     }
 }
 
-/// A text of this size cut to fit a width, both in px, with an ellipsis where it was cut.
+/// A text of this size cut to fit a width, both in px, ending with an ellipsis if it was cut.
 pub fn elide(text: &str, size: f64, width: f64) -> String {
     if text_width(text, size) <= width {
         return text.to_owned();

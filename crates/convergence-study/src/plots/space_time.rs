@@ -7,7 +7,7 @@ use super::ruler::{Ruler, on_scale};
 use super::sheet::Layout;
 use super::xy::left_out;
 
-/// Cells of the picture along time and along space, at most: even noise, in which no neighbours are equal, stays below 400 kB.
+/// Most cells of the picture along time and along space: even noise, in which no neighbours are equal, stays below 400 kB.
 const FINEST: (usize, usize) = (200, 110);
 
 /// A field over space and time.
@@ -15,7 +15,7 @@ const FINEST: (usize, usize) = (200, 110);
 pub struct SpaceTime {
     /// Above the plot.
     pub title: Option<String>,
-    /// What the colours show, such as `"displacement u (dimensionless)"`.
+    /// The quantity shown by colours, such as `"displacement u (dimensionless)"`.
     pub label: String,
     /// Times of the frames, ascending.
     pub times: Vec<f64>,
@@ -25,7 +25,7 @@ pub struct SpaceTime {
     pub frames: Vec<Vec<f64>>,
 }
 
-/// Draws a field over time (horizontal) and place (vertical), white where it is zero.
+/// Draws a field over time (horizontal) and space (vertical), white where it is zero.
 pub fn space_time(figure: &SpaceTime) -> String {
     let t = Ruler::around(Scale::Linear, figure.times.iter().copied(), 0.0);
     let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
@@ -49,7 +49,7 @@ pub fn space_time(figure: &SpaceTime) -> String {
     cells.draw(plan, |_, _| {})
 }
 
-/// Edges of so many cells from end to end.
+/// Edges of `cells` equal cells from end to end.
 fn even(ruler: &Ruler, cells: usize) -> Vec<f64> {
     (0..=cells).map(|k| ruler.lo + (ruler.hi - ruler.lo) * k as f64 / cells.max(1) as f64).collect()
 }
@@ -79,7 +79,7 @@ fn between(values: &[f64], v: f64) -> (usize, f64) {
     }
 }
 
-/// Frames and weights that make up a cell: all that fall into it, or the two around it.
+/// Frames and weights that make up a cell: all frames in it, or the two around it.
 fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
     let (first, last) = (times.partition_point(|&a| a < t - half), times.partition_point(|&a| a < t + half));
     if last > first {

@@ -2,12 +2,12 @@
 
 use plotters::style::RGBColor;
 
-/// Page width in px. Figures are read at full and at half of it, which the text sizes below allow for.
+/// Page width in px. Figures are read at full and at half width, and the text sizes below allow for that.
 pub const WIDTH: f64 = 900.0;
 /// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
 pub const PLOT_HEIGHT: f64 = 430.0;
 
-/// Helvetica and its metric twins first: the estimates of [`text_width`] are taken from the widest, DejaVu Sans.
+/// Helvetica and its metric twins first: the estimates of [`text_width`] use the widest, DejaVu Sans.
 pub const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Text size of titles, in px.
 pub const TITLE_SIZE: f64 = 22.0;
@@ -66,7 +66,7 @@ impl Dash {
     }
 }
 
-/// Width of a text in px, on the generous side: without font files it can only be estimated.
+/// Width of a text in px, estimated generously: exact widths would need font files.
 pub fn text_width(text: &str, size: f64) -> f64 {
     let em: f64 = text.chars().map(glyph_width).sum();
     em * size

@@ -1,4 +1,4 @@
-//! The core of all figures with curves: ranges, layers in their order, notes on what was left out.
+//! The core of all figures with curves: ranges, layers in order, notes on omitted data.
 
 use super::canvas::{self, Anchor, Layer};
 use super::look::{Look, Marks, look};
@@ -12,15 +12,15 @@ use crate::text::number::counted;
 
 /// Room left around the data, as a fraction of its range.
 const MARGIN: f64 = 0.05;
-/// Columns of envelopes that all curves of a figure share, which bounds the size of the document.
+/// Columns of envelopes shared by all curves of a figure; this bounds the size of the document.
 const ENVELOPE_COLUMNS: usize = 3200;
 
 /// A curve and how to draw it.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Its entry of the legend, which the first of several curves of one name makes.
+    /// Its entry in the legend; of several curves with the same name the first makes it.
     pub name: String,
-    /// What notes call it, where its entry says more than its name.
+    /// Its name in notes, if its entry says more than its name.
     pub noted_as: Option<String>,
     /// `(x, y)` in data coordinates, in drawing order.
     pub points: Vec<(f64, f64)>,
@@ -28,7 +28,7 @@ pub struct Curve {
     pub look: Look,
     /// Line width in px; 0 for markers alone.
     pub width: f64,
-    /// What is drawn from end to end, solid, in place of the line through the points.
+    /// Drawn from end to end, solid, instead of the line through the points.
     pub fit: Option<PowerLaw>,
     /// How the points are marked.
     pub marks: Marks,
@@ -51,12 +51,12 @@ impl Curve {
         }
     }
 
-    /// What notes call it.
+    /// Its name in notes.
     pub fn noted(&self) -> &str {
         self.noted_as.as_deref().unwrap_or(&self.name)
     }
 
-    /// As it is drawn: a fitted line ahead of the markers, which alone are data.
+    /// The parts to draw: a fitted line before the markers, which alone are data.
     fn parts(&self) -> Vec<Self> {
         let Some(fit) = self.fit else { return vec![self.clone()] };
         let xs = || self.points.iter().map(|p| p.0).filter(|x| x.is_finite() && *x > 0.0);
@@ -74,9 +74,9 @@ impl Curve {
 /// A closed outline with texts, such as a slope triangle; positions in data coordinates.
 #[derive(Clone)]
 pub struct Outline {
-    /// The last is joined to the first.
+    /// The last corner is joined to the first.
     pub corners: Vec<(f64, f64)>,
-    /// Text, where, how many px right and down of that, and its anchor.
+    /// Text, position, px to the right of and below that position, and anchor.
     pub texts: Vec<(String, (f64, f64), Point, Anchor)>,
 }
 
@@ -97,13 +97,13 @@ pub struct Xy {
     pub phases: Phases,
     /// Drawn on top of the curves.
     pub outlines: Vec<Outline>,
-    /// Everything right of this x is shaded, with the text above it.
+    /// Everything right of this x is shaded, with this text above it.
     pub beyond: Option<(f64, String)>,
     /// More values that the vertical axis must show.
     pub show_y: Vec<f64>,
     /// More values that the horizontal axis must show.
     pub show_x: Vec<f64>,
-    /// Lines under the legend, before those on curves that coincide and on points that were left out.
+    /// Lines under the legend, before those on coinciding curves and on omitted points.
     pub notes: Vec<String>,
 }
 
@@ -112,10 +112,10 @@ impl Xy {
     pub fn x_ruler(&self) -> Ruler {
         let values = self.drawable().map(|p| p.0).chain(self.show_x.iter().copied());
         let phases = self.phases.intervals.iter().flat_map(|&(a, b)| [a, b]);
-        // Time runs from edge to edge; parameters that were chosen deserve room around them.
+        // Time runs from edge to edge; chosen parameters need room around them.
         let margin = if self.x.scale == Scale::Log { MARGIN } else { 0.0 };
         let ruler = Ruler::around(self.x.scale, values.chain(phases), margin);
-        // The end of the first step is as good as the start.
+        // If the first step is short, the axis starts at zero.
         let starts_at_zero = self.x.scale == Scale::Linear && ruler.lo > 0.0 && ruler.lo < 0.02 * ruler.hi;
         if starts_at_zero { Ruler::between(self.x.scale, 0.0, ruler.hi) } else { ruler }
     }
@@ -261,7 +261,7 @@ pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
 /// Curves closer than this everywhere look like one, in px.
 const CLOSE: f64 = 3.0;
 
-/// A note for each set of data curves that lie on one another: point by point where they have as many, else as lines.
+/// A note for each set of coinciding data curves: compared by points if they have equally many, else as lines.
 fn coinciding(curves: &[Curve], x: &Ruler, y: &Ruler) -> Vec<String> {
     let is_shown = |curve: &&Curve| curve.is_data && curve.points.len() > 1;
     let data: Vec<&Curve> = curves.iter().filter(is_shown).collect();
@@ -322,7 +322,7 @@ fn follows(points: &[Point], line: &[Point]) -> bool {
 /// Lines through positions, broken where a position is missing.
 ///
 /// A series longer than four positions per column is reduced to first, lowest, highest and last of each column of
-/// pixels, in their order, which no eye can tell from the whole. Positions must then run along x.
+/// pixels, in their order; no eye can see the difference. Positions must then run along x.
 fn lines(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
     if positions.len() <= 4 * columns {
         let runs = positions.split(Option::is_none).filter(|run| !run.is_empty());
@@ -347,7 +347,7 @@ fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
         if group.last().is_some_and(|last| column(last.0) != column(p.0)) {
             extend_with_extremes(&mut lines, &group);
             group.clear();
-            // A gap shows only where it is as wide as a column: narrower ones would cost more bytes than they tell.
+            // A gap is drawn only if it is as wide as a column: narrower ones would cost more bytes than they show.
             if missing > positions.len() / columns {
                 lines.push(Vec::new());
             }

@@ -1,4 +1,4 @@
-//! What a program answers: the last line of its standard output that is a JSON object.
+//! The answer of a program: the last line of its standard output that is a JSON object.
 
 use std::fmt;
 
@@ -10,43 +10,43 @@ use crate::input::shorten;
 use crate::study::{CaseFailure, Claim};
 use crate::text::visible::visible;
 
-/// The numbers of one case; NaN where it answered that. Names are sorted, and harmless on a terminal.
+/// The numbers of one case; NaN if that was the answer. Names are sorted, and safe for a terminal.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Answer {
     /// Errors by name.
     pub errors: Vec<(String, f64)>,
     /// Values without an exact solution, by name.
     pub values: Vec<(String, f64)>,
-    /// The mesh width, where it is not the nominal one; > 0.
+    /// The mesh width, if it is not the nominal one; > 0.
     pub h: Option<f64>,
     /// The time step, likewise.
     pub dt: Option<f64>,
-    /// Unknowns, operations, seconds: what the program counts; > 0.
+    /// Unknowns, operations, seconds: whatever the program counts; > 0.
     pub work: Option<f64>,
     /// The time that the program took.
     #[serde(default)]
     pub seconds: f64,
-    /// Why the case has failed all the same: a number is NaN or missing. The others count.
+    /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
-    /// Whether it is that of an earlier run.
+    /// Whether an earlier run computed it.
     #[serde(skip)]
     pub kept: bool,
 }
 
-/// A table `[[expect]]`: a number that the study needs of every answer, and what is claimed of it.
+/// A table `[[expect]]`: a number that every answer must contain, and the claim about it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Expectation {
     pub(super) name: String,
-    /// Whether it is a value, of which no error is known.
+    /// Whether it is a value whose error is not known.
     pub(super) is_value: bool,
-    /// Of a grid: the order in h.
+    /// For a grid: the order in h.
     pub(super) claim: Claim,
-    /// Of a grid: the order in dt.
+    /// For a grid: the order in dt.
     pub(super) time: f64,
-    /// The order is that of a factor a degree, n being the degree.
+    /// The order is that of a factor per degree, n being the degree.
     pub(super) by_degree: bool,
-    /// No error is larger; nothing else is claimed.
+    /// The bound on the error; nothing else is claimed.
     pub(super) exact: Option<f64>,
 }
 
@@ -57,12 +57,12 @@ impl Expectation {
     }
 }
 
-/// The object that a line is, or why it is none; `None` for lines that do not begin with `{`.
+/// The object that a line is, or why it is not one; `None` for lines that do not begin with `{`.
 ///
-/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is no number.
+/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is not a number.
 ///
-/// The reason is in words, with what to do. Beside it stands whether the line looks like an answer: no object before it is the last
-/// one. `{iteration 3}` does not.
+/// The reason is in words, with advice. The flag says whether the line looks like an answer; then no object before it
+/// is the last one. `{iteration 3}` does not.
 pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, bool)>> {
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
@@ -82,7 +82,7 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, b
     Some(read.map_err(near_miss))
 }
 
-/// A value of JSON in which no object has a name twice: the last one would win in silence.
+/// A value of JSON in which no object repeats a name: the last would silently win.
 struct Once(Value);
 
 impl<'de> Deserialize<'de> for Once {
@@ -142,7 +142,7 @@ impl<'de> Deserialize<'de> for Once {
     }
 }
 
-/// The text with `null` for every NaN and infinity outside of strings.
+/// The text with `null` for every NaN and infinity outside strings.
 fn with_null_for_nan(line: &str) -> String {
     const TOKENS: [&str; 8] = ["-Infinity", "Infinity", "-NaN", "NaN", "-inf", "inf", "-nan", "nan"];
     let (mut is_string, mut is_escaped) = (false, false);
@@ -158,9 +158,9 @@ fn with_null_for_nan(line: &str) -> String {
 }
 
 impl Answer {
-    /// Reads an answer; what it does not know is ignored. An error or a value that is no finite number is NaN.
+    /// Reads an answer; unknown names are ignored. An error or a value that is not a finite number is NaN.
     ///
-    /// * Returns it with the first complaint about such a number, or what is wrong with it.
+    /// * Returns it with the first complaint about such a number, or the reason why it is not an answer.
     pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
         let step = |name: &str| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
@@ -178,7 +178,7 @@ impl Answer {
         Ok((answer, complaint))
     }
 
-    /// The number of that name; `None` where there is none.
+    /// The number of that name; `None` if it is absent.
     pub(super) fn number(&self, expected: &Expectation) -> Option<f64> {
         let among = if expected.is_value { &self.values } else { &self.errors };
         among.iter().find(|(known, _)| *known == expected.name).map(|(_, number)| *number)

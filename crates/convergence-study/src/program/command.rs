@@ -1,5 +1,5 @@
-//! The command of a case: its words, with placeholders such as `{n}`, and its run to its end: no shell, no inherited standard input, a
-//! time limit, and nothing left behind.
+//! The command of a case: its words, with placeholders such as `{n}`, and its run from start to end: no shell, no
+//! inherited standard input, a time limit, and nothing left behind.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ use crate::text::visible::visible;
 /// Between the request to end and the signal that cannot be ignored.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// How long the output of a program that has ended may stay open: a process that escaped may still hold it.
+/// How long the output of an ended program may stay open: a process that escaped may still hold it.
 const DRAIN: Duration = Duration::from_secs(5);
 
 /// Longest pause between two looks at a program; the first ones are shorter.
@@ -32,21 +32,21 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 pub(super) struct Invocation {
     /// The program, then its arguments.
     pub(super) words: Vec<String>,
-    /// Where it runs.
+    /// The folder in which it runs.
     pub(super) directory: PathBuf,
-    /// What it reads from standard input; empty for nothing.
+    /// Its standard input; may be empty.
     pub(super) input: String,
-    /// The longest time that it may take.
+    /// Its time limit.
     pub(super) timeout: Duration,
 }
 
 impl Invocation {
-    /// Runs it, and reads its answer.
+    /// Runs the command, and reads its answer.
     ///
-    /// * `expected`: what the answer must have.
+    /// * `expected`: what the answer must contain.
     ///
     /// # Errors
-    /// The program cannot be started, ended with another status than 0, took too long, or answered nothing: in one line that names it.
+    /// The program cannot be started, ended with a status other than 0, took too long, or gave no answer: in one line that names it.
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
         let program = visible(&self.words[0]);
         let failed = |what: String| CaseFailure { reason: format!("{program} {what}") };
@@ -88,7 +88,7 @@ impl Invocation {
         command
     }
 
-    /// Waits until the program has ended; returns whether it did so in time. One that did not is asked to end and given a moment for it.
+    /// Waits until the program has ended; returns whether it ended in time. Otherwise it is asked to end and given a moment to do so.
     fn wait(&self, child: &mut Child, group: &Group) -> io::Result<bool> {
         let start = Instant::now();
         if has_ended_by(child, start.checked_add(self.timeout))? {
@@ -100,7 +100,7 @@ impl Invocation {
     }
 }
 
-/// Looks at the program until it has ended or the time has come; without a time, until it has ended.
+/// Polls the program until it has ended or the time is up; without a limit, until it has ended.
 fn has_ended_by(child: &mut Child, end: Option<Instant>) -> io::Result<bool> {
     let mut pause = Duration::from_micros(500);
     loop {
@@ -116,24 +116,24 @@ fn has_ended_by(child: &mut Child, end: Option<Instant>) -> io::Result<bool> {
     }
 }
 
-/// Writes the case to standard input and closes it. A program that does not read it is none the worse.
+/// Writes the case to standard input and closes it. A program may ignore it.
 fn feed(child: &mut Child, input: &str) {
     if let Some(mut stdin) = child.stdin.take() {
         let _ = stdin.write_all(input.as_bytes());
     }
 }
 
-/// Reads a stream in a thread of its own: a program that prints must not wait.
+/// Reads a stream in a separate thread: a program that prints must not wait.
 fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: fn(S) -> T) -> Receiver<T> {
     let (send, receive) = mpsc::channel();
     if let Some(stream) = stream {
-        // Where the thread cannot be started, the program's pipe is closed and nothing is received.
+        // If the thread cannot be started, the program's pipe is closed and nothing is received.
         let _ = thread::Builder::new().spawn(move || send.send(read(stream)));
     }
     receive
 }
 
-/// The reason, with the line that would be an answer: the number is that of the last line, where it ends in one.
+/// The reason, with an example of an answer, which uses the number at the end of the last line if there is one.
 fn with_example(reason: String, expected: &[Expectation]) -> String {
     let Some(first) = expected.first() else { return reason };
     let number = reason.trim_end_matches('`').rsplit([':', '=', ' ']).next().and_then(|word| word.parse().ok());
@@ -155,11 +155,11 @@ fn ending(status: ExitStatus) -> String {
     status.code().map_or_else(|| "no exit status".to_owned(), |code| format!("exit status {code}"))
 }
 
-/// A word of a command with these values, in the shortest notation that is read back as the same number; and whether it has a
-/// placeholder. A name in braces is one, `{{name}}` the text `{name}`, any other brace a brace.
+/// A word of a command with these values, in the shortest notation that reads back as the same number; and whether it
+/// has a placeholder. A name in braces is a placeholder, `{{name}}` the text `{name}`, any other brace a brace.
 ///
 /// # Errors
-/// A placeholder that has no value, with its place in the text.
+/// A placeholder without a value, with its place in the text.
 pub(super) fn filled(text: &str, values: &[Parameter]) -> Result<(String, bool), Misread> {
     let (mut filled, mut rest, mut has_placeholder) = (String::new(), text, false);
     while let Some(at) = rest.find('{') {

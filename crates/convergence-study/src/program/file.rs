@@ -9,14 +9,14 @@
 //!
 //! [program]
 //! command = ["python3", "poisson.py", "--cells", "{n}"]   # {n} {h} {steps} {dt} {level}; without any, the case is on standard input
-//! directory = "."                # beside this file
+//! directory = "."                # next to this file
 //! timeout = 60                   # seconds for a case
-//! files = ["poisson.py"]         # what a result depends on, relative to the directory
+//! files = ["poisson.py"]         # files that a result depends on, relative to the directory
 //! cache = true                   # a case is not repeated while command and files are unchanged
 //!
 //! [refine]
 //! n = [8, 16, 32, 64]            # or h; steps or dt; two lists are refined together, or `grid = true`; or n = "auto": levels
-//!                                # until it is decided, for at most `budget` seconds (60)
+//!                                # until there is a decision, for at most `budget` seconds (60)
 //!
 //! [[expect]]
 //! error = "L2"
@@ -49,7 +49,7 @@ use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
 use crate::study::{Claim, Header, read_claim};
 
-/// The longest time for a case of a file that does not say.
+/// The default time limit of a case.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
 pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
@@ -70,7 +70,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     Ok(Program { header, words, directory, timeout, store, anew: false, refine, expect })
 }
 
-/// The folder in which the program runs, as an absolute path: a program's name is relative to it, too.
+/// The folder in which the program runs, as an absolute path: the program's name is relative to it, too.
 fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Some(field) = section.get("directory") else {
@@ -101,7 +101,7 @@ fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, Inp
     items.iter().map(word).collect()
 }
 
-/// The files that kept results depend on; `None` where none are kept.
+/// The files that kept results depend on; `None` if results are not kept.
 fn kept_by(section: &Section<'_>, directory: &Path) -> Result<Option<Vec<PathBuf>>, InputError> {
     let allowed = "a list of names of files, relative to the directory in which the program runs";
     let mut files = vec![];
@@ -144,7 +144,7 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
     if expectations.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(expectations) }
 }
 
-/// * `grid`: whether h and dt are refined apart; each error then has two orders.
+/// * `grid`: whether h and dt are refined independently; each error then has two orders.
 fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
     section.allow(&["error", "value", "order", "order_dt", "factor", "constant", "exact", "tolerance"])?;
     let (name, is_value) = match section.get("value") {
@@ -169,9 +169,9 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
     Ok(Expectation { name, is_value, claim, time, by_degree, exact })
 }
 
-/// What is claimed: a rate over steps, or over degrees where the second is true; or the bound of an error that is to be none.
+/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that should vanish.
 ///
-/// * `plain`: whether nothing but an order can be claimed: of values, and of grids.
+/// * `plain`: whether only an order can be claimed, as for values and grids.
 fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {
     let claims = ["order", "factor", "exact"].map(|key| section.get(key));
     let other = claims[1..].iter().flatten().next().cloned().or(section.get("constant"));
@@ -185,7 +185,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
         if let Some(key) = ["tolerance", "constant"].into_iter().find(|key| section.get(key).is_some()) {
             return Err(section.refuse(key, format!("{key} beside exact"), "exact alone"));
         }
-        // There is no rate that a tolerance could be about.
+        // There is no rate for a tolerance to apply to.
         return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), false, Some(field.positive()?)));
     }
     if let Some(field) = claims[0].as_ref().filter(|_| plain) {
@@ -205,7 +205,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
     Ok((claim, claims[1].is_some(), None))
 }
 
-/// A name as answers have it, which control characters are never part of.
+/// A name as in answers, without control characters.
 fn name(field: &Field<'_>, allowed: &str) -> Result<String, InputError> {
     let name = field.text()?;
     let is_name = !name.is_empty() && !name.contains(char::is_control);

@@ -1,4 +1,4 @@
-//! Nothing that a case has started outlives it, nor this process.
+//! No process that a case has started outlives the case or this process.
 //!
 //! Every case has a process group, and a guard that leads it: this executable again, started as `COMMAND guard MARK`. The guard waits
 //! for the end of a pipe that only this process holds open. When this process ends, however it ends, the operating system closes the
@@ -23,25 +23,25 @@ pub const COMMAND: &str = "guard";
 /// The variable that marks every process of a case; its value differs from case to case.
 const MARK: &str = "CONVERGENCE_STUDY_CASE";
 
-/// Set in guards: one that runs studies instead would start guards without end.
+/// Set in guards: a guard that ran studies instead would start guards without end.
 const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
 
-/// The command that starts a guard, without its mark; nothing where there are none.
+/// The command that starts a guard, without its mark; empty if there are no guards.
 static GUARD: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Says by which command a guard is started, where this executable is an interpreter: the program and its arguments, to which the mark is
-/// added. Of several calls, and of [`enable`], the first counts.
+/// Sets the command that starts a guard, if this executable is an interpreter: the program and its arguments, to which
+/// the mark is appended. Of several calls, including those of [`enable`], the first counts.
 pub fn enable_by(command: Vec<OsString>) {
     let _ = GUARD.set(command);
 }
 
-/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's command line does; without it, as in a
-/// program that uses this crate as a library, processes end with their case, but not where this process is killed.
+/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's command line has it; without it, as in
+/// a program that uses this crate as a library, processes end with their case, but not if this process is killed.
 pub fn enable() {
     enable_by(this_executable().map_or(vec![], |own| vec![own.into(), COMMAND.into()]));
 }
 
-/// On Linux also where the file has been replaced since.
+/// On Linux this works even if the file has since been replaced.
 fn this_executable() -> io::Result<PathBuf> {
     let own = Path::new("/proc/self/exe");
     if own.exists() { Ok(own.to_owned()) } else { env::current_exe() }
@@ -59,7 +59,7 @@ pub fn serve(mark: &str) {
     #[cfg(unix)]
     {
         system::outlive_signals();
-        // The process that started it waits for a sign that it is a guard.
+        // The process that started it waits for a sign of life.
         let mut out = io::stdout();
         let _ = out.write_all(b"\n").and_then(|()| out.flush());
         let _ = io::copy(&mut io::stdin(), &mut io::sink());
@@ -81,7 +81,7 @@ pub(super) struct Group {
 
 #[cfg(unix)]
 impl Group {
-    /// A group with its guard, where this executable has guards.
+    /// A group, with its guard if this executable has guards.
     pub(super) fn new() -> io::Result<Self> {
         let mark = new_mark();
         let Some(command) = GUARD.get() else { return Ok(Self { mark, guard: None, leader: None }) };
@@ -103,8 +103,8 @@ impl Group {
         self.leader.iter().for_each(|leader| system::terminate(*leader));
     }
 
-    /// Ends what is left of the group, and whatever has left it. The guard, which is one of the group, ends last: should this process be
-    /// killed meanwhile, the guard goes on.
+    /// Ends the rest of the group, and any process that has left it. The guard, a member of the group, ends last: if
+    /// this process is killed meanwhile, the guard carries on.
     pub(super) fn end(&self, _: &mut Child) {
         system::kill_marked(&self.mark);
         self.leader.iter().for_each(|leader| system::kill(*leader));
@@ -141,7 +141,7 @@ impl Group {
     }
 }
 
-/// A mark that no other case has, of this process or another.
+/// A mark that no other case of this process or another has.
 fn new_mark() -> String {
     use std::sync::atomic::{AtomicU64, Ordering};
     use std::time::{SystemTime, UNIX_EPOCH};
@@ -166,7 +166,7 @@ mod unix {
     /// Between SIGTERM and SIGKILL when the harness is gone.
     const GRACE: Duration = Duration::from_secs(1);
 
-    /// A process may start others while the processes are listed.
+    /// A process may start others while the processes are being listed.
     const MOST_ROUNDS: usize = 100;
 
     pub(super) fn start_guard(command: &[OsString], mark: &str) -> io::Result<Child> {
@@ -195,7 +195,7 @@ mod unix {
         Ok(guard)
     }
 
-    /// This process has one thread: no other may take the signals that this one does not.
+    /// This process has one thread: no other thread may take the signals that this one blocks.
     pub(super) fn outlive_signals() {
         let mut signals = SigSet::empty();
         [Signal::SIGTERM, Signal::SIGINT, Signal::SIGHUP].into_iter().for_each(|signal| signals.add(signal));
@@ -237,11 +237,11 @@ mod unix {
     enum Environment {
         HasIt,
         LacksIt,
-        /// The process is between two programs: it has left the old environment and does not have the new one yet.
+        /// The process is just changing programs: the old environment is gone and the new one is not yet there.
         NotKnownYet,
     }
 
-    /// The running processes that have this variable in their environment, or may have it; none where there is no `/proc`.
+    /// The running processes that have, or may have, this variable in their environment; empty without `/proc`.
     fn processes_but_those_without(variable: &[u8]) -> Vec<(Pid, Environment)> {
         let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
         let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
@@ -251,7 +251,7 @@ mod unix {
     }
 
     fn look(process: i32, variable: &[u8]) -> Environment {
-        // That of another user's process cannot be read.
+        // The environment of another user's process cannot be read.
         let Ok(environment) = fs::read(format!("/proc/{process}/environ")) else { return Environment::LacksIt };
         if environment.split(|byte| *byte == 0).any(|entry| entry == variable) {
             return Environment::HasIt;
@@ -261,8 +261,8 @@ mod unix {
         if may_have_it { Environment::NotKnownYet } else { Environment::LacksIt }
     }
 
-    /// Whether a process whose environment was read as empty has none: it has ended or has no memory of its own, or its program was
-    /// started without. While a program is being started, the bounds of its environment are 0.
+    /// Whether a process whose environment was read as empty really has none: it has ended, has no memory of its own,
+    /// or was started without one. While a program is being started, the bounds of its environment are 0.
     ///
     /// * `stat`: the line of `/proc/PID/stat`; empty when the process is gone.
     fn is_empty_for_good(stat: &str) -> bool {
@@ -280,7 +280,7 @@ mod unix {
         use std::os::unix::process::{CommandExt, ExitStatusExt};
         use std::process::Command;
 
-        /// The moment between two programs is short: some of these are met in it.
+        /// The moment between two programs is short: some of these processes are caught in it.
         #[test]
         #[cfg(target_os = "linux")]
         fn a_process_is_found_from_the_moment_that_it_is_started() {

@@ -1,4 +1,4 @@
-//! From answers to an outcome: errors, and values of which no error is known: their rate, their limit and what is left to it.
+//! From answers to an outcome: errors, and values without a known error, with their rate, their limit and the distance to it.
 
 use super::answer::{Answer, Expectation};
 use super::{Program, Run};
@@ -19,8 +19,8 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     }
     let levels = levels(study, ran);
     let mut outcome = if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) };
-    // What was answered is finite. Not every answer has every number, and a case that failed fails its check; a number that was guarded and is there no more
-    // is seen by the baseline.
+    // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its check; the baseline
+    // notices a guarded number that is missing.
     outcome.quantities.retain(|quantity| quantity.value.is_finite());
     outcome
 }
@@ -44,7 +44,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
     Outcome {
-        // No step alone is the one that these errors are judged over.
+        // These errors are not judged over either step alone.
         levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
         figures,
         quantities: levels.quantities(&rates),
@@ -52,7 +52,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     }
 }
 
-/// What a study that adds levels does next; `None` where they are listed, or a case has failed.
+/// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
 pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
     let budget = study.refine.budget?;
     let seconds: Vec<f64> = ran.iter().map(|ran| Some(ran.ok()?.seconds)).collect::<Option<_>>()?;
@@ -67,7 +67,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let values = of_values(study, ran, &levels.refinements);
     let quantities = [levels.quantities(&rates), values.quantities].concat();
     let mut figures = vec![];
-    // The figure is one over h.
+    // The figure is over h.
     if !levels.columns.is_empty() && !by_degree(study) {
         let caption = "Errors over levels of refinement.".to_owned();
         figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
@@ -93,7 +93,7 @@ fn by_degree(study: &Program) -> bool {
     study.expect.iter().any(|expected| expected.by_degree)
 }
 
-/// A check for each error that is claimed to be none.
+/// A check for each error that should vanish.
 fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
     let check = |expected: &Expectation| {
         let bound = expected.exact?;
@@ -104,12 +104,12 @@ fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
     study.expect.iter().filter_map(check).collect()
 }
 
-/// What a case answered; NaN where it did not.
+/// The number that a case answered; NaN if it did not.
 fn number(ran: &Run, expected: &Expectation) -> f64 {
     ran.ok().and_then(|answer| answer.number(expected)).unwrap_or(f64::NAN)
 }
 
-/// A case that answered less than was asked for counts as failed.
+/// A case that answered less than required counts as failed.
 fn completion(ran: &[Run]) -> Check {
     let whole = |Ran { case, found }: &Run| {
         let answered = found.as_ref().map_err(Clone::clone);
@@ -119,7 +119,7 @@ fn completion(ran: &[Run]) -> Check {
     levels::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
-/// Which levels answer a step that the rates need, where others do not: nominal steps are no substitute for these.
+/// Which levels answer a step that the rates need, if others do not: nominal steps cannot stand in for it.
 fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
     let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
@@ -137,7 +137,7 @@ fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
     h().or_else(dt)
 }
 
-/// The step of a case: the one that the program reports, else the nominal one.
+/// The step of a case: as reported by the program, otherwise the nominal one.
 fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
     let answered = found.as_ref().ok();
     match axis {
@@ -164,7 +164,7 @@ fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
     levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
 }
 
-/// Errors over the work that the program counts, where every case that answered says how much it was.
+/// Errors over the work that the program counts, if every answer contains it.
 fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
@@ -185,7 +185,7 @@ fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
     Some(Figure { file: format!("{id}-work.svg"), caption, svg })
 }
 
-/// What the values of a study say: the rates of their differences, and the limits in a sentence.
+/// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
 ///
 /// * `refinements`: one for each of `ran`, with its step.
 fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
@@ -212,12 +212,12 @@ fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcom
     }
 }
 
-/// The name of a value among the rates: an error may have the same.
+/// The name of a value among the rates: an error may have the same name.
 fn name(column: &ErrorColumn) -> String {
     format!("value {}", column.name)
 }
 
-/// `None` where nothing is claimed of the value. A level without a result makes the verdict fail; the estimate is that of the others.
+/// `None` if nothing is claimed about the value. A level without a result makes the verdict fail; the estimate uses the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
     let Claim { order, tolerance, .. } = column.claim?;
     let level = |(level, value): (&Refinement, &Option<f64>)| Some(Value { step: level.step, value: (*value)? });
@@ -250,7 +250,7 @@ fn differences(
         columns: estimates.iter().map(column).collect(),
     };
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
-    // A rate across a gap is fitted to other differences than are drawn.
+    // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates.iter().filter(|(_, rate)| rate.kind != Reason::NoResult).cloned().collect();
     levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), &drawn)
 }
@@ -258,7 +258,7 @@ fn differences(
 const HEAD: [&str; 9] =
     ["value", "finest", "rate", "limit", "limit, 95 %", "finest - limit", "error, 95 %", "GCI", "GCI's order, factor"];
 
-/// Limit, error bar and grid convergence index of each value of which an order is claimed, or why there is none.
+/// Limit, error bar and grid convergence index of each value with a claimed order, or why they are missing.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
     let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
         let finest = column.errors.iter().rev().copied().flatten().next().unwrap_or(f64::NAN);
@@ -288,12 +288,12 @@ fn bar_cells(bar: &Bar) -> [String; 4] {
     [digits(bar.extrapolated, width), format!("{low} to {high}"), error_text(bar.error), format!("{least} to {most}")]
 }
 
-/// The width of the interval of the limit; NaN where there is none.
+/// The width of the interval of the limit; NaN if there is none.
 fn width(estimate: &Estimate) -> f64 {
     estimate.bar.as_ref().map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
 }
 
-/// A number with so many decimals that two digits of `width` are seen; with an exponent where these are more than 15.
+/// A number with enough decimals to show two digits of `width`; with an exponent if that takes more than 15.
 fn digits(value: f64, width: f64) -> String {
     let places = 1.0 - width.log10().floor();
     if (0.0..=15.0).contains(&places) {
@@ -304,12 +304,12 @@ fn digits(value: f64, width: f64) -> String {
     if value == 0.0 || !value.is_finite() || is_plain {
         return plain_text(value);
     }
-    // No more digits than a floating-point number has; six where the width says nothing.
+    // No more digits than a floating-point number has; six if the width is unknown.
     let digits = if after_the_first.is_finite() { after_the_first.clamp(1.0, 16.0) } else { 5.0 };
     format!("{value:.*e}", digits as usize)
 }
 
-/// The values, each with so many decimals that its last change is seen.
+/// The values, each with enough decimals to show its last change.
 fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
     let last_change = |column: &ErrorColumn| match column.errors.iter().copied().flatten().collect::<Vec<_>>()[..] {
         [.., before, last] => (last - before).abs(),
@@ -327,7 +327,7 @@ fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table
     }
 }
 
-/// The limit with its interval, where the rate is what was claimed; else the summary of the rates says what is wrong.
+/// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates says what is wrong.
 fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
     let bar = estimate.bar.as_ref().ok().filter(|_| estimate.judged.verdict == Verdict::Pass)?;
     let width = bar.limit[1] - bar.limit[0];

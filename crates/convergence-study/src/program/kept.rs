@@ -1,7 +1,7 @@
-//! Results that are kept by content: a case is not repeated while its command and the files it depends on are unchanged.
+//! Results kept by content: a case is not repeated while its command and the files it depends on are unchanged.
 //!
-//! A result is a file of its own, named after the hash of its [`Key`] and holding the whole key; anything else under that name is not a
-//! result, and the case is computed anew.
+//! Each result is a file named after the hash of its [`Key`], and holds the whole key; anything else under that name is
+//! not a result, and the case is computed anew.
 
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
@@ -13,19 +13,19 @@ use super::answer::Answer;
 use super::command::Invocation;
 use crate::store::{atomic, content_hash, regular};
 
-/// Version of the form of the files: a result of another form is not a result.
+/// Version of the file format: a file of another version is not a result.
 const FORM: u32 = 4;
 
-/// The folder of kept results, beside the study file.
+/// The folder of kept results, next to the study file.
 const FOLDER: &str = ".convergence-study";
 
-/// All that a result depends on.
+/// Everything that a result depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Key {
     form: u32,
-    /// The version of this crate, which may read an answer otherwise.
+    /// The version of this crate; another version may read an answer differently.
     version: String,
-    /// The folder in which the program runs, as the study file has it.
+    /// The folder in which the program runs, as in the study file.
     directory: String,
     words: Vec<String>,
     program: Option<Executable>,
@@ -34,19 +34,19 @@ pub(super) struct Key {
     files: Vec<(String, String)>,
 }
 
-/// The program that a name without a folder is found as, through `PATH`: rebuilt or replaced, it is another one.
+/// The program found through `PATH` for a name without a folder: if rebuilt or replaced, it is another program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Executable {
     /// Without symbolic links.
     path: String,
-    /// Bytes.
+    /// Size in bytes.
     size: u64,
-    /// Nanoseconds since 1970.
+    /// Modification time, in nanoseconds since 1970.
     modified: u128,
 }
 
 impl Executable {
-    /// `None` for a name with a folder, whose content is in the key, and for one that is not found.
+    /// `None` for a name with a folder, whose content is in the key, and for a program that is not found.
     fn found(Invocation { words, directory, .. }: &Invocation) -> Option<Self> {
         let name = words.first().filter(|name| Path::new(name.as_str()).components().count() == 1)?;
         let folders = env::var_os("PATH")?;
@@ -80,13 +80,13 @@ pub(super) struct Store {
 impl Store {
     /// * `folder`: that of the study file.
     /// * `id`: the study's.
-    /// * `directory`: where the program runs, as the study file has it.
-    /// * `files`: what every result depends on beside its command and the files that this names.
+    /// * `directory`: the folder in which the program runs, as in the study file.
+    /// * `files`: what every result depends on in addition to its command and the files named in it.
     pub(super) fn new(folder: &Path, id: &str, directory: String, files: Vec<PathBuf>) -> Self {
         Self { folder: folder.join(FOLDER).join(id), directory, files }
     }
 
-    /// The key of a case now. A file that a word of its command names is part of it, whether or not `files` lists it.
+    /// The current key of a case. It includes every file that a word of the command names, whether or not `files` lists it.
     pub(super) fn key(&self, invocation: &Invocation) -> io::Result<Key> {
         let hashed = |path: &PathBuf| {
             let bytes = regular::read(path).map_err(|error| atomic::naming(path, &error))?;
@@ -106,14 +106,14 @@ impl Store {
         })
     }
 
-    /// The kept answer of a case; `None` where there is none, whatever else there may be.
+    /// The kept answer of a case; `None` if there is no valid one.
     pub(super) fn get(&self, key: &Key) -> Option<Answer> {
         let text = regular::read_to_string(&self.path(key)).ok()?;
         let (kept, answer): (Key, Answer) = serde_json::from_str(&text).ok()?;
         (kept == *key).then_some(answer)
     }
 
-    /// Keeps an answer. Where the files have changed while the program ran, nothing tells which of them it has read: it is not kept.
+    /// Keeps an answer, unless the files have changed while the program ran: then it is unknown which version was read.
     pub(super) fn put(&self, key: &Key, invocation: &Invocation, answer: &Answer) -> io::Result<()> {
         if self.key(invocation)? != *key {
             return Ok(());

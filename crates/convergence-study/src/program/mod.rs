@@ -1,14 +1,14 @@
 //! Studies whose cases are runs of another program, in any language.
 //!
-//! A case is one resolution. The program is started with it, without a shell, and answers with the last line of its standard output that
-//! is a JSON object: errors by name, values, its own step, its work. A program that fails, hangs or answers nonsense is a failed case, in one
-//! line; nothing that it has started outlives it. What it answered may be kept, by content.
+//! A case is one resolution. The program is started with it, without a shell. Its answer is the last line of its standard output that is a
+//! JSON object: errors by name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a
+//! one-line reason; none of its processes outlives it. Answers may be kept, by content.
 //!
 //! | file | holds |
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
-//! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, what it prints, its end |
-//! | `answer.rs`, `kept.rs` | what it answered; what is kept of that |
+//! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
+//! | `answer.rs`, `kept.rs` | its answer; kept answers |
 //! | `judge.rs` | from answers to an outcome: errors, and values without an exact solution |
 
 mod answer;
@@ -51,7 +51,7 @@ pub const ROW: KindRow = KindRow {
               such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
 };
 
-/// The files that `new program NAME` begins with: a study of a program, and the program.
+/// The files that `new program NAME` writes: a study of a program, and the program.
 pub const TEMPLATE: Template = Template {
     name: "program",
     about: "A convergence study of a program in any language",
@@ -70,13 +70,13 @@ pub struct Program {
     header: Header,
     /// The program and its arguments.
     words: Vec<String>,
-    /// Where it runs.
+    /// The folder in which it runs.
     directory: PathBuf,
-    /// The longest time for a case.
+    /// The time limit of a case.
     timeout: Duration,
-    /// Where results are kept, if they are.
+    /// The place of kept results, if results are kept.
     store: Option<Store>,
-    /// Whether results of earlier runs are left alone.
+    /// Whether to ignore results of earlier runs.
     anew: bool,
     refine: Refine,
     expect: Vec<Expectation>,
@@ -100,7 +100,7 @@ impl Program {
 
     /// The command of a case. Without placeholders the program reads the case from standard input.
     fn invocation(&self, case: &Resolution) -> Invocation {
-        // The reader of the file has refused words that cannot be filled.
+        // The reader of the file has refused words whose placeholders have no value.
         let fill = |word: &String| filled(word, &case.told).unwrap_or_else(|_| (word.clone(), false));
         let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
         let has_placeholder = placeholders.contains(&true);
@@ -141,7 +141,7 @@ impl Kind for Program {
         };
         let Some(store) = &self.store else { return run() };
         let key = store.key(&invocation)?;
-        // What was kept for other expectations may lack what is expected now.
+        // A result kept for other expectations may lack a number expected now.
         let kept = if self.anew { None } else { store.get(&key) };
         let kept = kept.filter(|answer| self.expect.iter().all(|expected| answer.require(expected).is_ok()));
         if let Some(answer) = kept {
@@ -149,7 +149,7 @@ impl Kind for Program {
         }
         let answer = run()?;
         if answer.failure.is_none() {
-            // A result that cannot be kept costs the next run time, not this one its result.
+            // If a result cannot be kept, the next run takes longer; this one still has its result.
             let _ = store.put(&key, &invocation, &answer);
         }
         Ok(answer)

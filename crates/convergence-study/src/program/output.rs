@@ -1,4 +1,4 @@
-//! What a program prints, read to its end with bounded memory.
+//! The output of a program, read to its end with bounded memory.
 
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read};
@@ -8,10 +8,10 @@ use serde_json::{Map, Value};
 use super::answer;
 use crate::text::visible::visible;
 
-/// Longest line that is read whole, in bytes; of a longer one the start is kept.
+/// Longest line that is read whole, in bytes; only the start of a longer line is kept.
 const LONGEST_LINE: usize = 1 << 20;
 
-/// Lines of standard error that are shown, and the characters of each.
+/// Number of lines of standard error that are shown, and of characters of each.
 const LAST_LINES: usize = 3;
 const LAST_CHARACTERS: usize = 160;
 
@@ -44,7 +44,7 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, Strin
     })
 }
 
-/// Reads standard error to its end and keeps its last lines that are not blank, on one line.
+/// Reads standard error to its end and joins its last lines that are not blank.
 pub(super) fn read_last_words(stream: impl Read) -> String {
     let mut last: VecDeque<String> = VecDeque::new();
     for_each_line(stream, |line, _| {
@@ -58,14 +58,14 @@ pub(super) fn read_last_words(stream: impl Read) -> String {
     last.iter().map(|line| shown(line)).collect::<Vec<_>>().join(" | ")
 }
 
-/// A line as messages show it: trimmed, without control characters, its end cut off where it is long.
+/// A line for messages: trimmed, without control characters, its end cut off if it is long.
 fn shown(line: &str) -> String {
     let line = visible(line.trim());
     let cut: String = line.chars().take(LAST_CHARACTERS).collect();
     if cut.len() < line.len() { cut + "..." } else { cut }
 }
 
-/// Calls `each` for every line, and for what follows the last line end, with whether the line is whole. A stream that fails has ended.
+/// Calls `each` for every line, and for the text after the last line end, with whether the line is whole. A failing stream has ended.
 fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
     let mut buffer = [0; 1 << 16];
     let mut line = Vec::new();

@@ -1,18 +1,18 @@
-//! The table `[refine]`: the resolutions that a program is run at.
+//! The table `[refine]`: the resolutions at which a program is run.
 
 use crate::input::{Field, InputError, Section};
 use crate::study::{Axis, Refinement, until_decided};
 
-/// A number that a case is given, by its name.
+/// A number passed to a case, by its name.
 pub type Parameter = (&'static str, f64);
 
-/// Largest count of cells or steps: every whole number up to it is a floating-point number.
+/// Largest count of cells or steps: up to it every whole number is a floating-point number.
 const LARGEST_COUNT: usize = 1 << 53;
 
 /// Most cases of a study: each is a process.
 const MOST_CASES: usize = 10_000;
 
-/// Seconds that the levels of a study may take where it adds them and its file does not say.
+/// Default time in seconds for the levels of a study that adds levels.
 const BUDGET: f64 = 60.0;
 
 /// Values of one parameter, coarse to fine.
@@ -33,7 +33,7 @@ impl Sequence {
         if self.is_count() { 1.0 / value } else { value }
     }
 
-    /// What one value says: itself and, of a count, the nominal step.
+    /// The parameters of one value: itself and, for a count, the nominal step.
     fn parameters(&self, value: f64) -> Vec<Parameter> {
         match self.name {
             "n" => vec![("n", value), ("h", 1.0 / value)],
@@ -43,18 +43,18 @@ impl Sequence {
     }
 }
 
-/// What is refined; at least one of both.
+/// The sequences to refine; at least one of the two.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refine {
     pub(super) space: Option<Sequence>,
     pub(super) time: Option<Sequence>,
     /// All pairs, instead of both refined together.
     pub(super) grid: bool,
-    /// Levels are added until it is decided, for as many seconds.
+    /// Levels are added until there is a decision, for at most this many seconds.
     pub(super) budget: Option<f64>,
 }
 
-/// One case: what identifies it, and what its program receives.
+/// One case: its identification, and what its program receives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
     /// As in `[refine]`, such as `n = 8`.
@@ -70,7 +70,7 @@ pub struct Resolution {
 }
 
 impl Refine {
-    /// What is refined, for figures.
+    /// The refined quantity, for figures.
     pub(super) fn axis(&self) -> Axis {
         match (&self.space, &self.time) {
             (Some(_), Some(_)) => Axis::Both,
@@ -90,7 +90,7 @@ impl Refine {
         self.resolution(index, doubled(&self.space, level.h), doubled(&self.time, level.dt))
     }
 
-    /// All cases, coarse to fine; of a grid the time steps run first.
+    /// All cases, coarse to fine; for a grid the time steps run fastest.
     pub(super) fn resolutions(&self) -> Vec<Resolution> {
         let values = |sequence: &Option<Sequence>| match sequence {
             Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
@@ -138,7 +138,7 @@ impl Resolution {
         Refinement { label: self.label.clone(), parameters, step }
     }
 
-    /// All that the program receives, as one JSON object on one line; whole numbers have no point.
+    /// Everything that the program receives, as one JSON object on one line; whole numbers have no decimal point.
     pub(super) fn json(&self) -> String {
         let entries: Vec<String> = self.told.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
         format!("{{{}}}\n", entries.join(", "))
@@ -177,7 +177,7 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     Ok(Refine { space, time, grid, budget })
 }
 
-/// The list of one of two names; both together are refused.
+/// The list under one of two names; using both is refused.
 fn one_of(section: &Section<'_>, count: &'static str, step: &'static str) -> Result<Option<Sequence>, InputError> {
     match (section.get(count), section.get(step)) {
         (Some(_), Some(field)) => {

@@ -1,4 +1,4 @@
-//! What differs from the baseline, in Markdown: claims first and in full, then the numbers, of each study the worst.
+//! Differences from the baseline, in Markdown: claims first and in full, then the worst number of each study.
 
 use super::Findings;
 use super::markdown::{cell, table, text};
@@ -8,11 +8,11 @@ use crate::store::baseline::{Change, Movement};
 use crate::store::record::Record;
 use crate::text::number::short_text;
 
-/// A study's id as it is written, a link where the text can have one.
+/// A study's id in Markdown, with a link if the text can have one.
 pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
 
-/// Claims, the worst number of each study, how to accept them, and all numbers, folded; each part is empty where it has nothing to
-/// say, and ends with an empty line.
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may be empty, otherwise
+/// it ends with an empty line.
 pub(super) fn parts(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
         findings.moves().iter().partition(|change| change.movement.needs_a_reason());
@@ -45,7 +45,7 @@ fn worst(changes: &[&Change], link: Link<'_>) -> String {
         .chunk_by(|one, next| one.study == next.study)
         .filter_map(|of_study| Some((heaviest(of_study)?, of_study.len())))
         .collect();
-    // A stable order: of equals the first ones.
+    // The sort is stable: of equals the first ones win.
     studies.sort_by(|(a, _), (b, _)| b.movement.weight().total_cmp(&a.movement.weight()));
     let row = |(change, count): &(&Change, usize)| {
         let Change { study, movement, .. } = change;
@@ -61,7 +61,7 @@ fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
     changes.iter().rev().copied().max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
 }
 
-/// By how many times its tolerance a number has moved, with two digits; a dash where that cannot be said.
+/// By how many times its tolerance a number has moved, with two digits; a dash if that is undefined.
 fn times(movement: &Movement) -> String {
     let weight = movement.weight();
     if weight == 0.0 || !weight.is_finite() {
@@ -70,7 +70,7 @@ fn times(movement: &Movement) -> String {
     short_text(weight)
 }
 
-/// How they are accepted, or why they cannot be.
+/// How to accept them, or why that is refused.
 fn acceptance(findings: &Findings<'_>) -> String {
     let Findings { project, record: Record { command, studies, .. }, .. } = findings;
     match findings.moves() {
@@ -82,7 +82,7 @@ fn acceptance(findings: &Findings<'_>) -> String {
     }
 }
 
-/// Every number, folded; nothing where the table above has them all.
+/// Every number, folded; empty if the table above has them all.
 fn all(changes: &[&Change]) -> String {
     if changes.chunk_by(|one, next| one.study == next.study).all(|of_study| of_study.len() == 1) {
         return String::new();

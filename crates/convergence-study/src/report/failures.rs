@@ -1,4 +1,4 @@
-//! What did not pass, with its reasons: the first thing to read, on the page, in Markdown and on the terminal.
+//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the terminal.
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
@@ -16,10 +16,10 @@ use crate::study::kind::by_reason;
 use crate::study::levels::COMPLETION;
 use crate::study::outcome::Check;
 
-/// Reasons listed of one study; its section has all of them.
+/// Most reasons listed for one study; its section has all of them.
 const MOST_REASONS: usize = 8;
 
-/// The same on a terminal, where only the clearest failures are shown.
+/// The same on a terminal, which shows only the clearest failures.
 const SHOWN: usize = 2;
 
 const TITLE: &str = "what fails and what does not";
@@ -35,13 +35,13 @@ pub struct NotPassed {
     pub reasons: Vec<String>,
 }
 
-/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because others
-/// did not.
+/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because
+/// others did not.
 pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
     in_order(finished).into_iter().map(reasons).collect()
 }
 
-/// The same, whole.
+/// The same studies in full.
 pub(super) fn in_order(finished: &[Finished]) -> Vec<&Finished> {
     let mut studies: Vec<&Finished> =
         finished.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass).collect();
@@ -65,11 +65,11 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
     let advice = Reason::ALL.into_iter().filter(|&reason| rates.clone().any(|(_, rate)| rate.kind == reason));
     let advice: Vec<String> = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice())).collect();
     let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
-    // That cases are missing is said with their reasons.
+    // The reasons already say that cases are missing.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
     let checks = outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass && !is_said(check));
     let checks = checks.map(|check| format!("{}: {}", check.claim, check.evidence));
-    // What is missing first: rates and checks fail for it.
+    // Missing cases first: they make rates and checks fail.
     let cases = by_reason(failed_cases.iter().map(|failed| (&*failed.label, &*failed.reason)));
     let cases = cases.into_iter().map(|line| format!("case {line}"));
     let mut reasons: Vec<String> = cases.chain(rates).chain(checks).collect();
@@ -85,7 +85,7 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
     NotPassed { id: header.id.clone(), verdict: outcome.verdict, reasons }
 }
 
-/// The same, the clearest first; how many of them are shown, the others being folded.
+/// The same, the clearest first, and how many of them are shown; the others are folded.
 fn clearest_first(record: &Record) -> (Vec<NotPassed>, usize) {
     let mut studies = not_passed(&record.studies);
     let Some(Diagnosis { clearest, .. }) = &record.diagnosis else { return (studies, usize::MAX) };
@@ -94,7 +94,7 @@ fn clearest_first(record: &Record) -> (Vec<NotPassed>, usize) {
     (studies, clearest.len())
 }
 
-/// The same in Markdown, under a heading; empty where everything passed.
+/// The same in Markdown, under a heading; empty if everything passed.
 ///
 /// * `linked`: whether each id is a link to the section of its study.
 pub(super) fn markdown(record: &Record, linked: bool) -> String {
@@ -133,9 +133,9 @@ pub(super) fn html(record: &Record) -> String {
     }
 }
 
-/// The same in plain text; empty where everything passed.
+/// The same in plain text; empty if everything passed.
 ///
-/// * `clearest`: the studies that are shown, with their first reasons; all of them, with all of their reasons, where it is `None`.
+/// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all their reasons.
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let line = |NotPassed { id, verdict, reasons }: NotPassed| {
         let reasons: String = reasons.iter().map(|reason| format!("  {}\n", visible(reason))).collect();
@@ -153,7 +153,7 @@ pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> S
     studies.into_iter().map(line).collect()
 }
 
-/// Leaves the first reasons; the first advice.
+/// Keeps only the first reasons; returns the first advice.
 fn shorten(NotPassed { reasons, .. }: &mut NotPassed) -> Option<String> {
     let is_advice = |line: &String| Reason::ALL.iter().any(|reason| line.starts_with(&format!("{}: ", reason.code())));
     let advice = reasons.iter().find(|line| is_advice(line)).cloned();
@@ -166,13 +166,13 @@ fn shorten(NotPassed { reasons, .. }: &mut NotPassed) -> Option<String> {
     advice
 }
 
-/// What is known of the cause, line by line under a title.
+/// The known facts about the cause, line by line under a title.
 pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
     let line = |(word, text): (&str, String)| format!("  {word:<10} {}\n", visible(&text));
     format!("{TITLE}\n{}", diagnosis.lines().into_iter().map(line).collect::<String>())
 }
 
-/// The same in Markdown; empty where nothing fails.
+/// The same in Markdown; empty if nothing fails.
 pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     let Some(diagnosis) = diagnosis else { return String::new() };
     let line = |(word, words): (&str, String)| format!("- **{word}**: {}\n", text(&words)).replace("**** ", "");

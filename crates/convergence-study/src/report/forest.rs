@@ -11,10 +11,10 @@ use crate::text::number::order_text;
 
 /// The name of its file.
 ///
-/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is no figure of any study.
+/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's figure.
 pub(super) const FILE: &str = "rates.svg";
 
-/// Every judged rate relative to its claim, studies in groups; `None` where no rate was judged.
+/// Every judged rate relative to its claim, studies in groups; `None` if no rate was judged.
 pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
     let group = |(label, studies): (&str, Vec<&Finished>)| {
         let rows: Vec<ForestRow> = studies.into_iter().filter_map(row).collect();
@@ -33,7 +33,7 @@ pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure>
     Some(Figure { file: FILE.to_owned(), caption, svg: forest(&Forest { title, groups }) })
 }
 
-/// Studies by what they claim, in the project's order of groups; those of no known group last.
+/// Studies by the property they claim, in the project's order of groups; those of unknown groups last.
 pub(super) fn grouped<'f>(project: &Project, finished: &'f [Finished]) -> Vec<(&'f str, Vec<&'f Finished>)> {
     let mut groups = lists::grouped(finished.iter().map(|study| (study.header.group.as_str(), study)));
     let place = |label: &str| project.groups.iter().position(|group| *group == label).unwrap_or(usize::MAX);
@@ -47,10 +47,10 @@ fn row(study: &Finished) -> Option<ForestRow> {
     (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates, note })
 }
 
-/// Claims that a picture has room for beside the rates of one study.
+/// Most claims that fit next to the rates of one study.
 const MOST_CLAIMS: usize = 2;
 
-/// The rates that fail, those of one order together: `1.000 to 1.004, claimed 2`; empty where none does.
+/// The failing rates, grouped by order: `1.000 to 1.004, claimed 2`; empty if none fails.
 fn failed(study: &Finished) -> String {
     let rates = study.outcome.rates.iter().map(|(_, rate)| (rate.order, rate));
     let orders = lists::grouped(rates.filter(|(_, rate)| rate.verdict == Verdict::Fail && rate.fitted.is_some()));

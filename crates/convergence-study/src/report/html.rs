@@ -1,7 +1,7 @@
 //! Markdown of the report as HTML.
 //!
-//! Texts of studies are set in Markdown as what they say; should one of them slip through as markup, it ends here: tags
-//! that the report does not write itself are shown, not obeyed, and pictures are those of the study.
+//! Texts of studies are already escaped in Markdown. If one of them slips through as markup, it stops here: tags that
+//! the report does not write itself are shown as text, and pictures are those of the study.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
@@ -9,12 +9,12 @@ use super::forest;
 use crate::judge::verdict::Verdict;
 use crate::study::outcome::Figure;
 
-/// Converts a piece of the report; pictures are put in place.
+/// Converts a piece of the report; pictures are inserted in place.
 pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     let mut events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut kept = Vec::new();
     let mut links = Links::default();
-    // What is written ahead of a table is its title.
+    // The text before a table is its title.
     let mut title = String::new();
     while let Some(event) = events.next() {
         match event {
@@ -48,12 +48,12 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     html
 }
 
-/// The links that are open: whether each leads to a place of the page.
+/// The links that are open: whether each leads to a place on the page.
 #[derive(Default)]
 struct Links(Vec<bool>);
 
 impl Links {
-    /// An event without the power to load anything, to leave the page or to run anything.
+    /// An event that can load nothing, run nothing and not leave the page.
     fn tamed<'e>(&mut self, event: Event<'e>) -> Option<Event<'e>> {
         match event {
             Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
@@ -72,7 +72,7 @@ impl Links {
 const OWN_TAGS: [&str; 9] =
     ["<details>", "<details open=\"\">", "</details>", "<summary>", "</summary>", "<b>", "</b>", "<code>", "</code>"];
 
-/// Whether this is markup that the report writes, which is that of folded tables.
+/// Whether this is markup that the report writes, that of folded tables.
 fn is_own(text: &str) -> bool {
     !without_own_tags(text).contains('<')
 }
@@ -89,11 +89,11 @@ fn plain(events: &[Event<'_>]) -> String {
     events.iter().map(text).collect()
 }
 
-/// The picture that a paragraph consists of, in place.
+/// The picture that a paragraph consists of, in its place.
 fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
     let [Event::Start(Tag::Image { dest_url, .. }), .., Event::End(TagEnd::Image)] = paragraph else { return None };
     let figure = figures.iter().find(|figure| dest_url.strip_prefix("figures/") == Some(figure.file.as_str()))?;
-    // The picture of all rates has too many words to be read small.
+    // The picture of all rates has too many words to be legible when small.
     let class = if figure.file == forest::FILE { "scroll wide" } else { "scroll" };
     Some(format!(
         "<figure class=\"{class}\" tabindex=\"0\" aria-label=\"{}\">\n{}</figure>\n",
@@ -102,12 +102,12 @@ fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
     ))
 }
 
-/// A verdict on its colour.
+/// A verdict with its colour.
 pub(super) fn badge(verdict: Verdict) -> String {
     format!("<span class=\"badge {0}\">{0}</span>", verdict.name())
 }
 
-/// Text as it is to be read, in an element or an attribute.
+/// Text that reads the same, in an element or an attribute.
 pub(super) fn escape(raw: &str) -> String {
     let mut escaped = String::with_capacity(raw.len());
     for c in raw.chars() {
@@ -127,7 +127,7 @@ pub(super) fn escape(raw: &str) -> String {
 /// The same, with code in backticks.
 pub(super) fn phrase(raw: &str) -> String {
     let parts: Vec<String> = raw.split('`').map(escape).collect();
-    // Backticks that do not come in pairs are no code.
+    // Unpaired backticks are not code.
     if parts.len().is_multiple_of(2) {
         return parts.join("`");
     }
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn markup_that_is_not_the_reports_own_is_shown() {
-        // Backticks of three lengths: Markdown takes none of them for code.
+        // Backticks of three lengths: Markdown treats none of them as code.
         for text in
             ["``` <script>alert(1)</script> ` ``", "a\n\n<script>alert(1)</script>\n\nb", "<img src=x onerror=y>"]
         {

@@ -1,8 +1,8 @@
-//! Text set in Markdown without a change of its meaning.
+//! Text set in Markdown without changing its meaning.
 
 use crate::text::columns::Columns;
 
-/// Text as it is to be read: no character of it is taken for markup, code in backticks excepted.
+/// Text that reads the same: no character of it is taken for markup, except for code in backticks.
 pub(super) fn text(raw: &str) -> String {
     escape(raw, false)
 }
@@ -13,7 +13,7 @@ pub(super) fn cell(raw: &str) -> String {
 }
 
 fn escape(raw: &str, in_table: bool) -> String {
-    // Backticks that do not come in pairs are no code.
+    // Unpaired backticks are not code.
     let has_code = raw.matches('`').count().is_multiple_of(2);
     let mut in_code = false;
     let mut escaped = String::with_capacity(raw.len());
@@ -21,7 +21,7 @@ fn escape(raw: &str, in_table: bool) -> String {
     let mut before = ' ';
     while let Some(c) = rest.next() {
         let c = if c.is_control() { ' ' } else { c };
-        // Within a word it is no markup.
+        // Within a word it is not markup.
         let is_within = before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
         let is_markup = matches!(c, '\\' | '*' | '`' | '[' | ']') || (c == '_' && !is_within);
         before = c;
@@ -36,13 +36,13 @@ fn escape(raw: &str, in_table: bool) -> String {
     escaped
 }
 
-/// The name by which a heading is linked to: small letters, digits, `-` and `_`; a space is a `-`.
+/// The anchor of a heading: small letters, digits, `-` and `_`; a space becomes a `-`.
 pub(super) fn anchor(heading: &str) -> String {
     let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '));
     kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
-/// A table whose columns line up in the source too. Cells are escaped already.
+/// A table whose columns line up in the source too. The cells are already escaped.
 pub(super) fn table<H: AsRef<str>>(head: &[H], rows: Vec<Vec<String>>) -> String {
     let head: Vec<String> = head.iter().map(|title| title.as_ref().to_owned()).collect();
     let columns = Columns::of(&head, &rows);

@@ -1,7 +1,7 @@
-//! The report for readers: what was claimed, what was found, and how to see it again. It reads, it never computes.
+//! The report for readers: what was claimed, what was found, and how to see it again. It only reads, it never computes.
 //!
-//! The same outcomes give the same bytes, but for the page: it says which commit, day and machine it comes from, where that is
-//! given, and is not to be committed.
+//! The same outcomes give the same bytes, except for the page: it names its commit, day and machine, if given, and
+//! should not be committed.
 
 mod changes;
 mod failures;
@@ -34,7 +34,7 @@ pub use section::markdown;
 pub use tables::tables;
 pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};
 
-/// What is reported on.
+/// The subject of a report.
 #[derive(Debug, Clone, Copy)]
 pub struct Findings<'f> {
     /// Whose studies they are.
@@ -43,18 +43,18 @@ pub struct Findings<'f> {
     pub record: &'f Record,
     /// Another report to point to.
     pub see_also: Option<SeeAlso<'f>>,
-    /// Where the run comes from: for the page alone.
+    /// Where the run comes from: only for the page.
     pub provenance: Option<&'f Provenance>,
 }
 
-/// Another report, by paths from the folder of this one.
+/// Another report, with paths from the folder of this one.
 #[derive(Debug, Clone, Copy)]
 pub struct SeeAlso<'f> {
     /// What it is.
     pub title: &'f str,
     /// Its Markdown, which is committed.
     pub readme: &'f str,
-    /// What the page links to: its page, or its Markdown where there is no page.
+    /// The target of the page's link: the other page, or its Markdown if it has no page.
     pub page: &'f str,
 }
 
@@ -62,10 +62,10 @@ pub struct SeeAlso<'f> {
 pub const LONGEST: usize = 65_000;
 
 impl Findings<'_> {
-    /// All files of a report; all but `index.html` are the same bytes for the same outcomes.
+    /// All files of a report; all except `index.html` have the same bytes for the same outcomes.
     ///
     /// # Errors
-    /// Two figures of one name, and what the writers of JSON and XML refuse.
+    /// Two figures with the same name, and errors of the writers of JSON and XML.
     pub fn files(&self) -> io::Result<ReportSet> {
         let Self { project, record, .. } = self;
         let mut set = ReportSet::default();
@@ -125,20 +125,20 @@ impl Findings<'_> {
         page
     }
 
-    /// A study's id in Markdown; a link to its section where it has one.
+    /// A study's id in Markdown; a link to its section if it has one.
     fn linked(&self, id: &str, anchor: &str) -> String {
         let has_a_section = self.record.studies.iter().any(|finished| finished.header.id == id);
         if has_a_section { format!("[{}](#{anchor})", cell(id)) } else { cell(id) }
     }
 
-    /// The same as one page that needs nothing else.
+    /// The same as one self-contained page.
     pub fn page(&self) -> String {
         page::page(self)
     }
 
-    /// What of the report fits on one page of a continuous integration and in a comment: no links, no sections.
+    /// The part of the report for the page of a CI run and for a comment: no links, no sections.
     ///
-    /// What does not pass comes first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
+    /// Failures come first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
     pub fn digest(&self) -> String {
         let mut digest = format!("## Verification, {}\n\n{}", self.record.scope, self.verdict_line());
         let passes = self.record.studies.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
@@ -165,7 +165,7 @@ impl Findings<'_> {
 
     /// The command that runs a study again.
     pub(super) fn again(&self, finished: &Finished) -> String {
-        // What is compared with the baseline is what `verify` runs, which knows each study by its id.
+        // Numbers compared with the baseline come from `verify`, which knows each study by its id.
         if self.record.changes.is_some() {
             format!("{} verify {}", self.project.command, finished.header.id)
         } else {
@@ -196,7 +196,7 @@ impl Findings<'_> {
         forest::grouped(self.project, &self.record.studies).into_iter().map(table).collect()
     }
 
-    /// Errors in long form, one a line.
+    /// Errors in long form, one per line.
     pub fn errors_csv(&self) -> String {
         let levels = || self.record.studies.iter().flat_map(|finished| &finished.outcome.levels);
         let parameters = distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
@@ -220,7 +220,7 @@ impl Findings<'_> {
     }
 }
 
-/// A field of a CSV line, in quotes where it needs them (RFC 4180).
+/// A field of a CSV line, in quotes if needed (RFC 4180).
 fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

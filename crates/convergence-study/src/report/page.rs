@@ -1,6 +1,6 @@
-//! The report as one page that needs nothing else: no network, no other file. Without scripts it reads as well.
+//! The report as one self-contained page: no network, no other file. It reads as well without scripts.
 //!
-//! Its elements are closed as XML wants it, so that tests can read it.
+//! Its elements are closed as in XML, so that tests can parse it.
 
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
@@ -9,20 +9,20 @@ use super::{changes, failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 
-/// Studies that do not pass and are unfolded; more would fill screens.
+/// Most failing studies that are unfolded; more would fill screens.
 const OPEN: usize = 3;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
 const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), include_str!("picture.js")];
 
-/// Nothing is loaded from anywhere, whatever a study's text holds.
+/// Nothing is loaded from anywhere, whatever a study's text contains.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// The page: verdicts first, then the studies, folded but for those that do not pass.
+/// The page: verdicts first, then the studies, all folded except those that do not pass.
 pub(super) fn page(findings: &Findings<'_>) -> String {
     let groups = groups(findings);
     let listed = groups.iter().flat_map(|(_, studies)| studies);
-    // Those that do not pass stand first: the first of them are open.
+    // Those that do not pass come first: the first of them are open.
     let each = |(k, finished): (usize, &&Finished)| study(finished, &findings.again(finished), k < OPEN);
     let studies: String = listed.enumerate().map(each).collect();
     let scripts: String = SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
@@ -48,7 +48,7 @@ fn head(findings: &Findings<'_>) -> String {
     )
 }
 
-/// What did not pass, what changed, where the report comes from, and all rates in one picture.
+/// What did not pass, what changed, the origin of the report, and all rates in one picture.
 fn front(findings: &Findings<'_>) -> String {
     let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
     let picture = findings.rates().map(|figure| html(&section::figure(&figure), &[figure]));
@@ -61,7 +61,7 @@ fn front(findings: &Findings<'_>) -> String {
         + &picture.unwrap_or_default()
 }
 
-/// What wrote the report, which other one there is, and which commit, day and machine it comes from.
+/// What wrote the report, which other report exists, and its commit, day and machine.
 fn origin(findings: &Findings<'_>) -> String {
     let mut origin = format!(
         "<p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
@@ -81,7 +81,7 @@ fn origin(findings: &Findings<'_>) -> String {
 /// Studies with their group, in the order of the page.
 type Groups<'f> = Vec<(&'f str, Vec<&'f Finished>)>;
 
-/// Those that did not pass, then the others by what they claim.
+/// Those that did not pass, then the others by the property they claim.
 fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
     let mut groups = vec![("did not pass", failures::in_order(&findings.record.studies))];
     for (label, mut studies) in forest::grouped(findings.project, &findings.record.studies) {
@@ -92,7 +92,7 @@ fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
     groups
 }
 
-/// All verdicts in one table, below the controls, which scripts bring to life.
+/// All verdicts in one table, below the controls, which need scripts.
 fn overview(groups: &Groups<'_>) -> String {
     let row = |Finished { header, outcome, .. }: &Finished| {
         format!(

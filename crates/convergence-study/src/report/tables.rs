@@ -14,7 +14,7 @@ pub(super) const CHECKS: &str = "Checks";
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
 ///
-/// * `judged`: leave out errors whose rate was not judged.
+/// * `judged`: whether to leave out errors whose rate was not judged.
 pub fn tables(Finished { outcome, failed_cases, .. }: &Finished, judged: bool) -> Vec<Table> {
     let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors(outcome, judged));
     let own = outcome.tables.iter().cloned();
@@ -38,7 +38,7 @@ fn rates(outcome: &Outcome) -> Table {
             number(rate.extrapolated),
             levels(rate),
             rate.verdict.name().to_owned(),
-            // The numbers of a reason are in the other columns, and so is all that a pass needs.
+            // The numbers of a reason are in the other columns, which are all that a pass needs.
             if rate.verdict == Verdict::Pass { String::new() } else { rate.kind.text().to_owned() },
         ]
     };
@@ -52,7 +52,7 @@ fn rates(outcome: &Outcome) -> Table {
     rates
 }
 
-/// The levels that the rate was fitted to, counted from the coarsest; without a fit it is that of the finest pair.
+/// The levels that the rate was fitted to, counted from the coarsest; without a fit, those of the finest pair.
 fn levels(rate: &RateVerdict) -> String {
     let all = if rate.pairwise.is_empty() { 0 } else { rate.pairwise.len() + 1 };
     match (rate.used.is_empty(), rate.finest_rate()) {
@@ -72,18 +72,18 @@ fn failures(failed: &[FailedCase]) -> Table {
     table("Cases without a result", ["case", "reason"], failed.iter().map(row))
 }
 
-/// Widest table in characters, with three for the gap between columns: so much fits on the page, and nearly so in Markdown.
+/// Widest table in characters, with three for the gap between columns: this fits on the page, and nearly in Markdown.
 const WIDEST: usize = 120;
 
-/// A parameter of the levels; or the errors of one name on the levels that have them, and the rate from the one before.
+/// A parameter of the levels; or the errors of one name on their levels, with the rate from the previous level.
 struct Column {
-    /// Name, and the word over the rates where there are any.
+    /// Name, and the word above the rates, if there are any.
     head: Vec<String>,
-    /// For each level: nothing, or cells as many as heads.
+    /// For each level: nothing, or as many cells as heads.
     cells: Vec<Option<Vec<String>>>,
 }
 
-/// As many tables as it takes for none to be cut: a row for each level, and for each error its rates where it was judged.
+/// As many tables as needed to cut none: a row for each level, and for each error its rates if it was judged.
 ///
 /// * `judged`: only errors whose rate was judged, unless none was.
 fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
@@ -107,7 +107,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
     let identified: Vec<Column> = parameters.into_iter().map(|name| Column::of_parameter(outcome, name)).collect();
     let table = |(k, columns): (usize, Vec<Column>)| {
         let columns: Vec<&Column> = identified.iter().chain(&columns).collect();
-        // The levels on which there are such errors.
+        // The levels that have these errors.
         let row = |level: usize| columns.iter().map(|column| column.cells[level].clone()).collect::<Option<Vec<_>>>();
         Table::new(
             if k == 0 { "Errors" } else { "Errors, continued" },
@@ -133,7 +133,7 @@ impl Column {
         };
         let errors: Vec<Option<Option<f64>>> = outcome.levels.iter().map(found).collect();
         let judged = outcome.rates.iter().find(|(known, _)| known == name);
-        // Rates belong to levels only where each level is one of those judged.
+        // Rates belong to levels only if each level is one of those judged.
         let count = errors.iter().flatten().count();
         let pairwise = judged.map(|(_, rate)| &rate.pairwise).filter(|pairwise| pairwise.len() + 1 == count);
         let mut met = 0;

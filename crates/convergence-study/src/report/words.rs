@@ -9,12 +9,12 @@ use crate::study::outcome::Outcome;
 use crate::text::lists::{self, and_more};
 use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text};
 
-/// Studies that a sentence names.
+/// Most studies that a sentence names.
 const NAMED: usize = 3;
 
 /// The verdict on a run in one line, without the verdict itself.
 ///
-/// * `changes`: what moved away from the baseline; `None` where there was none to compare with.
+/// * `changes`: what moved away from the baseline; `None` without a baseline.
 pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
     let of = |verdict: Verdict| {
         let ids = finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
@@ -70,9 +70,9 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     }
 }
 
-/// The command that blesses these changes: of the full tier where a study changed that was not run, with a reason where a claim did.
+/// The command that blesses these changes: for the full tier if a study changed that was not run, with a reason if a claim did.
 ///
-/// * `command`: what was run.
+/// * `command`: the command that was run.
 pub fn blessing(project: &Project, command: &str, finished: &[Finished], changes: &[Change]) -> String {
     let was_run = |change: &Change| finished.iter().any(|finished| finished.header.id == change.study);
     let is_gone =
@@ -83,12 +83,12 @@ pub fn blessing(project: &Project, command: &str, finished: &[Finished], changes
     format!("{} --bless{reason}", if all_run { command } else { &full })
 }
 
-/// Whether `--bless` would be accepted: it is refused where a study does not pass.
+/// Whether `--bless` would be accepted: it is refused if a study does not pass.
 pub fn can_be_blessed(finished: &[Finished]) -> bool {
     finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
 
-/// The numbers to read first: the study's own, or the rate that decides against its order; then what does not pass.
+/// The numbers to read first: the study's own, or the rate that decides against its order; then the failures.
 pub fn key_numbers(outcome: &Outcome) -> String {
     let Outcome { headline, rates, checks, .. } = outcome;
     let mut parts = if headline.is_empty() { of_rates(rates) } else { vec![headline.clone()] };
@@ -101,7 +101,7 @@ pub fn key_numbers(outcome: &Outcome) -> String {
     }
 }
 
-/// What a study says of itself in a sentence. Rates that do not pass are grouped there by reason and claim: a table has each of them.
+/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
     let each = levels::summary(&outcome.rates);
     if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
@@ -110,7 +110,7 @@ pub fn summary(outcome: &Outcome) -> String {
     outcome.summary.replacen(&each, &grouped(&outcome.rates), 1)
 }
 
-/// The rates that do not pass, those of one reason and one claim together: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
+/// The rates that do not pass, grouped by reason and claim: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
     let missed = rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
     let groups = lists::grouped(missed.map(|missed| ((missed.1.kind, missed.1.claim()), missed)));
@@ -139,16 +139,16 @@ pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String 
     if low == high { low } else { format!("{low} to {high}") }
 }
 
-/// The worst rate, and how far the others are from their orders at most.
+/// The worst rate, and the largest distance of the others from their orders.
 fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
-    // The last of the worst would do as well; the first is the one that the study names first.
+    // Of several worst rates, the first that the study names.
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
     let fitted = worst.fitted.map_or_else(|| worst.rate_in_words(RATE_PLACES), |fitted| rate_text(Some(fitted)));
     let mut parts = vec![format!("{name} {fitted} (order {})", order_text(worst.order))];
     let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1) {
-        // Rates are kept with four decimals: nothing can be said to be closer.
+        // Rates are kept with four decimals: smaller distances cannot be stated.
         let farthest = distances.into_iter().fold(1e-4, f64::max);
         parts.push(format!("{} rates within {farthest:.4} of their orders", rates.len()));
     }

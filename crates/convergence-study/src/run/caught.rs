@@ -9,13 +9,13 @@ thread_local! {
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// What `compute` returns, or why it panicked: the message, with file and line.
+/// The result of `compute`, or the message of its panic, with file and line.
 ///
-/// Nothing is printed for a panic in here; panics elsewhere are reported as before.
+/// Panics in here print nothing; panics elsewhere are reported as usual.
 pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let before = WATCHED.replace(true);
-    // What a panic leaves half done lives inside `compute` and goes with it: studies are shared as `&self` only.
+    // State that a panic leaves half done lives inside `compute` and goes with it: studies are shared only as `&self`.
     let result = panic::catch_unwind(AssertUnwindSafe(compute));
     WATCHED.set(before);
     result.map_err(|_| LAST.take().unwrap_or_else(|| "panicked".to_owned()))
@@ -46,7 +46,7 @@ fn message(info: &PanicHookInfo<'_>) -> String {
     }
 }
 
-/// The name without its folders, which may be those of one machine and would stand in committed reports.
+/// The name without its folders, which may depend on the machine and would appear in committed reports.
 fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }

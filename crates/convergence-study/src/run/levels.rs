@@ -1,4 +1,4 @@
-//! Levels of a function, run and asserted in a line: what a test of a solver needs.
+//! Levels of a function, run and asserted in one line, for tests of a solver.
 
 use super::{Finished, run_one};
 use crate::judge::fit::Level;
@@ -11,8 +11,8 @@ use crate::study::{ErrorsOverLevels, IntoErrors};
 /// * `h`: the steps, coarse to fine; `errors`: the errors at these steps.
 ///
 /// # Panics
-/// Unless the verdict is a pass, with the table, the rate, its interval, the reason and what to do; inconclusive is no pass. And where there
-/// are not as many errors as steps.
+/// Unless the verdict is a pass; the message has the table, the rate, its interval, the reason and what to do.
+/// Inconclusive is not a pass. Also if the numbers of errors and steps differ.
 ///
 /// ```
 /// let h = [0.1, 0.05, 0.025, 0.0125];
@@ -50,10 +50,10 @@ where
 }
 
 impl Finished {
-    /// Does nothing for a study that passes.
+    /// Asserts that the study passes.
     ///
     /// # Panics
-    /// Unless the verdict is a pass, with the table of errors and rates, the reasons and what to do; inconclusive is no pass.
+    /// Unless the verdict is a pass, with the table of errors and rates, the reasons and what to do; inconclusive is not a pass.
     #[track_caller]
     pub fn assert_passes(&self) {
         assert!(self.outcome.verdict.is_pass(), "{}", self.explained());

@@ -1,8 +1,8 @@
-//! Runs the cases of all studies on all threads; the one place that knows of threads.
+//! Runs the cases of all studies on all threads; only this module uses threads.
 //!
-//! Parallel across cases only: a case is computed by one thread from start to end and the results are put back into the
-//! order of the cases, so an [`Outcome`] has the same bits for any number of threads. What varies from run to run, the
-//! time, is kept apart in [`Spent`].
+//! Parallel across cases only: one thread computes a case from start to end, and the results are put back into the
+//! order of the cases, so an [`Outcome`] has the same bits for any number of threads. The time varies from run to run
+//! and is kept separately in [`Spent`].
 
 mod caught;
 mod levels;
@@ -42,13 +42,13 @@ pub struct Finished {
     pub failed_cases: Vec<FailedCase>,
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
-    /// What the study is no test of although it passes; only `study` looks for it.
+    /// What the study fails to test although it passes; only `study` searches for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub untested: Vec<Untested>,
-    /// The time that it took, which differs from run to run.
+    /// The time taken, which differs from run to run.
     #[serde(skip)]
     pub spent: Spent,
-    /// The work that each case has counted, by its label: the same at every run, and guarded by nothing.
+    /// The work that each case has counted, by its label: the same at every run, and not guarded.
     #[serde(skip)]
     pub work: Vec<(String, u64)>,
 }
@@ -66,20 +66,20 @@ pub struct FailedCase {
 /// Time spent on a study.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spent {
-    /// Sum over its cases, on whatever thread, and over judging their results.
+    /// Sum over its cases, on all threads, and over judging their results.
     pub busy: Duration,
     /// From the start of its first case to the end of its last one.
     pub wall: Duration,
     /// The number of its cases.
     pub cases: usize,
-    /// How many of them were not computed: their results are those of an earlier run.
+    /// How many of them were not computed: their results come from an earlier run.
     pub kept: usize,
 }
 
 /// Why nothing was run.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// Two studies have the same id, by which baseline and report tell studies apart.
+    /// Two studies have the same id, which baseline and report need to be unique.
     #[error("found two studies with the id `{0}`; expected an id of its own for each study")]
     DuplicateId(String),
     /// The operating system refuses the threads.
@@ -94,7 +94,7 @@ pub struct Effort {
     pub jobs: NonZeroUsize,
     /// The longest time that a case may take; `None` for no limit.
     pub case_limit: Option<Duration>,
-    /// Whether no case begins once a study has failed: those that had not ended are then left out.
+    /// Whether no case begins after a study has failed: studies that had not ended are then left out.
     pub fail_fast: bool,
 }
 
@@ -111,13 +111,13 @@ impl From<NonZeroUsize> for Effort {
 ///
 /// * `effort`: threads and time, or the number of threads alone.
 /// * `progress`: called after every case, by one thread at a time.
-/// * Returns the studies in the order in which they were given.
+/// * Returns the studies in the order given.
 ///
-/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A study that panics
-/// while listing its cases or judging them fails; so does one of which a case was stopped at its limit.
+/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A study fails if it
+/// panics while listing its cases or judging them, or if one of its cases was stopped at its limit.
 ///
 /// # Errors
-/// [`RunError`], before anything was run.
+/// [`RunError`], before anything is run.
 pub fn run(
     studies: &[Box<dyn Study>],
     effort: impl Into<Effort>,
@@ -126,7 +126,7 @@ pub fn run(
     run_within(studies, effort.into(), &|_, _| None, progress)
 }
 
-/// The same with a limit on the work of each case: a case that goes past it fails.
+/// The same with a limit on the work of each case: a case that exceeds it fails.
 pub fn run_within(
     studies: &[Box<dyn Study>],
     effort: Effort,
@@ -163,7 +163,7 @@ fn run_planned(
     // Threads without a case would only be started and ended.
     let pool = ThreadPoolBuilder::new().num_threads(effort.jobs.get().min(cases.max(1))).build()?;
     run_cases(&pool, &planned, effort, allowed, progress);
-    // A study without cases ends here. With `fail_fast` others may not have ended: they are left out.
+    // A study without cases ends here. With `fail_fast` other studies may not have ended: they are left out.
     let of = |planned: Planned<'_>| {
         let own = || planned.cases.is_empty().then(|| conclude(&planned, &[]));
         planned.finished.get().cloned().or_else(own)
@@ -171,7 +171,7 @@ fn run_planned(
     Ok(planned.into_iter().filter_map(of).collect())
 }
 
-/// A study and its plan, or the message of the panic that listing its cases ended in.
+/// A study and its plan, or the message of the panic while listing its cases.
 struct Planned<'s> {
     header: &'s Header,
     plan: Result<Box<dyn Plan + 's>, String>,
@@ -196,7 +196,7 @@ impl<'s> Planned<'s> {
         Self { header, plan, cases, done: Mutex::default(), finished: OnceLock::new() }
     }
 
-    /// Takes note that a case has ended: all of them, where it was the last.
+    /// Records that a case has ended; returns all of them if it was the last.
     fn ended(&self, case: Done) -> Option<Vec<Done>> {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.push(case);
@@ -232,7 +232,7 @@ fn run_cases(
         counter.enter(&job);
         let first = run_case(planned, effort.case_limit, allowed, job);
         let ended = planned.ended(first).map(|mut done| {
-            // A study that asks for more cases gets them one after the other, on this thread.
+            // If a study requests more cases, they run one after the other, on this thread.
             let more = |plan: &dyn Plan| {
                 caught(|| plan.more()).unwrap_or_else(|reason| {
                     plan.fail(job.case, CaseFailure { reason });
@@ -251,7 +251,7 @@ fn run_cases(
         });
         counter.count(&job, ended);
     };
-    // A parallel iterator over the vector would cut it in halves; the bridge hands out one job after the other.
+    // A parallel iterator over the vector would split it in halves; the bridge hands out one job after the other.
     pool.install(|| jobs.into_iter().par_bridge().for_each(run));
 }
 
@@ -259,7 +259,7 @@ fn run_cases(
 fn run_case(planned: &Planned<'_>, limit: Option<Duration>, allowed: Allowed<'_>, job: Job) -> Done {
     job.time(|| {
         let Ok(plan) = &planned.plan else { return 0 };
-        // Cases that were asked for later are the plan's alone.
+        // The plan alone knows cases that were requested later.
         let label = planned.cases.get(job.case).map(|case| case.label.clone());
         let label = label.or_else(|| plan.cases().get(job.case).map(|case| case.label.clone()));
         let most = allowed(planned.header, &label.unwrap_or_default());
@@ -299,7 +299,7 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
         Err(reason) => broken("list its cases", reason),
     };
     spent.busy += started.elapsed();
-    // Whatever the study makes of it: a failed case cannot pass.
+    // Whatever the study concludes: a failed case cannot pass.
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
         outcome.checks.push(Check::that(false, "every case has a result", format!("{} have none", failed_cases.len())));
     }

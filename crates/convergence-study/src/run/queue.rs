@@ -18,7 +18,7 @@ pub struct Progress {
     pub done_cost: f64,
     /// Cost of all cases.
     pub cost: f64,
-    /// The study, by its place in the list, whose last case this was, and its verdict.
+    /// The study, by its index in the list, whose last case this was, and its verdict.
     pub ended: Option<(usize, Verdict)>,
     /// The study whose case has been running longest.
     pub running: Option<usize>,
@@ -42,7 +42,7 @@ pub(super) struct Done {
 }
 
 impl Job {
-    /// Runs it, which returns its work, and reads the clock before and after.
+    /// Runs it, reading the clock before and after; `run` returns the work.
     pub(super) fn time(&self, run: impl FnOnce() -> u64) -> Done {
         let started = Instant::now();
         let work = run();
@@ -83,7 +83,7 @@ pub(super) struct Counter<'p> {
 
 struct Now {
     progress: Progress,
-    /// The studies of the cases that run, those first that began first.
+    /// The studies of the running cases, in the order in which these began.
     running: Vec<usize>,
 }
 
@@ -98,14 +98,14 @@ impl<'p> Counter<'p> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes note that a case begins.
+    /// Records that a case begins.
     pub(super) fn enter(&self, job: &Job) {
         self.now().running.push(job.study);
     }
 
-    /// Reports while it holds the lock, so that the reported numbers only grow.
+    /// Reports while holding the lock, so that the reported numbers only grow.
     ///
-    /// * `ended`: the verdict on its study, where that has ended with it.
+    /// * `ended`: the verdict on its study, if this case was its last.
     pub(super) fn count(&self, job: &Job, ended: Option<Verdict>) {
         let mut now = self.now();
         let place = now.running.iter().position(|study| *study == job.study);

@@ -12,18 +12,18 @@ use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
-/// The bytes go to a file of their own beside it, which then takes its name. Missing folders are made.
+/// The bytes go to a separate file next to it, which then takes its name. Missing folders are created.
 ///
 /// # Errors
-/// That of the operating system, `path` named in front of it; the old file is then untouched and nothing stays behind.
+/// The error of the operating system, preceded by `path`; the old file is then untouched and nothing is left behind.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     write_with(path, |file| file.write_all(bytes.as_ref()))
 }
 
-/// As [`write()`], for content that is too long to be held in memory: `fill` writes it piece by piece.
+/// As [`write()`], for content too long for memory: `fill` writes it piece by piece.
 ///
 /// # Errors
-/// That of the operating system or of `fill`, `path` named in front of it; nothing stays behind.
+/// The error of the operating system or of `fill`, preceded by `path`; nothing is left behind.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     let naming = |error: io::Error| naming(path, &error);
     let _writing = writing::begin();
@@ -39,13 +39,13 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
     written.map_err(naming)
 }
 
-/// The file that [`prepare_folder`] tries a folder with, and removes.
+/// The file with which [`prepare_folder`] tests a folder; it is removed again.
 pub(crate) const PROBE: &str = "probe";
 
-/// Makes the folder, with those above it, and proves that files can be written to it.
+/// Creates the folder and those above it, and proves that files can be written to it.
 ///
 /// # Errors
-/// That of the operating system, `folder` named in front of it.
+/// The error of the operating system, preceded by `folder`.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     let naming = |error: io::Error| naming(folder, &error);
     fs::create_dir_all(folder).map_err(naming)?;

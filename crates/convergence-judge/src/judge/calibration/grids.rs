@@ -1,4 +1,4 @@
-//! Grids of h and dt whose orders are known: what the rule says of them, and of grids whose errors do not tend to zero.
+//! Grids of h and dt with known orders: what the rule says about them, and about grids whose errors do not tend to zero.
 //!
 //! `e^s = A(h)^s + B(dt)^s`, s = 1 or 2, with ratio 2, coarsest steps 1/8 to 1/2, `A = h^p (1 + a h^r)`, B likewise, p and q from 1/2 to 3, a and b in [-0.8, 2], r in [0.5, 2], and A / B
 //! from 1/30 to 30 in the middle. Where a lower order hides, `A = h^(p+1) + f h^p` with f from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
@@ -14,14 +14,14 @@ const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// Tolerance of the claims.
 const TOLERANCE: f64 = 0.2;
 
-/// A(h) + B(dt), or the root of their squares.
+/// A(h) + B(dt), or the root of the sum of their squares.
 struct Law {
     h: Vec<f64>,
     dt: Vec<f64>,
     orders: [f64; 2],
     pollution: [f64; 2],
     exponent: f64,
-    /// f of h^(p + 1) + f h^p; none where the grid is smooth.
+    /// f of h^(p + 1) + f h^p; `None` if the grid is smooth.
     hidden: Option<f64>,
     constant: f64,
     power: f64,
@@ -63,7 +63,7 @@ impl Law {
         self.constant * dt.powf(self.orders[1]) * (1.0 + self.pollution[1] * dt.powf(self.exponent))
     }
 
-    /// The errors, each changed.
+    /// The errors, each of them changed.
     fn errors(&self, mut change: impl FnMut(f64) -> f64) -> Vec<f64> {
         let power = |error: f64| error.powf(self.power);
         let error = |h: f64, dt: f64| (power(self.space(h)) + power(self.time(dt))).powf(1.0 / self.power);
@@ -74,7 +74,7 @@ impl Law {
             .collect()
     }
 
-    /// Both orders, judged by whichever of the two ways of adding describes the errors better.
+    /// Both orders, judged by the way of adding that describes the errors better.
     fn judge(&self, errors: &[f64]) -> Result<[RateVerdict; 2], CalibrationError> {
         let grid = GridErrors { h: &self.h, dt: &self.dt, errors };
         let squares = grid.misfit(Adding::Squares) <= grid.misfit(Adding::Plain);
@@ -89,7 +89,7 @@ fn both_pass(rates: &[RateVerdict; 2]) -> bool {
 
 /// The sheet *grids*.
 ///
-/// * `tables`: grids for each number of levels.
+/// * `tables`: number of grids for each number of levels.
 ///
 /// # Errors
 /// [`CalibrationError`].

@@ -20,7 +20,7 @@ pub struct Mesh {
     pub ratio: f64,
 }
 
-/// 3 to 12 levels, ratios 1.1 to 4: what is found in papers, sound or not.
+/// 3 to 12 levels, ratios 1.1 to 4: what papers use, sound or not.
 pub const WIDE: Meshes = Meshes { levels: &[3, 4, 5, 6, 8, 12], ratios: &[1.1, 1.3, 2.0, 4.0] };
 
 /// 4 to 8 levels, ratios 1.5 to 3: what a convergence study should have.
@@ -49,7 +49,7 @@ pub enum Group {
     Polluted,
     /// The factor before h^p never settles.
     Scattered,
-    /// A lower order shows in the end.
+    /// A lower order eventually shows.
     Emerging,
     /// The error does not tend to zero.
     Stagnating,
@@ -94,7 +94,7 @@ enum Shape {
     Saturated,
     /// h^p exp(σ h^s N)
     Noise { sigma: f64, a: [f64; 2], s: [f64; 2] },
-    /// h^p but for one level, which is up to 3 times too large or too small.
+    /// h^p, except that one level is up to 3 times too large or too small.
     Outlier,
 }
 
@@ -143,14 +143,14 @@ pub const LAWS: [Law; 29] = [
     law("noise 3 to 30 % that fades", Group::Scattered, Shape::Noise { sigma: 0.1, a: [0.0, 0.0], s: [0.5, 2.0] }),
 ];
 
-/// A sequence of errors and what is true of it.
+/// A sequence of errors with its true order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// The errors, coarsest first.
     pub levels: Vec<Level>,
-    /// The exponent p of the law: what the coarse levels of an emerging or stagnating law show.
+    /// The exponent p of the law: the order that the coarse levels of an emerging or stagnating law show.
     pub shown: f64,
-    /// The order at h → 0; none where the errors do not tend to zero.
+    /// The order at h → 0; `None` if the errors do not tend to zero.
     pub order: Option<f64>,
 }
 
@@ -161,7 +161,7 @@ impl Law {
         self.draw_at(&steps, random)
     }
 
-    /// The same at any steps, the first of them 1.
+    /// The same for any steps, the first of them 1.
     pub(crate) fn draw_at(&self, steps: &[f64], random: &mut SplitMix) -> Table {
         let mut shown = random.within([0.5, 4.0]);
         let mut order = Some(shown);
@@ -182,7 +182,7 @@ impl Shape {
     /// Draws the numbers of the formula.
     ///
     /// * `p`, `order`: exponent of h and order of the law.
-    /// * Returns the error at a step, to be asked for each step once, coarsest first.
+    /// * Returns the error as a function of the step, to be called once for each step, coarsest first.
     fn draw<'a>(
         self,
         p: f64,
@@ -268,14 +268,14 @@ fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
     random.within([low.ln(), high.ln()]).exp()
 }
 
-/// Shares of the finest error that a hidden term has.
+/// Shares of the finest error that a hidden term makes up.
 pub const HIDDEN_SHARES: [f64; 5] = [0.05, 0.07, 0.10, 0.15, 0.20];
 
 /// Errors h^p (1 + a h^r) with a term of lower order that is just about to show: b h^q, q = 0 (a plateau, or with b < 0 a wrong limit), p - 1 or p - 1/2.
 ///
 /// p is uniform in [1, 4], a = 0 in half of the tables and |a| < 0.5, r in [1, 4] in the other; the order claimed is p.
 ///
-/// * `share`: what the term is of the finest error.
+/// * `share`: of the finest error, made up by the term.
 pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> Table {
     let p = random.within([1.0, 4.0]);
     let (q, sign) = [(0.0, 1.0), (0.0, -1.0), (p - 1.0, 1.0), (p - 0.5, 1.0)][random.below(4)];
@@ -321,7 +321,7 @@ mod tests {
     use super::*;
     use crate::judge::fit::pairwise_rates;
 
-    /// On steps that reach far enough the rate is the order, whatever was drawn.
+    /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
     #[test]
     fn each_law_has_the_order_that_it_says() {
         let mesh = Mesh { levels: 60, ratio: 2.0 };
@@ -354,7 +354,7 @@ mod tests {
             for _ in 0..50 {
                 let table = hidden_term(8, share, &mut random);
                 let rates = pairwise_rates(&table.levels);
-                // Where nothing else pollutes, half of the tables, the first rate is p but for what is left of the term there.
+                // Without other pollution (half of the tables), the first rate is p except for what is left of the term there.
                 assert!(
                     table.levels.iter().all(|level| level.error > 0.0) && rates.iter().all(|rate| rate.is_finite())
                 );

@@ -1,6 +1,6 @@
 //! The rate at h → 0 with an honest interval: several explanations of the same errors, weighed against each other.
 //!
-//! [The rule](crate::judge::verdict) states what is computed here, step "interval", and the reason of every constant.
+//! [The rule](crate::judge::verdict), section "interval", states what is computed here and the reason for every constant.
 
 use super::{Level, line::logarithms, student_t};
 
@@ -12,14 +12,14 @@ pub const POLLUTION_EXPONENTS: [f64; 8] = [1.0 / 3.0, 0.5, 0.75, 1.0, 1.5, 2.0, 
 
 /// Exponents s of the scatter: residuals of log e are expected to be proportional to h^s.
 ///
-/// s = 0 is noise of the same relative size on all levels. s = 1 trusts fine levels more than coarse ones, which is right where terms that no
-/// candidate has fade: without it intervals of smooth data of 8 levels hold the order 92 instead of 96 times in 100. With s = 1/2 and 3/2 beside,
-/// nothing is gained.
+/// s = 0 is noise of the same relative size on all levels. s = 1 trusts fine levels more than coarse ones, which is
+/// right if terms that no candidate has fade: without it intervals of smooth data of 8 levels hold the order 92 instead
+/// of 96 times in 100. Adding s = 1/2 and 3/2 gains nothing.
 pub const SCATTER_EXPONENTS: [f64; 2] = [0.0, 1.0];
 
-/// The weight of a candidate is `rss^(-m/2) exp(-PENALTY k)`, k its parameters: likelihood against freedom.
+/// The weight of a candidate with k parameters is `rss^(-m/2) exp(-PENALTY k)`: likelihood against freedom.
 ///
-/// Each unit more lets 1 in 100 more of the sound tables pass and costs 1 in 100 of coverage where errors scatter.
+/// Each further unit lets 1 in 100 more of the sound tables pass and costs 1 in 100 of coverage where errors scatter.
 pub const PENALTY: f64 = 4.0;
 
 /// Candidates with pollution slower than h^[`SLOW`] weigh e^-3 less: such pollution is rare, and 5 levels can hardly tell it from rates that wander.
@@ -28,14 +28,14 @@ pub const SLOW_PENALTY: f64 = 3.0;
 /// Exponent below which pollution counts as slow.
 pub const SLOW: f64 = 0.75;
 
-/// Factor on the half-width of every candidate, for what no candidate knows: the intervals of the [calibration](crate::judge::calibration)
-/// then hold the order 93 times in 100 or more in every family of errors, with 1 91 times.
+/// Factor on the half-width of every candidate, for terms that no candidate has: the intervals of the [calibration](crate::judge::calibration) then
+/// hold the order at least 93 times in 100 in every family of errors; with a factor of 1, 91 times.
 pub const SAFETY: f64 = 1.3;
 
-/// Exponent of the pollution that three levels are suspected of: so slow that the three can never rule it out.
+/// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
 pub const SLOWEST_POLLUTION: f64 = 1.0 / 3.0;
 
-/// Relative round-off of a logarithm of an error: no residual is known better, so no interval is narrower.
+/// Relative round-off of the logarithm of an error: no residual is known more accurately, so no interval is narrower.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// The rate at h → 0 and the interval that holds it, by the rule of this module.
@@ -47,7 +47,7 @@ pub struct RateInterval {
     pub pollution: Option<f64>,
     /// `rate` ± its half-width.
     pub interval: [f64; 2],
-    /// How far log e of the finest level may be from its law, at the confidence of the interval.
+    /// How far log e of the finest level may lie from its law, at the confidence of the interval.
     pub scatter: f64,
 }
 
@@ -62,7 +62,7 @@ struct Candidate {
     scatter: f64,
 }
 
-/// Fits all the candidates over the levels given, which should be an asymptotic range, and takes their weighted mean.
+/// Fits all the candidates to the levels given, which should be an asymptotic range, and takes their weighted mean.
 ///
 /// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not differ.
 pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
@@ -77,7 +77,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         sum / candidates.iter().map(weight).sum::<f64>()
     };
     let rate = mean(&|candidate| candidate.rate);
-    // Two standard deviations between the candidates, beside the half-width of each.
+    // Two standard deviations between the candidates, and the half-width of each.
     let half = mean(&|c| c.half_width.powi(2) + 4.0 * (c.rate - rate).powi(2)).sqrt();
     let scatter = mean(&|c| c.scatter.powi(2)).sqrt();
     let sound = rate.is_finite() && half.is_finite();
@@ -94,7 +94,7 @@ struct Data {
     finest_rate: f64,
     /// log of the finest step ratio.
     finest_ratio: f64,
-    /// The columns (h_k / h_1)^r for each r of [`POLLUTION_EXPONENTS`]; empty where there are too few levels to fit one.
+    /// The columns (h_k / h_1)^r for each r of [`POLLUTION_EXPONENTS`]; empty with too few levels to fit one.
     pollutions: Vec<Vec<f64>>,
 }
 
@@ -117,7 +117,7 @@ impl Data {
         Some(Self { finest_rate, finest_ratio, round_off, pollutions, x, y })
     }
 
-    /// The limit of the last two pairwise rates if the slowest pollution is all that moves them.
+    /// The limit of the last two pairwise rates if only the slowest pollution moves them.
     fn slow_limit(&self) -> f64 {
         let [coarse, middle] = [3, 2].map(|from_end| self.x.len() - from_end);
         let power = |k: usize| (SLOWEST_POLLUTION * (self.x[k] - self.x[coarse])).exp();
@@ -128,7 +128,7 @@ impl Data {
     }
 }
 
-/// The data with the constant a projected out of everything, in the scalar product `Σ w_k a_k b_k`, `w_k = (h_k / h̄)^-2s`.
+/// The data with the constant a projected out, in the scalar product `Σ w_k a_k b_k`, `w_k = (h_k / h̄)^-2s`.
 ///
 /// h̄ is the geometric mean of the steps: the weights multiply to 1, so that sums of squares of different s can be compared as likelihoods.
 struct Weighted<'a> {
@@ -184,7 +184,7 @@ impl<'a> Weighted<'a> {
             (variance * (1.0 / self.weights[m - 2] + 1.0 / self.weights[m - 1])).sqrt() / self.data.finest_ratio;
         let correction = ((rate - self.data.finest_rate).abs() - scatter_of_pair).max(0.0);
         let half_width = match m {
-            // No polluted candidate can be fitted to three levels: the line has to answer for pollution itself.
+            // No polluted candidate can be fitted to three levels: the line itself must allow for pollution.
             3 => (student + correction).max((rate - self.data.slow_limit()).abs()),
             _ => SAFETY * (student + correction),
         };
@@ -194,7 +194,7 @@ impl<'a> Weighted<'a> {
         Candidate { pollution, rate, log_weight, half_width, scatter }
     }
 
-    // Plain loops: these three are where the time of a calibration goes.
+    // Plain loops: a calibration spends its time in these three.
 
     fn dot(&self, a: &[f64], b: &[f64]) -> f64 {
         let mut sum = 0.0;
@@ -214,7 +214,7 @@ impl<'a> Weighted<'a> {
         values.iter_mut().for_each(|value| *value -= mean);
     }
 
-    /// Takes the projection on `direction` out of `values`.
+    /// Subtracts from `values` their projection on `direction`.
     fn project_out(&self, direction: &[f64], values: &mut [f64]) {
         let factor = self.dot(values, direction) / self.dot(direction, direction);
         for (k, value) in values.iter_mut().enumerate() {

@@ -4,10 +4,10 @@ use super::{Level, student_t};
 
 /// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.
 ///
-/// As measured: a negative or NaN error gives a NaN rate, zero or infinity an infinite one, each in its place.
+/// As measured: a negative or NaN error gives a NaN rate, and zero or infinity an infinite one, each in its place.
 /// The logarithms are taken first, because the quotient of two negative errors would look like a rate.
 ///
-/// * Returns one rate less than there are levels.
+/// * Returns one rate fewer than there are levels.
 pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
     let rate = |pair: &[Level]| (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln());
     levels.windows(2).map(rate).collect()
@@ -24,14 +24,14 @@ pub struct LineFit {
     pub deviation: f64,
     /// Degrees of freedom, levels - 2.
     pub dof: usize,
-    /// `slope ± t deviation / √Σ(log h - mean)²`; the whole line when dof is 0.
+    /// `slope ± t deviation / √Σ(log h - mean)²`; the whole real line when dof is 0.
     pub interval: [f64; 2],
 }
 
-/// Least squares of log e on log h over all the levels given, with the Student-t interval of the slope.
+/// Least-squares fit of log e on log h over all the levels given, with the Student-t interval of the slope.
 ///
-/// The interval assumes scatter about a straight line. Convergence data bend instead: the slope is then the mean of
-/// the pairwise rates, not their limit, and [`rate_interval`](super::rate_interval) is the reading to trust.
+/// The interval assumes scatter about a straight line. Convergence data bend instead: the slope is then the mean of the
+/// pairwise rates, not their limit, and [`rate_interval`](super::rate_interval) is the one to trust.
 ///
 /// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do not differ.
 pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
@@ -57,10 +57,10 @@ pub(super) fn logarithms(levels: &[Level]) -> Option<(Vec<f64>, Vec<f64>)> {
     usable.then_some((x, y))
 }
 
-/// Pollution exponents between which [`extrapolated_rate`] looks.
+/// Range of pollution exponents that [`extrapolated_rate`] searches.
 const EXPONENT_SEARCH: [f64; 2] = [0.25, 8.0];
 
-/// Rates that differ by less than this are the same rate, in units of the round-off of a logarithm.
+/// Rates that differ by less than this are equal, in units of the round-off of a logarithm.
 const SAME_RATE: f64 = 1e-9;
 
 /// Limit of the pairwise rates as h → 0, from the last three of them.
@@ -75,8 +75,8 @@ const SAME_RATE: f64 = 1e-9;
 /// solved for r, and the limit is p = q_3 - (q_3 - q_2) w_3 / (w_3 - w_2). For a constant step ratio κ = ratio^-r, and
 /// this is Aitken's p = q_3 - (q_3 - q_2)² / ((q_3 - q_2) - (q_2 - q_1)).
 ///
-/// * Returns the last rate when the three agree to round-off; `None` with fewer than three rates, when one is not finite,
-///   or when they do not close in on anything (scatter, or departure): no r in [1/4, 8] explains them.
+/// * Returns the last rate when the three agree to round-off; `None` with fewer than three rates, when one is not
+///   finite, or when they do not converge (scatter, or departure): no r in [1/4, 8] explains them.
 pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
     let tail = levels.get(levels.len().checked_sub(4)?..)?;
     let rates = pairwise_rates(tail);
@@ -92,7 +92,7 @@ pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
     Some(rates[2] - last * w[2] / (w[2] - w[1]))
 }
 
-/// w_1, w_2, w_3 of [`extrapolated_rate`], with the steps measured in the coarsest of the four.
+/// w_1, w_2, w_3 of [`extrapolated_rate`], with steps in units of the coarsest of the four.
 fn shifts(tail: &[Level], exponent: f64) -> [f64; 3] {
     let power = |k: usize| (tail[k].step / tail[0].step).powf(exponent);
     let shift = |k: usize| (power(k) - power(k + 1)) / (tail[k].step / tail[k + 1].step).ln();

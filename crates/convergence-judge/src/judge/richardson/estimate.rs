@@ -9,24 +9,24 @@ use super::growth;
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason};
 
-/// How well the only rate of three values is known, at best: half the distance between two integer orders.
+/// The least uncertainty of the only rate of three values: half the distance between two integer orders.
 pub const DOUBT_OF_A_SINGLE_RATE: f64 = 0.5;
 
-/// Round-off of a value of size 1 that was summed up over a mesh, in the manner of [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
+/// Round-off of a value of size 1 that was summed over a mesh, like [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
 const ROUND_OFF: f64 = 1e-13;
 
-/// Ratios that differ by less are one ratio.
+/// Ratios that differ by less are equal.
 const SAME_RATIO: f64 = 1e-9;
 
-/// Rates between which the rate of values with unequal ratios is looked for.
+/// Range searched for the rate of values with unequal ratios.
 pub(crate) const RATES: [f64; 2] = [1e-2, 64.0];
 
-/// A value at a step, NaN where there is none.
+/// A value at a step, NaN if there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
     /// Step size, h or dt; positive, and smaller from level to level.
     pub step: f64,
-    /// What was computed.
+    /// The value computed.
     pub value: f64,
 }
 
@@ -50,33 +50,33 @@ pub enum Refusal {
     RoundOff {
         /// Size of the finest difference.
         difference: f64,
-        /// What it has to exceed.
+        /// The floor, which it must exceed.
         floor: f64,
     },
-    /// The differences change their sign.
+    /// The differences change sign.
     #[error("the values oscillate: their differences change sign")]
     Oscillating,
     /// The differences do not fall.
     #[error("the values diverge: their differences do not fall")]
     Diverging,
-    /// What the rule says of the differences.
+    /// The rule says that the differences are not asymptotic.
     #[error("the rule refuses the differences: {}", .0.text())]
     NotAsymptotic(Reason),
-    /// Some rate in the interval is not positive, and promises no limit.
+    /// Some rate in the interval is not positive, so there may be no limit.
     #[error("the rate may be as low as {0:.3}: nothing bounds the error")]
     RateMayBeZero(f64),
 }
 
-/// What is left between the finest value and the limit.
+/// The error bar of the finest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar {
     /// Observed rate at h → 0.
     pub rate: f64,
-    /// Its interval: that of the rule; of three values [`DOUBT_OF_A_SINGLE_RATE`] below and above both the rate and the order claimed.
+    /// Its interval: that of the rule; for three values [`DOUBT_OF_A_SINGLE_RATE`] below and above both the rate and the order claimed.
     pub rate_interval: [f64; 2],
     /// Estimated error of the finest value, finest value - limit: it has a sign.
     pub error: f64,
-    /// The interval of the error, from lower to higher.
+    /// The interval of the error, lower end first.
     pub error_interval: [f64; 2],
     /// The limit: finest value - error.
     pub extrapolated: f64,
@@ -84,7 +84,7 @@ pub struct Bar {
     pub limit: [f64; 2],
 }
 
-/// What values say of their limit.
+/// What values say about their limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
     /// The rule's judgement of the reduced differences. Its level k, from 0, is the difference of the values k and k + 1.
@@ -106,14 +106,14 @@ impl Estimator {
     /// * `tolerance`: half-width of the band about the order, as for errors.
     ///
     /// # Errors
-    /// [`JudgeError`] for a tolerance that tells nothing.
+    /// [`JudgeError`] for a meaningless tolerance.
     pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
         Ok(Self { judge: Judge::new(tolerance)?, floor: None })
     }
 
-    /// Differences that are not above this have no say. Without it, [`FLOOR_MARGIN`] times 1e-13 of the largest value.
+    /// Differences up to this floor are not used. The default is [`FLOOR_MARGIN`] times 1e-13 of the largest value.
     ///
-    /// Who prints six digits gives a thousand units of the sixth.
+    /// For values printed with six digits, set a thousand units of the sixth.
     ///
     /// # Errors
     /// [`JudgeError::Floor`] for a negative or infinite one.
@@ -122,9 +122,9 @@ impl Estimator {
         Ok(Self { judge, floor: Some(floor) })
     }
 
-    /// Estimates the error of the finest of the values, which come coarsest first.
+    /// Estimates the error of the finest of the values, coarsest first.
     ///
-    /// * `order`: what theory claims of them.
+    /// * `order`: claimed by theory.
     pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
         let largest = values.iter().map(|level| level.value.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
         let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
@@ -146,7 +146,7 @@ impl Estimator {
 }
 
 impl Estimator {
-    /// The same where no order is claimed: the observed one stands for it in limit and index, and nothing is confirmed.
+    /// The same without a claimed order: limit and index use the observed one, and nothing is confirmed.
     pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
         let judged = self.estimate(values, f64::NAN).judged;
         let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
@@ -174,7 +174,7 @@ fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
     }
 }
 
-/// The differences as they would be if all ratios were the last one, each at the finer of its steps; see the [module](super).
+/// The differences as if all ratios equalled the last one, each at the finer of its steps; see the [module](super).
 pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
     let ratio = |pair: &[Value]| pair[0].step / pair[1].step;
     let Some(last) = values.windows(2).last().map(ratio) else { return vec![] };
@@ -187,7 +187,7 @@ pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
     values.windows(2).map(level).collect()
 }
 
-/// The reduced differences of values whose rate is known, by finding the rate that they have when they are reduced with it.
+/// The reduced differences, reduced with the rate that they then have.
 fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
     let ratios: Vec<f64> = values.windows(2).map(|pair| pair[0].step / pair[1].step).collect();
     let start = if order > 0.0 { order } else { 1.0 };
@@ -198,7 +198,7 @@ fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
     reduced(values, crossing(excess, RATES).unwrap_or(start))
 }
 
-/// Where a function that falls from above zero to below it crosses zero, by false position (Illinois); `None` where it has no value.
+/// The zero of a function that falls from above zero to below it, by false position (Illinois); `None` if it has no value.
 pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64; 2]) -> Option<f64> {
     let (mut above, mut below) = (f(low)?, f(high)?);
     let mut middle = low;
@@ -218,7 +218,7 @@ pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64
     Some(middle)
 }
 
-/// What the rule needs to have said for its interval to mean something: anything about the claim, nothing about the levels.
+/// Whether the interval of the rule means something: its reason may concern the claim, but not the levels.
 fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     match reason {
         Reason::Agrees | Reason::TooLow | Reason::TooHigh | Reason::IntervalTooWide | Reason::AtTheEdge => Ok(()),
@@ -228,7 +228,7 @@ fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     }
 }
 
-/// Observed rate and its interval, of differences that fall as the rule asks, without a change of sign.
+/// Observed rate and its interval, for differences that fall as the rule requires, without a change of sign.
 fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refusal> {
     let differences: Vec<f64> = values.windows(2).map(|pair| pair[0].value - pair[1].value).collect();
     let one_sign = |differences: &[f64]| differences.windows(2).all(|pair| pair[0] * pair[1] >= 0.0);
@@ -259,11 +259,11 @@ fn bar(values: &[Value], judged: &RateVerdict, scatter: f64, round_off: f64) -> 
     let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
     let (difference, ratio) = (before.value - finest.value, before.step / finest.step);
     let size = |rate: f64| difference.abs() / growth(ratio, rate);
-    // What scatters the difference of two values by S scatters the distance of Richardson's estimate from the error by this.
+    // If the difference of two values scatters by S, the distance of Richardson's estimate from the error scatters by this.
     let power = ratio.powf(rate);
     let scatter = scatter * SQRT_2 * power / power.hypot(1.0);
     let rounding = round_off * (1.0 + 2.0 / growth(ratio, rate_interval[0]));
-    // A higher rate leaves less.
+    // A higher rate gives a smaller error.
     let least = size(rate_interval[1]) * (-scatter).exp() - rounding;
     let most = size(rate_interval[0]) * scatter.exp() + rounding;
     let error = size(rate).copysign(difference);

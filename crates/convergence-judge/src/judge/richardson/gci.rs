@@ -1,18 +1,18 @@
-//! The grid convergence index, because that is what reviewers ask for.
+//! The grid convergence index, because reviewers ask for it.
 
 use super::estimate::{Refusal, Value};
 use super::growth;
 
-/// Factor of safety where the observed order is that of theory.
+/// Factor of safety if the observed order confirms theory.
 pub const SAFETY_CONFIRMED: f64 = 1.25;
 
-/// Factor of safety where it is not.
+/// Factor of safety if it does not.
 pub const SAFETY_UNCONFIRMED: f64 = 3.0;
 
-/// The index never relies on an order lower than this: the bar of a lower one would be a multiple of the differences.
+/// The index never uses an order lower than this: the bar of a lower one would be a multiple of the differences.
 pub const LOWEST_ORDER: f64 = 0.5;
 
-/// No scheme has a higher order; where the search for the observed one ends.
+/// Upper end of the search for the observed order: no scheme has a higher one.
 const HIGHEST_ORDER: f64 = 64.0;
 
 /// Roache's index of the finest of three values: `F |q_(m-1) - q_m| / (ρ^p - 1)`.
@@ -28,7 +28,7 @@ pub struct Gci {
     pub order: f64,
     /// F: [`SAFETY_CONFIRMED`] or [`SAFETY_UNCONFIRMED`].
     pub factor: f64,
-    /// Half-width of the bar about the finest value, in its unit. Usual is its share of that value.
+    /// Half-width of the bar about the finest value, in its unit. Usually it is quoted as a share of that value.
     pub half_width: f64,
 }
 
@@ -51,8 +51,8 @@ impl Gci {
 ///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.
 /// ```
 ///
-/// The iteration that the standard suggests, right into left, diverges where the coarse ratio is much the larger one (4 and 1.2 with p = 1). The equation says
-/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p, from `log ρ_coarse / log ρ_fine` at p = 0, so that p is found by bisection.
+/// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is much the larger (4 and 1.2 with p = 1). The equation is equivalent to
+/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p, from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
 pub(super) fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
     let [.., coarse, middle, fine] = values else { return Err(Refusal::TooFewValues(values.len())) };
     let quotient = (coarse.value - middle.value) / (middle.value - fine.value);

@@ -1,4 +1,4 @@
-//! What the judge says: a verdict, its reason, and the numbers that it rests on.
+//! The answer of the judge: a verdict, its reason, and the numbers behind it.
 
 use std::{fmt, ops::Range};
 
@@ -10,7 +10,7 @@ use crate::text::number::{
     RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text, plain_text,
 };
 
-/// Outcome of a check. Ordered from good to bad, so that the maximum of several is the outcome of all.
+/// Outcome of a check. Ordered from good to bad: the maximum of several outcomes is the outcome of all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -23,7 +23,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The worst of several. None at all is inconclusive: checking nothing proves nothing.
+    /// The worst of several. Without any it is inconclusive: checking nothing proves nothing.
     pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
         verdicts.into_iter().max().unwrap_or(Self::Inconclusive)
     }
@@ -49,7 +49,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A level without a say in the rate.
+/// A level that is not used for the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct SetAside {
     /// Index of the level, 0 the coarsest.
@@ -66,7 +66,7 @@ pub enum Aside {
     PreAsymptotic,
     /// Coarse: an outlier, or a level behind it.
     Outlier,
-    /// Fine: the error is not above the floor, and neither is that of any finer level.
+    /// Fine: neither this error nor that of any finer level is above the floor.
     AtFloor,
     /// It has no result.
     NoResult,
@@ -93,23 +93,23 @@ pub struct RateVerdict {
     /// Half-width of the band about the order.
     #[serde(deserialize_with = "nan")]
     pub tolerance: f64,
-    /// Rates between neighbouring levels, all of them, as measured: NaN and infinite ones are kept. NaN beside a level without a result.
+    /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next to a level without a result.
     #[serde(deserialize_with = "nans")]
     pub pairwise: Vec<f64>,
-    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): there whenever three levels above the floor have positive errors, whatever
-    /// the verdict. Where the asymptotic range is shorter, it is that of the three finest of them.
+    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever three levels above the floor have positive errors,
+    /// whatever the verdict. If the asymptotic range is shorter, it is the rate of the three finest of them.
     pub fitted: Option<f64>,
     /// The constant C of error = C step^rate for that rate: the curve passes through the error of the finest level `used`.
     pub constant: Option<f64>,
-    /// The interval of `fitted`, which is its middle. It is what was judged, unless the reason is another one.
+    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is another one.
     #[serde(deserialize_with = "nan_pair")]
     pub interval: Option<[f64; 2]>,
-    /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): to be read beside the interval, it is not judged.
+    /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the interval; it is not judged.
     pub extrapolated: Option<f64>,
-    /// Indices of the levels that the fit used; empty when there was none. A level without a result among them was not.
+    /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result in this range were not used.
     #[serde(default)]
     pub used: Range<usize>,
-    /// Levels that the fit did not use, coarsest first, each with the reason: what a table of errors should mark.
+    /// Levels that the fit did not use, coarsest first, each with the reason: a table of errors should mark them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// The outcome.
@@ -117,7 +117,7 @@ pub struct RateVerdict {
     /// The reason by name.
     #[serde(rename = "code", default)]
     pub kind: Reason,
-    /// The reason in a few words, which name the level where it is one.
+    /// The reason in a few words, naming the level if it concerns one.
     #[serde(default)]
     pub because: String,
     /// The reason in words, with its numbers.
@@ -125,15 +125,15 @@ pub struct RateVerdict {
 }
 
 impl RateVerdict {
-    /// The rate with its constant, as a curve through the finest error used; `None` where there is no rate.
+    /// The rate with its constant, as a curve through the finest error used; `None` without a rate.
     pub fn power_law(&self) -> Option<PowerLaw> {
         Some(PowerLaw { rate: self.fitted?, constant: self.constant? })
     }
 
-    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` where that is narrow; `None` without one.
-    /// The levels follow where not all were used.
+    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is narrow; `None` without
+    /// one. The levels follow unless all were used.
     ///
-    /// * `most`: decimals at most.
+    /// * `most`: the largest number of decimals.
     pub fn found(&self, most: usize) -> Option<String> {
         let (fitted, interval) = (self.fitted?, self.interval?);
         let fitted = decimals(fitted, interval_places(interval, most));
@@ -145,7 +145,7 @@ impl RateVerdict {
         Some(if all { rate } else { format!("{rate} from levels {first} to {last} of {levels}") })
     }
 
-    /// What is claimed: `2 ± 0.05`.
+    /// The claim: `2 ± 0.05`.
     pub fn claim(&self) -> String {
         format!("{} ± {}", order_text(self.order), plain_text(self.tolerance))
     }
@@ -158,7 +158,7 @@ impl RateVerdict {
         format!("{}, not {}", order_text(self.order), others.join(" or "))
     }
 
-    /// Rate, claim and reason in a line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
+    /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
         format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.because)
     }
@@ -173,9 +173,9 @@ impl RateVerdict {
         self.pairwise.iter().rev().copied().find(|rate| rate.is_finite())
     }
 
-    /// As [`found`](Self::found); the rate between the finest levels where there is no interval.
+    /// Like [`found`](Self::found); without an interval, the rate between the finest levels.
     ///
-    /// * `most`: decimals at most.
+    /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {
         let finest =
             || self.finest_rate().map(|rate| format!("{} between the finest levels that have one", decimals(rate, 3)));
@@ -188,9 +188,9 @@ impl RateVerdict {
         format!("from levels {first} to {last} of {levels}")
     }
 
-    /// The verdict on levels that have a result, for all levels: those without one make it fail, and the rate is that of the others.
+    /// Extends the verdict on the levels with a result to all levels: levels without one make it fail, and the rate is that of the others.
     ///
-    /// * `self`: the verdict on the levels that have a result.
+    /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.
     /// * `has`: whether each of them has a result.
     pub fn among(self, names: &[&str], has: &[bool]) -> Self {
@@ -217,14 +217,14 @@ impl RateVerdict {
         Self { pairwise, used, set_aside, ..self }.without_result(has.len(), &missing.collect::<Vec<_>>())
     }
 
-    /// The same rate, judged by another rule than that of its levels.
+    /// The same rate with a reason from another rule than that of its levels.
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
         let rest = self.reason.strip_prefix(self.kind.text()).unwrap_or_default();
         let reason = format!("{because}{rest}");
         Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, ..self }
     }
 
-    /// The same rate with the verdict that a level has no result.
+    /// The same rate with the verdict that some levels have no result.
     ///
     /// * `levels`: how many levels there are.
     /// * `missing`: the names of those without a result.
@@ -245,7 +245,7 @@ impl RateVerdict {
         Self { verdict: Verdict::Fail, kind: Reason::NoResult, because: lacking, reason, ..self }
     }
 
-    /// Puts the verdict together, with the words that quote its numbers.
+    /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
         let levels = reading.levels;
         let used = reading.used.clone();

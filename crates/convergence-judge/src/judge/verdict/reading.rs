@@ -1,4 +1,4 @@
-//! What a sequence of errors says by itself, whatever is claimed of it.
+//! What a sequence of errors says by itself, independent of any claim.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::judge::fit::{
     AsymptoticRange, Level, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
-/// A sequence of errors, read once and held against any claim.
+/// A sequence of errors, read once and compared with any claim.
 #[derive(Debug, Clone)]
 pub(crate) struct Reading<'a> {
     sequence: &'a [Level],
@@ -18,7 +18,7 @@ pub(crate) struct Reading<'a> {
     /// All rates between neighbouring levels.
     pub(super) pairwise: Vec<f64>,
     range: AsymptoticRange,
-    /// Levels of the fit: the asymptotic range, or the three finest levels above the floor where it is shorter.
+    /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
     pub(super) used: Range<usize>,
     pub(crate) fit: Option<RateInterval>,
     pub(super) extrapolated: Option<f64>,
@@ -49,10 +49,10 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The constant C of error = C step^rate for the rate of the fit, through the finest level that the fit uses.
+    /// The constant C of error = C step^rate for the fitted rate, through the finest level that the fit uses.
     ///
-    /// The rate is that at h → 0, to which the finest level is the closest; a constant fitted to all levels would give a curve
-    /// that misses them all.
+    /// The rate is that at h → 0, to which the finest level is the closest; the curve of a constant fitted to all
+    /// levels would miss them all.
     pub(super) fn constant(&self) -> Option<f64> {
         let finest = self.sequence[self.used.clone()].last()?;
         // In logarithms: a power of a small step may underflow.
@@ -72,7 +72,7 @@ impl<'a> Reading<'a> {
         aside(coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
     }
 
-    /// The reason of the verdict on a claim: the steps of the rule, in their order.
+    /// The reason for the verdict on a claim: the steps of the rule, in their order.
     pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
         let sensible = order > 0.0 && order.is_finite();
         match self.unusable {
@@ -83,10 +83,10 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Steps 4 to 7: what forbids asking the interval.
+    /// Steps 4 to 7: reasons not to use the interval.
     fn not_convergent(&self, order: f64) -> Option<Reason> {
         let above_floor = self.range.used.end;
-        // The step down to the floor is a rate like any other for being wild; those between levels at the floor mean nothing.
+        // The step down to the floor is a rate like any other and may be wild; rates between levels at the floor mean nothing.
         let down_to_floor = &self.pairwise[..self.pairwise.len().min(above_floor)];
         let rates = self.rates();
         let possible = !trend::steep(self.sequence, rates, order);
@@ -107,7 +107,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Steps 8 and 9: where the rates are going, and the interval against the band.
+    /// Steps 8 and 9: the trend of the rates, and the interval against the band.
     fn held_against(&self, order: f64, tolerance: f64) -> Reason {
         let Some(fit) = &self.fit else { return Reason::TooFewLevels };
         let rates = self.rates();
@@ -120,7 +120,7 @@ impl<'a> Reading<'a> {
             Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
             Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
             Reason::Agrees if (finest - order).abs() > tolerance => Reason::LastPair,
-            // The finest error is not smaller, which scatter may explain: there is no order to agree with.
+            // The finest error is not smaller, which scatter may explain: there is no order that could agree.
             _ if finest <= 0.0 => Reason::IntervalTooWide,
             reason => reason,
         }
@@ -131,7 +131,7 @@ impl<'a> Reading<'a> {
         trend::outlier(&self.sequence[..self.range.used.end], self.range.pre_asymptotic)
     }
 
-    /// Ratio of the coarsest step above the floor to the finest; infinite where there is none.
+    /// Ratio of the coarsest step above the floor to the finest; infinite if there is none.
     fn span(&self) -> f64 {
         let above_floor = &self.sequence[..self.range.used.end];
         above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
@@ -143,7 +143,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Steps 1 to 3 of the rule, without what the claim has to do with them.
+/// Steps 1 to 3 of the rule, except for what depends on the claim.
 fn unusable(levels: &[Level]) -> Option<Reason> {
     let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
     let decreasing = levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);

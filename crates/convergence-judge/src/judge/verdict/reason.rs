@@ -1,8 +1,8 @@
-//! Why a verdict is what it is: one list of reasons, with the words that every command, report and file uses.
+//! The reasons for verdicts: one list, with the words that every command, report and file uses.
 
 use super::Verdict;
 
-/// Why a verdict is what it is; each reason has one verdict.
+/// The reason for a verdict; each reason has one verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[serde(into = "&'static str", try_from = "String")]
 pub enum Reason {
@@ -17,15 +17,15 @@ pub enum Reason {
     NegativeError,
     /// The error does not fall on the finest refinement above the round-off floor.
     ErrorGrows,
-    /// The rates fall away from the order on the finest refinements, and go on falling.
+    /// The rates fall away from the order on the finest refinements, and are still falling.
     FallsAway,
-    /// What tends to zero with h and dt does not make up the errors of a grid.
+    /// The errors of a grid contain a part that does not tend to zero with h and dt.
     WrongLimit,
     /// The whole interval lies below the band.
     TooLow,
     /// The whole interval lies above the band: as suspicious as below.
     TooHigh,
-    /// The order agrees, and the constant before it is not in its interval.
+    /// The order agrees, but the constant in front of it is outside its interval.
     ConstantOff,
     /// An error is exactly zero.
     ZeroError,
@@ -41,25 +41,25 @@ pub enum Reason {
     NotAsymptotic,
     /// The rates move away, faster and faster.
     Departs,
-    /// The interval lies in the band, and the rate between the two finest levels does not.
+    /// The interval lies in the band, but the rate between the two finest levels does not.
     LastPair,
     /// Too few levels are left above the round-off floor.
     RoundOffFloor,
     /// Too few digits of the errors are known.
     Digits,
-    /// The order agrees, and the constant before it may be outside its interval.
+    /// The order agrees, but the constant in front of it may be outside its interval.
     ConstantUnsure,
     /// The numbers tend to a value that is not zero, by smaller and smaller differences.
     Value,
-    /// Whether the errors of a grid tend to zero is not known well enough.
+    /// It is too uncertain whether the errors of a grid tend to zero.
     LeftOver,
     /// A pairwise rate that belongs to no convergent family of this order.
     WildRate,
-    /// A level between others on one line is far from it.
+    /// One level is far from the line through its neighbours.
     Outlier,
     /// All steps are nearly the same.
     LevelsTooClose,
-    /// The interval is wider than the band and overlaps it, or the rates scatter so much that an error that grows proves nothing.
+    /// The interval is wider than the band and overlaps it, or the rates scatter so much that a growing error proves nothing.
     IntervalTooWide,
     /// The interval is narrow enough, but holds an end of the band.
     AtTheEdge,
@@ -129,7 +129,7 @@ impl Reason {
         }
     }
 
-    /// Whether a finer level is likely to decide.
+    /// Whether a finer level would probably decide.
     pub fn wants_a_level(self) -> bool {
         matches!(
             self,
@@ -145,7 +145,7 @@ impl Reason {
         )
     }
 
-    /// The short code, by which the reason can be asked for: the same in every output.
+    /// The short code for looking up the reason: the same in every output.
     pub fn code(self) -> &'static str {
         self.words()[0]
     }
@@ -155,12 +155,12 @@ impl Reason {
         self.words()[1]
     }
 
-    /// What the reason means, with what to do next.
+    /// What the reason means, and what to do next.
     pub fn advice(self) -> &'static str {
         self.words()[2]
     }
 
-    /// The mathematics behind it, and what to try, in the order in which it pays.
+    /// The mathematics of the reason, and what to try, most promising first.
     pub fn mathematics(self) -> &'static str {
         match self {
             Self::TooLow | Self::ErrorGrows | Self::NotAsymptotic => {
@@ -212,7 +212,7 @@ impl Reason {
         }
     }
 
-    /// The reason behind a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
+    /// The reason in brief, as after a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
     pub fn brief(self) -> &'static str {
         match self {
             Self::TooLow => "too low",

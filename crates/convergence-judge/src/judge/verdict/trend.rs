@@ -1,23 +1,23 @@
-//! Where the rates are going: what tells a lost order from noise.
+//! The trend of the rates: it tells a lost order from noise.
 
 use crate::judge::fit::Level;
 
-/// A fall goes on while the finest rate is lower than the one before by more than this.
+/// A fall is still going on if the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;
 
-/// Least growth of a change of the rate over the one before, of the same sign, with which a term of lower order shows.
+/// Least growth of a change of the rate over the one before, of the same sign, that reveals a term of lower order.
 const GROWTH: f64 = 1.3;
 
-/// Least growth over a change of the other sign: noise makes changes to and fro of like size.
+/// Least growth over a change of the other sign: noise makes changes of similar size to and fro.
 const TURN: f64 = 3.0;
 
-/// The same where that change itself follows a larger one of its sign, as those of pollution do.
+/// The same if that change itself follows a larger one of its sign, like those of pollution.
 const TURN_AFTER_POLLUTION: f64 = 2.0;
 
-/// Shares of the tolerance beyond which changes count: three in a row, two in a row, one against the one before, one against fading pollution.
+/// Shares of the tolerance above which changes count: three in a row, two in a row, one against the one before, one against fading pollution.
 const DEPARTED: [f64; 4] = [0.05, 1.0 / 6.0, 1.0, 0.15];
 
-/// An error is off the line through its neighbours where it is this many times larger or smaller.
+/// An error is off the line through its neighbours if it is larger or smaller by this factor.
 const OFF_THE_LINE: f64 = 2.0;
 
 /// How far the rate from one neighbour of an outlier to the other may be from the finest rate.
@@ -28,7 +28,7 @@ fn changes(rates: &[f64]) -> Vec<f64> {
     rates.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
-/// How far the rates scatter: the largest part of two consecutive changes of opposite sign that cancels.
+/// How far the rates scatter: the largest cancelling part of two consecutive changes of opposite sign.
 ///
 /// Pollution, plateaus and terms of another order change the rates one way and have a scatter of zero; noise changes them to and fro.
 /// A single change (three levels) may be either, and counts as scatter.
@@ -43,17 +43,17 @@ pub fn scatter(rates: &[f64]) -> f64 {
     }
 }
 
-/// Whether the finest rate is zero or less beyond what scatter explains: no convergence.
+/// Whether the finest rate is zero or less, by more than scatter explains: no convergence.
 pub fn grows(rates: &[f64]) -> bool {
     rates.last().is_some_and(|finest| finest + 2.0 * scatter(rates) <= 0.0)
 }
 
-/// Whether the rates fell on each of the last two refinements, are still falling, have fallen at least half of the way from the order to where
-/// they are now, and ended more than half an order below the claim beyond what scatter explains.
+/// Whether the rates fell on each of the last two refinements, are still falling, have fallen at least half of the way from the order to their
+/// present value, and ended more than half an order below the claim, by more than scatter explains.
 ///
-/// Pollution fades, so it does the contrary. Errors that level off above the round-off floor do this, which is what a coefficient that differs
-/// between the scheme and the sources leads to; dropping the levels where it shows would hide it. Rates that have always been low, or that
-/// have come to rest, are those of a lost order: [`Reason::TooLow`](super::Reason::TooLow) says so, with the rate.
+/// Pollution fades, so it does the opposite. Errors that level off above the round-off floor do this, for example if a coefficient differs
+/// between the scheme and the sources; dropping the levels where it shows would hide it. Rates that have always been low, or that have come to
+/// rest, are those of a lost order: [`Reason::TooLow`](super::Reason::TooLow) says so, with the rate.
 pub fn falls_away(rates: &[f64], order: f64) -> bool {
     let highest = rates.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     match rates {
@@ -66,10 +66,10 @@ pub fn falls_away(rates: &[f64], order: f64) -> bool {
     }
 }
 
-/// Whether one of the last two changes of the rate is faster than any two powers of h that take over from each other make it.
+/// Whether one of the last two changes of the rate is faster than two powers of h that take over from each other can make it.
 ///
-/// Where `e = h^p + f h^q`, the rate changes by at most (p - q)²/4 for each unit of log h, half way between p and q. Here p is the order and q = -2, the
-/// round-off of second differences. A steeper change is an outlier or noise on narrow steps, not an order that is lost.
+/// For `e = h^p + f h^q`, the rate changes by at most (p - q)²/4 per unit of log h, half way between p and q. Here p is the order and q = -2, the
+/// round-off of second differences. A steeper change is an outlier or noise on narrow steps, not a lost order.
 pub(super) fn steep(levels: &[Level], rates: &[f64], order: f64) -> bool {
     let steepest = 0.25 * (order + 2.0).powi(2);
     // From the middle of one pair of levels to the middle of the next, in log h.
@@ -78,12 +78,12 @@ pub(super) fn steep(levels: &[Level], rates: &[f64], order: f64) -> bool {
     changes(rates).into_iter().enumerate().rev().take(2).any(too_steep)
 }
 
-/// The coarsest of the levels set aside that is off the line through its two neighbours, in logarithms, while that line falls at the finest rate.
+/// The coarsest level set aside that is off the line through its two neighbours, in logarithms, if the slope of that line is the finest rate.
 ///
-/// Levels that are not yet asymptotic approach the finest rate together. Where the neighbours are already on such a line and one level
-/// between them is not, that level is of another problem: a case with a wrong setting.
+/// Levels that are not yet asymptotic approach the finest rate together. If the neighbours are already on such a line
+/// and the level between them is not, that level belongs to another problem: a case with a wrong setting.
 ///
-/// * `levels`: those above the floor, with `set_aside` coarse ones that the fit leaves out.
+/// * `levels`: those above the floor; the fit leaves out the `set_aside` coarsest.
 pub(super) fn outlier(levels: &[Level], set_aside: usize) -> Option<usize> {
     let [.., before, last] = levels else { return None };
     let rate = |coarse: &Level, fine: &Level| (coarse.error / fine.error).ln() / (coarse.step / fine.step).ln();
@@ -98,10 +98,10 @@ pub(super) fn outlier(levels: &[Level], set_aside: usize) -> Option<usize> {
     found.map(|(coarse, _)| coarse + 1)
 }
 
-/// Whether the last changes of the rate grow where those of fading pollution shrink: a plateau, a wrong limit or a lower order about to show.
+/// Whether the last changes of the rate grow; those of fading pollution shrink. A plateau, a wrong limit or a lower order is about to show.
 ///
-/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, and are leaving it at a growing pace. What coarse levels did before
-/// excuses nothing: only the last three changes are asked, and a level more at the coarse end can add to the reasons, never take one away.
+/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, but are leaving it at a growing pace. The behaviour of coarse levels is
+/// no excuse: only the last three changes count, and another level at the coarse end can add reasons but never remove one.
 pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     let [three, two, one, after_pollution] = DEPARTED.map(|share| share * tolerance);
     let changes = changes(rates);
@@ -194,7 +194,7 @@ mod tests {
             (&[1.0, -3.5], 3.75, false),
             (&[1.0, -2.5], 2.0, false),
             (&[0.5, 1.0, -3.5], 4.0, false),
-            // After pollution that fades twice as large, over more than 0.15.
+            // After fading pollution, twice as large, over more than 0.15.
             (&[1.5, 1.0, -2.5], 16.0, true),
             (&[-1.5, -1.0, 2.5], 16.0, true),
             (&[1.5, 1.0, -2.5], 17.0, false),

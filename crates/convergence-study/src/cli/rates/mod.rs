@@ -63,7 +63,7 @@ pub struct Arguments {
 /// A value of `--order`.
 #[derive(Debug, Clone)]
 struct Claimed {
-    /// As it was given.
+    /// As given.
     text: String,
     /// The column; `None` for all.
     name: Option<String>,
@@ -88,10 +88,10 @@ fn dimension(text: &str) -> Result<f64, String> {
 /// A column, judged.
 struct JudgedColumn<'t> {
     column: &'t Column,
-    /// The order of one without a claim is NaN.
+    /// Its order is NaN without a claim.
     claim: Claim,
     rate: RateVerdict,
-    /// Of a column of values.
+    /// Only of a column of values.
     estimate: Option<Estimate>,
     /// Whether its verdict counts.
     decides: bool,
@@ -103,7 +103,7 @@ impl JudgedColumn<'_> {
     }
 }
 
-/// All that is printed and written.
+/// Everything that is printed and written.
 struct Judgement<'t> {
     project: &'t Project,
     source: String,
@@ -113,10 +113,10 @@ struct Judgement<'t> {
     verdict: Verdict,
 }
 
-/// Judges the table, prints rates and verdicts, and writes what is asked for.
+/// Judges the table, prints rates and verdicts, and writes the files requested.
 ///
 /// # Errors
-/// A table or claims that cannot be used, and a folder that cannot be written to.
+/// A table or claims that cannot be used, and a folder that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let estimator = Estimator::new(arguments.tolerance)?;
@@ -150,15 +150,15 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(verdict.into())
 }
 
-/// The columns that are judged: errors, then values.
+/// The columns to judge: errors, then values.
 fn all(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
     table.columns.iter().chain(&table.values)
 }
 
-/// What is claimed of each column; the order NaN for nothing.
+/// The claim for each column; the order is NaN without one.
 fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unusable> {
     let names: Vec<&str> = all(table).map(|column| column.name.as_str()).collect();
-    // That for all columns is the last.
+    // The last entry is the claim for all columns.
     let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
     for claimed in &arguments.order {
         let text = &claimed.text;
@@ -184,7 +184,7 @@ fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unu
     names.iter().enumerate().map(claim).collect()
 }
 
-/// What is wrong with a claim about a column that is not judged.
+/// The error of a claim about a column that is not judged.
 fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
     /// Most names that a message lists.
     const LISTED: usize = 12;

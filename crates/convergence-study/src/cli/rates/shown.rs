@@ -18,17 +18,17 @@ use crate::store::{atomic, junit};
 use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
 
-/// Most columns in the figure: more would have the colours of the first.
+/// Most columns in the figure: more would repeat the colours.
 const DRAWN: usize = 8;
-/// Largest difference of two rates that are steady.
+/// Largest difference between two steady rates.
 const STEADY: f64 = 0.2;
-/// Least fall of a rate that has been steady, in orders, where the error stops.
+/// Least fall, in orders, of a steady rate where the error stops falling.
 const STOP: f64 = 0.5;
 /// Most levels that are predicted.
 const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
-    /// Rate, claim, the reason where that is not a pass, and the limit of values.
+    /// Rate, claim, the reason unless it is a pass, and the limit of values.
     fn found(&self) -> String {
         let found = match self.claim {
             Claim { at_least: true, order, tolerance, .. } => {
@@ -55,7 +55,7 @@ impl JudgedColumn<'_> {
     }
 }
 
-/// The errors with the rates beside them, a verdict for each column, what to do, and the verdict on all.
+/// The errors with their rates, a verdict for each column, advice, and the overall verdict.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     let (table, columns) = (findings.table, &findings.columns);
     let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
@@ -71,7 +71,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::shown).collect();
     let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
     text.extend(columns.iter().map(line));
-    // The same words for several columns stand once.
+    // Words common to several columns appear once.
     let mut said = vec![];
     for judged in columns.iter().filter(|judged| judged.is_claimed() && !is_pass(judged)) {
         let words = (judged.rate.kind.code(), advice(judged, findings));
@@ -87,7 +87,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     text + "\n" + &last
 }
 
-/// What the reason means for a column, and what to do, from its numbers where they show more than the reason.
+/// What the reason means for a column, and what to do, using its numbers if they show more than the reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
     let general = rate.kind.advice().to_owned();
@@ -112,7 +112,7 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     }
 }
 
-/// The level down to which the error falls at a steady rate, where it does not on any finer one.
+/// The level down to which the error falls at a steady rate, if it stops falling there.
 fn stop(rates: &[f64]) -> Option<usize> {
     let last = rates.last()?;
     (2..rates.len()).find(|&k| {
@@ -122,7 +122,7 @@ fn stop(rates: &[f64]) -> Option<usize> {
     })
 }
 
-/// Which level would decide, were the rates to go on as they do: their changes shrink as the last two did.
+/// The level that would decide if the rates continued: their changes shrink as the last two did.
 fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
     let (mut levels, rates) = (judged.column.levels.clone(), &judged.rate.pairwise);
     let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else { return None };
@@ -166,8 +166,8 @@ fn sentence(findings: &Judgement<'_>) -> String {
     }
 }
 
-/// What `rates --format json` prints, beside the verdict: rates as in `study --format json`, the column's name for
-/// the norm's.
+/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`, with the column's
+/// name as the norm's.
 pub(super) fn object(findings: &Judgement<'_>) -> Value {
     let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
@@ -198,10 +198,10 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
     })
 }
 
-/// Writes figure, Markdown and JUnit XML, each as a whole, and appends to the job summary of GitHub.
+/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of GitHub.
 ///
 /// # Errors
-/// That of the operating system, with the name of the file.
+/// The error of the operating system, with the name of the file.
 pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     atomic::write(&folder.join("rates.svg"), figure(findings))?;
@@ -217,7 +217,7 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
     }
     let junit = junit::junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
     atomic::write(&folder.join("junit.xml"), junit)?;
-    // A picture would have to be somewhere on the web.
+    // A picture would need an address on the web.
     github::summarise(&markdown(findings, ""));
     Ok(())
 }
@@ -244,9 +244,9 @@ fn figure(findings: &Judgement<'_>) -> String {
     convergence(&Convergence { x_label, y_label, series, floor, ..Convergence::default() })
 }
 
-/// What is printed, as a page.
+/// The printed result, as a page.
 ///
-/// * `picture`: where the figure goes, with the empty line below it.
+/// * `picture`: the link to the figure, with the empty line below it.
 fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     let plain = |c: char| if "\\|*_`<[]".contains(c) { vec!['\\', c] } else { vec![c] };
     let source: String = visible(&findings.source).chars().flat_map(plain).collect();

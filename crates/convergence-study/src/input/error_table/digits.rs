@@ -1,4 +1,4 @@
-//! Printed digits: what rounding leaves open decides nothing.
+//! Printed digits: the part that rounding hides decides nothing.
 
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
@@ -14,19 +14,19 @@ const FINEST: usize = 4;
 /// A column of errors or of values, coarsest level first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// As it is shown.
+    /// Its name as shown.
     pub name: String,
     /// Steps and numbers.
     pub levels: Vec<Level>,
-    /// Half a unit of the last printed place of each number; 0 where it is exact.
+    /// Half a unit of the last printed place of each number; 0 if it is exact.
     pub halves: Vec<f64>,
     /// The same for the steps.
     pub step_halves: Vec<f64>,
 }
 
 impl Column {
-    /// Judges the errors. The interval is as much wider as rounding moves the finest rate; where another digit could
-    /// make a pass of another verdict, or take it away, the digits are what is missing.
+    /// Judges the errors. The interval is widened by as much as rounding moves the finest rate; if another digit could
+    /// turn a verdict into a pass or a pass into another verdict, the reason is missing digits.
     pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
         let (judged, order) = (claim.judge(judge, &self.levels), claim.order);
         let share = |k: usize| self.half(k, order) / self.levels[k].error.abs().max(f64::MIN_POSITIVE);
@@ -69,13 +69,13 @@ impl Column {
         found
     }
 
-    /// By how much the last places of an error and of its step may be off, in the unit of the error.
+    /// Uncertainty from the last places of an error and of its step, in the unit of the error.
     fn half(&self, k: usize, order: f64) -> f64 {
         let Level { step, error } = self.levels[k];
         self.halves[k] + error.abs() * order.max(0.0) * self.step_halves[k] / step
     }
 
-    /// The numbers that may have been rounded to the finest ones: each as it is, or half a unit more or less.
+    /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit more or less.
     fn corners(&self, order: f64) -> Vec<Vec<Level>> {
         let mut corners = vec![self.levels.clone()];
         for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {

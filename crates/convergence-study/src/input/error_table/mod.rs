@@ -9,10 +9,10 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers is read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The numbers
-//! decide what a column is, and its name where they leave it open: the step falls, or as a count grows, by regular
-//! ratios; errors are positive and fall; rates are those of another column; what tends to a limit is a value.
-//! [`RateTable::reading`] says in a line how the table was read. What is in doubt is refused, with the command that
+//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The
+//! numbers decide what a column is, and its name if they do not: the step falls, or grows if it is a count, by regular
+//! ratios; errors are positive and fall; rates are those of another column; values tend to a limit.
+//! [`RateTable::reading`] says in a line how the table was read. Ambiguous tables are refused, with the command that
 //! works. `NaN` and `inf` are errors; a column with one of them fails.
 
 mod digits;
@@ -36,46 +36,46 @@ pub use table::limit;
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateTable {
-    /// What the step is: the name of its column, or `cells^(-1/2)` where the column counts.
+    /// The step: the name of its column, or `cells^(-1/2)` if the column counts.
     pub step: String,
     /// The errors.
     pub columns: Vec<Column>,
-    /// The values that a choice has named.
+    /// The columns chosen as values.
     pub values: Vec<Column>,
-    /// Columns that are no errors, each with the reason.
+    /// Columns that are not errors, each with the reason.
     pub not_errors: Vec<(String, String)>,
     /// How the table was read: the step, errors, values, and what was left out with the reason.
     pub reading: String,
-    /// Whether numbers, not names, have told the step.
+    /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
 }
 
-/// Which columns of a table are meant; by default their numbers decide.
+/// Which columns of a table to use; by default their numbers decide.
 ///
 /// A column is named as in the table, with or without its unit, or by its number from 1.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Choice {
-    /// The column of the step, or of the count that it is computed from.
+    /// The column of the step, or of the count that gives it.
     pub step: Option<String>,
     /// The columns of errors.
     pub columns: Option<Vec<String>>,
     /// Columns of values, which tend to a limit that is not zero.
     pub values: Vec<String>,
-    /// Names for all columns, in place of those in the table.
+    /// Names for all columns, instead of those in the table.
     pub names: Option<Vec<String>>,
-    /// Columns of which an order is claimed by name: none of them is taken for the step.
+    /// Columns with an order claimed by name: none of them can be the step.
     pub claimed: Vec<String>,
     /// Dimension D > 0 of what a count counts: h = count^(-1/D).
     pub dim: Option<f64>,
-    /// The command that reads the table, for advice; empty for none.
+    /// The command that reads the table, for advice; empty if unknown.
     pub command: String,
 }
 
 impl RateTable {
-    /// Reads a file, of which `choice` says which columns are meant; `-` is standard input.
+    /// Reads a file, with the columns that `choice` selects; `-` is standard input.
     ///
     /// # Errors
-    /// [`InputError`] with line, column and the name of the table's column; and a choice of columns that are not there.
+    /// [`InputError`] with line, column and the name of the table's column; also for a choice of missing columns.
     pub fn read_with(path: impl AsRef<Path>, choice: &Choice) -> Result<Self, InputError> {
         const STANDARD_INPUT: &str = "standard input";
         let path = path.as_ref();
@@ -89,7 +89,7 @@ impl RateTable {
     /// Reads a table from `text`; messages name `file_name`.
     ///
     /// # Errors
-    /// As [`RateTable::read_with`], but for the file.
+    /// As [`RateTable::read_with`], except for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
         roles::read(&text::plain(text), file_name, choice)
     }
@@ -102,7 +102,7 @@ impl RateTable {
 }
 
 impl Choice {
-    /// The command with this choice, changed, on a line of its own; empty where no command is known.
+    /// The command with this choice, changed, on a line of its own; empty if no command is known.
     fn command(&self, change: impl FnOnce(&mut Choice)) -> String {
         let mut choice = self.clone();
         change(&mut choice);

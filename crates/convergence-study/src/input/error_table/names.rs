@@ -1,4 +1,4 @@
-//! What the name of a column says, where its numbers leave it open.
+//! What the name of a column says, if its numbers do not decide.
 
 use super::number::unmarked;
 
@@ -6,7 +6,7 @@ use super::number::unmarked;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Word {
     Step,
-    /// A number of cells or unknowns; the smaller the rank, the nearer to the step.
+    /// A number of cells or unknowns; the smaller the rank, the more directly it gives the step.
     Count(u8),
     Rate,
     /// The cost of a level, or its number.
@@ -19,7 +19,7 @@ pub(super) enum Word {
 const STEPS: &str = "h dt dx dy dz hmax hmin hmean havg maxh minh hx hy hz hk diam diameter cellsize celldiameter tau τ \
     step stepsize meshsize meshwidth gridsize gridspacing spacing timestep timestepsize deltat deltax deltay deltaz δt δx δy δz \
     ∆t ∆x";
-/// A mesh of n cells has the step n^(-1/dim) up to a constant, its unknowns only in the limit.
+/// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns this holds only in the limit.
 const COUNTS: [&str; 4] = [
     "cells cell elements element elems elem steps timesteps intervals triangles tets tetrahedra quads hexes faces edges \
      pointsperwavelength ppw refinements",
@@ -38,7 +38,7 @@ fn is_in(list: &str, word: &str) -> bool {
 }
 
 impl Word {
-    /// The meaning of a name, with or without the unit behind it.
+    /// The meaning of a name, with or without a unit after it.
     pub(super) fn of(name: &str) -> Self {
         match (Self::whole(name), without_unit(name)) {
             (Self::Unknown, plain) if plain != name => Self::whole(plain),
@@ -46,7 +46,7 @@ impl Word {
         }
     }
 
-    /// What a column is that is no error; `None` where the name does not say so.
+    /// What a column that is not an error holds; `None` if the name does not say so.
     pub(super) fn noun(self) -> Option<&'static str> {
         match self {
             Self::Step => Some("a step"),
@@ -63,7 +63,7 @@ impl Word {
         match reciprocal(name).map(Self::whole) {
             _ if is_logarithm(&lower) => return Self::Logarithm,
             Some(Self::Step) => return Self::Count(0),
-            // Of other counts it is open whether they are those along an edge.
+            // Other counts may or may not be along an edge.
             Some(Self::Count(1)) => return Self::Step,
             _ => {}
         }
@@ -112,7 +112,7 @@ pub(super) fn shown(text: &str) -> String {
         return text.trim_end_matches('}').trim().trim_matches('$').to_owned();
     }
     let text = unmarked(text, &["**", "`", "$"]);
-    // Of `{$a_{b}$}` the outer pair is dropped, of `{a}{b}` none.
+    // Drops the outer pair of `{$a_{b}$}`, and none of `{a}{b}`.
     let inner = text.strip_prefix('{').and_then(|text| text.strip_suffix('}'));
     let is_pair = |inner: &&str| inner.find('}').is_none_or(|close| inner.find('{').is_some_and(|open| open < close));
     let text = inner.filter(is_pair).unwrap_or(text).trim();
@@ -122,7 +122,7 @@ pub(super) fn shown(text: &str) -> String {
     plain.iter().fold(text, |text, (from, to)| text.replace(from, to))
 }
 
-/// A name without one unit behind it: `h [m]`, `CPU (s)`, `time in s`.
+/// A name without a unit after it: `h [m]`, `CPU (s)`, `time in s`.
 fn without_unit(name: &str) -> &str {
     let bracketed = |open: char, close: char| Some(name.strip_suffix(close)?.rsplit_once(open)?.0.trim_end());
     let worded = || {
@@ -133,8 +133,7 @@ fn without_unit(name: &str) -> &str {
     before.filter(|before| !before.is_empty()).unwrap_or(name)
 }
 
-/// Which of the names is asked for: as it is written, the only one that is so without its unit, or a nameless one by
-/// its number.
+/// Position of the name wanted: as written, or the only such name without its unit, or a nameless column by its number.
 pub(crate) fn position<'n>(names: impl Iterator<Item = &'n str> + Clone, wanted: &str) -> Option<usize> {
     let numbered = format!("column {wanted}");
     names.clone().position(|name| name == wanted || name == numbered).or_else(|| {

@@ -1,24 +1,24 @@
-//! Numbers as tables have them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
+//! Numbers as tables write them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
 
-/// What stands where there is no number: the rate of the coarsest level.
+/// What tables write if there is no number: the rate of the coarsest level.
 const DASHES: [&str; 12] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)"];
 
-/// Markup that dresses a number and does not change it, and what it stands for.
+/// Markup around a number that does not change it, and what it stands for.
 const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\\frac \\dfrac=\\frac \\num= \
     \\textbf= \\mathbf= \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
 
-/// A number, and how many digits it is printed with.
+/// A number, and the digits it is printed with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Number {
     pub(super) value: f64,
-    /// Decimals, and the power of ten behind them; `None` for fractions and powers, which are exact.
+    /// Decimals, and the power of ten after them; `None` for fractions and powers, which are exact.
     place: Option<(i32, Option<i32>)>,
 }
 
-/// Half a unit of the last printed place of each number of a column; 0 for whole numbers and for exact ones.
+/// Half a unit of the last printed place of each number of a column; 0 for whole and for exact numbers.
 ///
-/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625
-/// leaves out zeros.
+/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625 omits
+/// zeros.
 pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     let places = |scaled: bool| {
         let places = column.iter().flatten().filter_map(|number| number.place);
@@ -38,15 +38,15 @@ pub(super) fn is_dash(cell: &str) -> bool {
     DASHES.contains(&cell.trim_matches('$'))
 }
 
-/// The value of a cell; `None` where it is no number.
+/// The value of a cell; `None` if it is not a number.
 ///
-/// * `decimal_comma`: whether `0,1` may be a number, for the comma does not separate cells. `1,024` is none: it may
+/// * `decimal_comma`: whether `0,1` may be a number, because commas do not separate cells. `1,024` is refused: it may
 ///   be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     if let Some(number) = real(cell) {
         return Some(number);
     }
-    // Two numbers with a blank between them are not one. Most other cells are words, a hundred thousand perhaps.
+    // Two numbers with a blank between them are not one number. Most other cells are words, perhaps a hundred thousand.
     let is_word = cell.is_empty() || cell.starts_with(char::is_alphabetic);
     if is_word || cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
         return None;
@@ -56,7 +56,7 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
         return real(edge);
     }
     let plain = undressed(cell);
-    // Three digits behind a comma, and no zero before it, may be thousands.
+    // Three digits after a comma, and no zero before it, may be thousands.
     let may_be_thousands = |(whole, rest): (&str, &str)| {
         let is_zero = whole.trim_start_matches(['+', '-']).trim_start_matches('0').is_empty();
         rest.len() == 3 && rest.bytes().all(|c| c.is_ascii_digit()) && !is_zero
@@ -66,7 +66,7 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     value(&if is_decimal { plain.replace(',', ".") } else { plain })
 }
 
-/// A text without any of the marks that it begins and ends with.
+/// A text without any of these marks at either end.
 pub(super) fn unmarked<'t>(text: &'t str, marks: &[&str]) -> &'t str {
     let mut text = text.trim();
     while let Some(inner) = marks.iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark)) {
@@ -87,14 +87,14 @@ fn undressed(cell: &str) -> String {
     text
 }
 
-/// `a/b`, `a*10^n`, `a^n` or `a`. Any other product is none: Fortran writes `2*0.1` for the number 0.1 twice.
+/// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number 0.1 twice.
 fn value(text: &str) -> Option<Number> {
     let integer = |text: &str| text.trim_start_matches('(').trim_end_matches(')').parse::<i32>().ok();
     if let Some((above, below)) = text.split_once('/').filter(|(_, below)| !below.contains('/')) {
         return Some(Number { value: value(above)?.value / value(below)?.value, place: None });
     }
     if let Some((factor, power)) = text.split_once('*') {
-        // Read as one number, for a product is rounded once more.
+        // Read as one number, because a product is rounded once more.
         return real(&format!("{factor}e{}", integer(power.strip_prefix("10^")?)?));
     }
     match text.split_once('^') {
@@ -104,7 +104,7 @@ fn value(text: &str) -> Option<Number> {
     }
 }
 
-/// A number of C or of Fortran, whose exponents begin with D or, where they have three digits, with their sign.
+/// A number of C or Fortran; Fortran's exponents begin with D or, with three digits, with their sign.
 fn real(text: &str) -> Option<Number> {
     let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
     let signed = || {

@@ -1,26 +1,26 @@
-//! Numbers behind their names, on one line or on several: `h = 3.5E-01, E = 1.6E-01`, JSON, lists.
+//! Numbers after their names, on one line or on several: `h = 3.5E-01, E = 1.6E-01`, JSON, lists.
 
 use super::names::Word;
 use super::number::{is_dash, number};
 use super::text::RawTable;
 use crate::text::number::counted;
 
-/// A name and the numbers behind it.
+/// A name and the numbers after it.
 struct Pair<'t> {
     name: &'t str,
     values: Vec<&'t str>,
-    /// Whether `=` or `:` stands between.
+    /// Whether `=` or `:` separates them.
     is_marked: bool,
 }
 
-/// What surrounds names and values.
+/// Characters around names and values.
 fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
 }
 
-/// Reads names and numbers; `None` where there are none, or fewer than rows of numbers.
+/// Reads names and numbers; `None` if there are none, or fewer than rows of numbers.
 ///
-/// * `must_mark`: whether `=` or `:` must stand between them.
+/// * `must_mark`: whether `=` or `:` must separate them.
 pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if must_mark && !text.contains([':', '=']) {
         return None;
@@ -34,7 +34,7 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     Some(if longest > 1 { lists(pairs, longest) } else { records(&pairs) })
 }
 
-/// The pairs of a text, and how many lines begin with a number that has no name.
+/// The pairs of a text, and how many lines begin with a nameless number.
 fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let (mut rows, mut is_row, mut depth, mut label, mut position) = (0, false, 0_usize, 0, 0);
@@ -45,7 +45,7 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before.trim_end_matches(|c| is_mark(c) && !":=".contains(c)).ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        // Behind a name that has a number elsewhere a word says that there is none.
+        // After a name that has a number elsewhere, a word means that the number is missing.
         let is_word = || is_dash(word) || pairs.iter().any(|pair| before.contains(pair.name));
         if !((begins || is_last) && number(word, false).is_some() || is_marked && is_last && is_word()) {
             continue;
@@ -73,7 +73,7 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
     (pairs, rows)
 }
 
-/// A column for each list; rates, which are one fewer, begin on the second level.
+/// A column for each list; rates, one fewer, begin on the second level.
 fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
     let mut grid = RawTable { rows: vec![vec![]; longest], ..RawTable::default() };
     for mut pair in pairs {
@@ -91,7 +91,7 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
     grid
 }
 
-/// A row for each time that the names come round. What is printed more often than the step, by a solver, is left out.
+/// A row for each repetition of the names. Names that a solver prints more often than the step are left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     let mut counts: Vec<(&'t str, usize)> = vec![];
     for pair in pairs {

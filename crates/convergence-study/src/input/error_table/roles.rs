@@ -1,4 +1,4 @@
-//! Which columns are errors, values and rates: by their numbers, and by their names where the numbers leave it open.
+//! Which columns are errors, values and rates: decided by their numbers, and by their names if the numbers do not decide.
 
 use std::collections::HashSet;
 
@@ -10,17 +10,17 @@ use crate::input::{InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::plain_text;
 
-/// What a column that nobody has chosen holds.
+/// What an unchosen column holds.
 #[derive(PartialEq)]
 enum Holds {
     Error,
     Value,
     Other,
-    /// Perhaps an error that does not fall.
+    /// Possibly an error that does not fall.
     Doubtful,
 }
 
-/// Reads the step and the errors that are meant.
+/// Reads the step and the chosen errors.
 pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
     let mut reader = TableReader::new(text, file, choice)?;
     let step = reader.step()?;
@@ -55,13 +55,13 @@ pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable,
     })
 }
 
-/// Columns that are no errors, each with the reason.
+/// Columns that are not errors, each with the reason.
 fn reasons(others: &[(String, String)]) -> String {
     listed(others.iter().map(|(name, why)| format!("`{name}` ({why})")))
 }
 
 impl TableReader<'_> {
-    /// The step of each row; puts the rows into the order of the steps, the coarsest level first, as the judge wants it.
+    /// The step of each row; sorts the rows by step, coarsest level first, as the judge requires.
     fn sort(&mut self, Step { column, dim, .. }: &Step) -> Result<Vec<f64>, InputError> {
         let what = if dim.is_some() { "a count" } else { "a step" };
         let cells = &self.columns[*column];
@@ -89,7 +89,7 @@ impl TableReader<'_> {
         Ok(order.iter().map(|row| steps[*row]).collect())
     }
 
-    /// The columns of errors and of values that are asked for.
+    /// The columns chosen as errors and as values.
     fn chosen(&self, step: usize) -> Result<[Vec<usize>; 2], InputError> {
         let find = |wanted: &[String], option: &str| {
             wanted.iter().map(|name| self.find(name, option)).collect::<Result<Vec<usize>, _>>()
@@ -109,8 +109,8 @@ impl TableReader<'_> {
         Ok([errors, values])
     }
 
-    /// The columns of errors; the others are left out, each with the reason. Refuses to judge where there is no error, or a column
-    /// that may be one and does not fall, and no name says which are errors.
+    /// The columns of errors; the others are left out, each with the reason. Refuses to judge without errors, or if a
+    /// column may be an error but does not fall and no name says which columns are errors.
     fn found(&mut self, step: &Step, steps: &[f64], values: &[usize]) -> Result<Vec<usize>, InputError> {
         let mut found = [const { Vec::new() }; 4];
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
@@ -148,7 +148,7 @@ impl TableReader<'_> {
         }
     }
 
-    /// What a column holds, by its numbers and then by its name; where it is no error, why.
+    /// What a column holds, by its numbers and then by its name; if it is not an error, why.
     fn kind(&self, k: usize, step: usize, steps: &[f64]) -> Result<(Holds, String), InputError> {
         let column = &self.columns[k];
         let numbers = (0..steps.len()).filter(|row| column.is_number[*row]).map(|row| column.values[row]);
@@ -162,7 +162,7 @@ impl TableReader<'_> {
             () if column.word.noun().is_some() && column.is_constant() => return other("the same in each row"),
             () => {}
         }
-        // Errors before it, the nearest first, and those behind.
+        // Errors before it, the nearest first, and those after it.
         let near = (k.saturating_sub(NEIGHBOURS)..k).rev().chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
         let mut near = near.filter(|near| *near != step).map(|near| &self.columns[near]);
         let missing = column.is_number.iter().position(|is_number| !is_number);

@@ -12,7 +12,7 @@ const COMMENTS: [char; 3] = ['#', '%', '!'];
 #[derive(Default)]
 struct Lines<'t> {
     heads: Vec<&'t str>,
-    /// Without their marks.
+    /// Without comment marks.
     comments: Vec<&'t str>,
     /// Lines and their cells.
     rows: Vec<(&'t str, Vec<&'t str>)>,
@@ -48,13 +48,13 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         let names = if named == 1 { column(0) } else { vec![&text[..0]; rows.len()] };
         return RawTable { names, rows: (named..rows[0].len()).map(column).collect(), ..grid };
     }
-    // Words that are not one for each column say how many there should be.
+    // If the number of words is not that of the columns, it says how many columns there should be.
     let words = lines.heads.iter().map(|head| split(head, lines.separator).len()).rfind(|words| *words > 1);
     let names = names.unwrap_or_else(|| vec![&text[..0]; words.unwrap_or(spans.len())]);
     RawTable { names, rows, ..grid }
 }
 
-/// The cells of a line: between separators, outside of quotes and not behind a backslash; between blanks without one.
+/// The cells of a line: between separators, outside quotes and not after a backslash; between blanks without one.
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     let mut line = line;
     if separator == Some('|') {
@@ -73,13 +73,13 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     line.split(separates).map(cell).filter(|cell| separator.is_some() || !cell.is_empty()).collect()
 }
 
-/// A cell without blanks and quotes around it; of blanks alone their end.
+/// A cell without surrounding blanks and quotes; the end of a text of blanks alone.
 fn cell(text: &str) -> &str {
     let text = text.trim_start().trim_end();
     text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim()
 }
 
-/// The separator of a table: the first that leaves no two numbers in a cell of its first row.
+/// The separator of a table: the first that leaves no two numbers in one cell of its first row.
 fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) -> Option<char> {
     let is_number = |text: &str| number(text, true).is_some();
     let leads = |line: &&str| {
@@ -95,7 +95,7 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
     ['&', '|', ';', '\t', ','].into_iter().find(separates)
 }
 
-/// A line of dashes or of a box.
+/// A line of dashes, or the border of a box.
 fn is_rule(line: &str) -> bool {
     let strokes = |c: char| "-=_~─═━".contains(c);
     let drawn =
@@ -103,7 +103,7 @@ fn is_rule(line: &str) -> bool {
     line.chars().all(drawn) && line.chars().filter(|c| strokes(*c)).count() > 2
 }
 
-/// The types of columns as data frames write them below the names, or units.
+/// The types of columns, as data frames write them below the names, or units.
 fn is_type(cell: &&str) -> bool {
     let text = cell.to_lowercase();
     let known = ["f", "i", "u", "int", "float", "double", "bigint", "str"];
@@ -112,7 +112,7 @@ fn is_type(cell: &&str) -> bool {
         || is_dash(&text)
 }
 
-/// The bytes of a line that a piece of it takes.
+/// The byte range of a piece within its line.
 fn span(line: &str, piece: &str) -> [usize; 2] {
     let start = (piece.as_ptr() as usize).saturating_sub(line.as_ptr() as usize);
     [start, start + piece.len().max(1)]
@@ -122,7 +122,7 @@ impl<'t> Lines<'t> {
     /// Adds a line to the rows, if it is one, or to the lines above them.
     fn add(&mut self, line: &'t str) {
         let is_number = |cell: &&str| number(cell, self.separator != Some(',')).is_some();
-        // A row without the comment behind it.
+        // A row without the comment after it.
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], self.separator);
         let numbers = cells.iter().filter(|cell| is_number(cell)).count();
         let begins = cells.iter().filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit())).count();
@@ -138,9 +138,9 @@ impl<'t> Lines<'t> {
         }
     }
 
-    /// The bytes of a line that each column takes. Cells of shorter rows are put into the columns below which they stand.
+    /// The byte range of each column. Cells of shorter rows go into the columns below which they stand.
     fn fill(&mut self) -> Vec<[usize; 2]> {
-        // Where the rate of the coarsest level is left blank its row is shorter than the others.
+        // If the rate of the coarsest level is left blank, its row is shorter than the others.
         let width = self.rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
         let mut spans = vec![[usize::MAX, 0]; width];
         for (line, cells) in self.rows.iter().filter(|(_, cells)| cells.len() == width) {
@@ -160,7 +160,7 @@ impl<'t> Lines<'t> {
         self.rows.iter().map(|(_, cells)| cells.get(k).copied().unwrap_or_default()).collect()
     }
 
-    /// The nearest line above the rows that has a name for each column; a comment where no other has.
+    /// The nearest line above the rows that has a name for each column; a comment only if no other line has.
     fn names(&self, spans: &[[usize; 2]]) -> Option<Vec<&'t str>> {
         let rates: Vec<bool> = (0..spans.len()).map(|k| are_rates(&self.column(k))).collect();
         let index = usize::from(counts_rows(&self.column(0)));
@@ -170,7 +170,7 @@ impl<'t> Lines<'t> {
         let mut below: Option<&str> = None;
         let heads = self.heads.iter().rev().map(|line| (line, false));
         for (line, is_comment) in heads.chain(self.comments.iter().rev().map(|line| (line, true))) {
-            // A comment may be separated in another way than the rows: `# h, L2` above columns of blanks.
+            // A comment may use another separator than the rows: `# h, L2` above columns of blanks.
             let others = [Some(','), Some(';'), Some('\t')];
             for separator in others.iter().filter(|_| is_comment).chain([&self.separator]) {
                 let mut cells = split(line, *separator);
@@ -184,7 +184,7 @@ impl<'t> Lines<'t> {
                 } else if let Some(index) = below.filter(|_| cells.len() + 1 == spans.len() && !is_comment) {
                     cells.insert(0, index);
                 }
-                // Between blanks words may be parts of names: then none stands above rates but theirs.
+                // If blanks separate, words may be parts of names: then only names of rates may stand above rates.
                 let is_rate = |(cell, is_rate): (&&str, &bool)| !is_rate || Word::of(cell) == Word::Rate;
                 let is_sure = || separator.is_some() || cells.iter().zip(&rates).all(is_rate);
                 let fits = |mask: &&Vec<usize>| cells.len() == mask.len() && (mask.len() < rates.len() || is_sure());
@@ -208,7 +208,7 @@ impl<'t> Lines<'t> {
     }
 }
 
-/// Each cell in the one column below which it stands, and empty ones between them; `None` where one stands elsewhere.
+/// Each cell in the only column that it overlaps, and empty ones between; `None` if a cell stands elsewhere.
 fn below<'t>(line: &'t str, cells: &[&'t str], spans: &[[usize; 2]]) -> Option<Vec<&'t str>> {
     let empty = |span: &[usize; 2]| line.get(span[0]..span[0]).unwrap_or(&line[line.len()..]);
     let mut filled: Vec<&str> = spans.iter().map(empty).collect();
@@ -221,7 +221,7 @@ fn below<'t>(line: &'t str, cells: &[&'t str], spans: &[[usize; 2]]) -> Option<V
     Some(filled)
 }
 
-/// Names of several words: each word belongs to the nearest of the columns `named`, all of which but the first need one.
+/// Names of several words: each word belongs to the nearest column of `named`; all of these except the first need one.
 fn above<'t>(line: &'t str, words: &[&'t str], spans: &[[usize; 2]], named: &[usize]) -> Option<Vec<&'t str>> {
     let mut names = vec![&line[..0]; spans.len()];
     for word in words {
@@ -236,7 +236,7 @@ fn above<'t>(line: &'t str, words: &[&'t str], spans: &[[usize; 2]], named: &[us
 
 /// Whether columns stand as rows: words before them and none above, two rows of numbers, or the steps in the first one.
 fn is_turned(rows: &[Vec<&str>]) -> bool {
-    // Numbers with one ratio are those of a step.
+    // Numbers with a constant ratio are those of a step.
     let is_even = |cells: &[&str]| {
         let numbers: Vec<f64> = cells.iter().filter_map(|cell| Some(number(cell, true)?.value)).collect();
         numbers.len() > 2 && numbers.windows(3).all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
@@ -259,7 +259,7 @@ pub(super) fn counts_rows(cells: &[&str]) -> bool {
     matches!(first.min(last), 0 | 1) && values.windows(2).all(|two| two[1] - two[0] == (last - first).signum())
 }
 
-/// Whether a column may hold rates without a name: a dash in the first row or the last, and few decimals in all others.
+/// Whether a nameless column may hold rates: a dash in the first or last row, and few decimals in all others.
 fn are_rates(cells: &[&str]) -> bool {
     let is_rate = |text: &&&str| {
         text.split_once('.').is_some_and(|(_, decimals)| decimals.len() < 5 && !text.contains(['e', 'E']))
@@ -268,7 +268,7 @@ fn are_rates(cells: &[&str]) -> bool {
     ends && cells.iter().filter(is_rate).count() + 1 == cells.len()
 }
 
-/// The names of `# 1: cells`, `# 2: dofs`, ...; `None` where they are not as many as columns.
+/// The names of `# 1: cells`, `# 2: dofs`, ...; `None` if their number is not that of the columns.
 fn numbered<'t>(comments: &[&'t str], width: usize) -> Option<Vec<&'t str>> {
     let pairs = comments.iter().filter_map(|line| line.split_once(':'));
     let numbered = pairs.filter_map(|(number, name)| Some((number.trim().parse::<usize>().ok()?, cell(name))));

@@ -8,11 +8,11 @@ use crate::text::number::plain_text;
 /// The step of a table.
 pub(super) struct Step {
     pub(super) column: usize,
-    /// The dimension where the column counts.
+    /// The dimension, if the column counts.
     pub(super) dim: Option<f64>,
     /// Its name, or `cells^(-1/2)`.
     pub(super) label: String,
-    /// How it was found where its name does not say so.
+    /// How it was found, if its name does not say so.
     pub(super) how: String,
 }
 
@@ -31,7 +31,7 @@ impl TableReader<'_> {
         Ok(Step { column, dim, label, how })
     }
 
-    /// The step by its name, else the count nearest to it, else what falls by regular ratios.
+    /// The step by its name, else the count closest to it, else the column that falls by regular ratios.
     fn natural_step(&self) -> Result<(usize, String), InputError> {
         let of = |wanted: fn(Word) -> bool| -> Vec<usize> {
             let is_free = |column: &Cells<'_>| wanted(column.word) && !column.is_claimed && !column.is_constant();
@@ -79,7 +79,7 @@ impl TableReader<'_> {
         Err(self.refuse("a column of steps: add `h`, or name it with --step", &found))
     }
 
-    /// The command with a column for the step.
+    /// The command with a column as the step.
     fn with_step(&self, column: usize) -> String {
         let name = self.columns[column].name.trim_start_matches("column ").to_owned();
         let dim = if self.is_count(column) { Some(1.0) } else { self.choice.dim };
@@ -118,11 +118,11 @@ impl TableReader<'_> {
         Err(self.refuse(expected, &found))
     }
 
-    /// Whether a column counts: by its name, or because it has whole numbers that grow where errors fall.
+    /// Whether a column counts: by its name, or because it has whole numbers that grow while errors fall.
     fn is_count(&self, column: usize) -> bool {
         let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
         let Cells { values, word, .. } = &self.columns[column];
-        // How many columns fall where it falls, less those that grow or, as it does, cannot tell.
+        // The number of columns that fall where it falls, minus those that grow or, like it, are undecided.
         let alike = |k: usize| {
             let others = &self.columns[k].values;
             if k == column || is_whole(others) || others.iter().any(|other| !(*other > 0.0)) {

@@ -1,4 +1,4 @@
-//! A table in columns: what their numbers say, and complaints about them.
+//! A table in columns: properties of their numbers, and complaints about them.
 
 use std::f64::consts::LN_2;
 
@@ -12,16 +12,16 @@ use crate::text::number::counted;
 
 /// Most names that a message lists.
 const LISTED: usize = 12;
-/// Rates are looked for among as many columns on either side.
+/// Rates are searched for among this many columns on either side.
 pub(super) const NEIGHBOURS: usize = 40;
-/// Largest relative difference of two ratios that are the same, by their digits.
+/// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
-/// How far numbers that tend to a limit are from each other at most, as a ratio.
+/// Largest ratio between numbers that tend to a limit.
 const NEAR: f64 = 1.5;
-/// Errors fall by this factor from level to level at least where their column is named like one of rates.
+/// Errors fall at least by this factor from level to level if their column has a name like one of rates.
 const STEEP: f64 = 0.72;
 
-/// What is not read, by a mark of it, and what to do.
+/// Formats that are not read: a mark of each, and what to do.
 const FOREIGN: [(&str, &str); 4] = [
     (
         "<td",
@@ -32,7 +32,7 @@ const FOREIGN: [(&str, &str); 4] = [
     ("\":{\"0\":", "JSON of pandas with an object for each column: write `to_json(orient=\"records\")`"),
 ];
 
-/// A table and what is asked of it.
+/// A table and the choices of the user.
 pub(super) struct TableReader<'t> {
     pub(super) text: &'t str,
     file: &'t str,
@@ -43,11 +43,11 @@ pub(super) struct TableReader<'t> {
 
 /// A column, row by row.
 pub(super) struct Cells<'t> {
-    /// As messages show it.
+    /// Its name in messages.
     pub(super) name: String,
     pub(super) word: Word,
     pub(super) texts: Vec<&'t str>,
-    /// NaN where there is no number.
+    /// NaN if there is no number.
     pub(super) values: Vec<f64>,
     pub(super) is_number: Vec<bool>,
     /// Half a unit of the last place of each number.
@@ -63,7 +63,7 @@ impl Cells<'_> {
         self.values.len() > 1 && self.values.iter().all(|value| *value == self.values[0])
     }
 
-    /// Whether each number is positive and much smaller than the one before.
+    /// Whether each number is positive and much smaller than the previous one.
     pub(super) fn is_steep(&self) -> bool {
         self.values.len() > 2 && self.values.windows(2).all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
     }
@@ -72,8 +72,8 @@ impl Cells<'_> {
         self.halves.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The least ratio by which the column falls or grows, if they all are the same or its numbers whole multiples or
-    /// parts of one of them.
+    /// The least ratio by which the column falls or grows, if all ratios are equal or its numbers are whole multiples
+    /// or fractions of one of them.
     pub(super) fn regular(&self) -> Option<f64> {
         let mut values = self.values.clone();
         values.sort_by(f64::total_cmp);
@@ -94,8 +94,8 @@ impl Cells<'_> {
         a.iter().zip(b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
     }
 
-    /// Whether these are the rates or the reductions of an error, to its digits, on the finer or on the coarser level of
-    /// each two.
+    /// Whether these are the rates or the reduction factors of an error, to its digits, on the finer or on the coarser
+    /// level of each pair.
     ///
     /// * `steps`: of the rows, the coarsest first.
     pub(super) fn are_rates_of(&self, error: &Self, steps: &[f64]) -> bool {
@@ -122,7 +122,7 @@ impl Cells<'_> {
     }
 }
 
-/// What numbers tend to, where it is near the last of them and not zero.
+/// The limit of numbers, if it is near the last of them and not zero.
 pub fn limit(numbers: &[f64]) -> Option<f64> {
     let [.., a, b, c] = *numbers else { return None };
     let shrinks = (c - b) / (b - a);
@@ -133,14 +133,14 @@ pub fn limit(numbers: &[f64]) -> Option<f64> {
     (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite()).then_some(limit)
 }
 
-/// Names in a message, not too many of them.
+/// Names in a message, but not too many.
 pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.take(LISTED + 1).collect();
     names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
 }
 
 impl<'t> TableReader<'t> {
-    /// Makes columns of a text; refuses what is no table, and names that cannot be those of its columns.
+    /// Splits a text into columns; refuses a text without a table, and names that do not fit its columns.
     pub(super) fn new(text: &'t str, file: &'t str, choice: &'t Choice) -> Result<Self, InputError> {
         let mut reader = Self { text, file, choice, grid: rows::read(text), columns: vec![] };
         reader.columns = reader.filled()?;
@@ -187,7 +187,7 @@ impl<'t> TableReader<'t> {
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
         let claimed = claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
         let claimed: Vec<usize> = claimed.collect();
-        // `1.024` among decimal commas may be 1024.
+        // With decimal commas, `1.024` may be 1024.
         let is_comma = |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
         let has_comma = rows.iter().flatten().any(is_comma);
         let value = |text: &&str| number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')));
@@ -204,7 +204,7 @@ impl<'t> TableReader<'t> {
         names.iter().enumerate().map(column).collect()
     }
 
-    /// The column of that name, or of that number from 1.
+    /// The column with that name, or with that number from 1.
     pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
         let names = || self.columns.iter().map(|column| column.name.as_str());
         let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.columns.len());
@@ -215,7 +215,7 @@ impl<'t> TableReader<'t> {
         })
     }
 
-    /// The number of a cell that must have one.
+    /// The number of a cell that must hold one.
     pub(super) fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
         let Cells { texts, values, is_number, .. } = &self.columns[column];
         is_number[row].then_some(values[row]).ok_or_else(|| {
@@ -236,7 +236,7 @@ impl<'t> TableReader<'t> {
         })
     }
 
-    /// The name above a column, or where the text begins.
+    /// The name above a column, or the beginning of the text.
     pub(super) fn head(&self, column: usize) -> &str {
         self.grid.names.get(column).copied().unwrap_or(self.text)
     }
@@ -252,7 +252,7 @@ impl<'t> TableReader<'t> {
         self.error(texts[row], Some(name.clone()), expected, &format!("`{}`", shorten(texts[row])))
     }
 
-    /// The byte of the text where a piece of it begins.
+    /// The byte offset of a piece within the text.
     pub(super) fn offset(&self, piece: &str) -> usize {
         (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }

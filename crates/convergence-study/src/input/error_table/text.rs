@@ -1,22 +1,22 @@
-//! Any text as lines of names and numbers, and what is found in it.
+//! Any text as lines of names and numbers, and the table found in it.
 
 use super::number::{is_dash, number};
 
-/// A table as it is written. Names and cells are pieces of the text, which tell their places.
+/// A table as written. Names and cells are slices of the text, which give their places.
 #[derive(Debug, Default)]
 pub(super) struct RawTable<'t> {
-    /// A name for each column, empty for none.
+    /// A name for each column, or an empty one.
     pub(super) names: Vec<&'t str>,
     pub(super) rows: Vec<Vec<&'t str>>,
-    /// Whether a comma in a cell is that of a number.
+    /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
-    /// What is no column of the table, with the reason.
+    /// What is not a column of the table, with the reason.
     pub(super) left_out: Vec<(String, String)>,
 }
 
-/// Stands before a number that was written in parentheses.
+/// Put before a number that was written in parentheses.
 pub(super) const BEHIND: char = '\u{1f}';
-/// What stands for something simpler. Spreadsheets put a byte order mark in front; the first Macintosh ended lines by \r.
+/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh ended lines with \r.
 const MARKS: [(&str, &str); 14] = [
     ("\u{feff}", ""),
     ("\r\n", "\n"),
@@ -42,7 +42,7 @@ pub(super) fn plain(text: &str) -> String {
     let mut parts = marked.split("\x1b[");
     let mut text = parts.next().unwrap_or_default().to_owned();
     for part in parts {
-        // A colour ends behind the first character that is no part of its number.
+        // A colour ends after the first character that does not belong to its number.
         let mut rest = part.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';').chars();
         text += rest.next().map_or("", |_| rest.as_str());
     }
@@ -99,7 +99,7 @@ fn unnested(text: &str) -> String {
     text.chars().map(kept).collect()
 }
 
-/// A line of a log without date, time, level and the marks behind them.
+/// A line of a log without date, time, level and the marks after them.
 fn without_stamp(line: &str) -> &str {
     if line.split_once(':').is_some_and(|(level, _)| LEVELS.contains(&level)) {
         // `INFO:root:h=0.1`.

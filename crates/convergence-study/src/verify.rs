@@ -24,7 +24,7 @@ use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use crate::text::visible;
 
-/// Which studies were asked for. It decides where the report goes: one on a selection never replaces that on a tier.
+/// Which studies to run. This decides where the report goes: a report on a selection never replaces one on a tier.
 ///
 /// | scope | reports |
 /// | --- | --- |
@@ -33,9 +33,9 @@ use crate::text::visible;
 /// | a selection | `reports/local/partial/`, which git ignores |
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scope {
-    /// All studies of a tier; the headers of all studies that there are, whatever their tier: the claims of all are compared.
+    /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims of all are compared.
     Tier(Tier, Vec<Header>),
-    /// Some studies, as they were asked for on the command line.
+    /// Some studies, as named on the command line.
     Selection(Vec<String>),
 }
 
@@ -61,7 +61,7 @@ impl Scope {
         }
     }
 
-    /// The headers of all studies that there are, where a whole tier was asked for.
+    /// The headers of all existing studies, if a whole tier is run.
     pub fn known(&self) -> Option<&[Header]> {
         match self {
             Self::Tier(_, known) => Some(known),
@@ -88,15 +88,15 @@ pub struct Request {
     pub scope: Scope,
     /// Threads and time.
     pub effort: Effort,
-    /// Whether to take the new numbers for the baseline.
+    /// Whether to accept the new numbers as baseline.
     pub bless: bool,
-    /// Why claims have changed, for a blessing of them.
+    /// Why claims have changed, for blessing them.
     pub reason: Option<String>,
-    /// Names or patterns of the changes to take; all of them where there is none. Needs a reason.
+    /// Names or patterns of the changes to accept; if empty, all. Needs a reason.
     pub only: Vec<String>,
-    /// The project's folder: `studies/baseline.json` is below.
+    /// The project's folder, which contains `studies/baseline.json`.
     pub root: PathBuf,
-    /// The folder of its reports, by custom `reports/` in it.
+    /// The folder of its reports, usually `reports/` in it.
     pub reports: PathBuf,
 }
 
@@ -106,12 +106,12 @@ impl Request {
         self.root.join("studies").join("baseline.json")
     }
 
-    /// Waits for other processes that write the baseline, and keeps them waiting. The lock is in the project, wherever the reports go.
+    /// Waits for other processes that write the baseline, and then blocks them. The lock is in the project, wherever the reports go.
     fn lock_baseline(&self) -> Result<File, VerificationError> {
         lock_reports(&self.root.join("reports"))
     }
 
-    /// The same for the reports, and for the baseline before them where this is a blessing.
+    /// The same for the reports, preceded by the lock of the baseline for a blessing.
     fn lock(&self) -> Result<[Option<File>; 2], VerificationError> {
         let baseline = self.bless.then(|| self.lock_baseline()).transpose()?;
         // A second lock on the same file would wait for the first.
@@ -119,7 +119,7 @@ impl Request {
         Ok([baseline, if is_held { None } else { Some(lock_reports(&self.reports)?) }])
     }
 
-    /// Whether baseline and reports have the same lock. Call it with one of them held: its file is then there.
+    /// Whether baseline and reports have the same lock. One of them must be held: its file then exists.
     fn is_one_lock(&self) -> bool {
         let [baseline, reports] =
             [&self.root.join("reports"), &self.reports].map(|folder| lock_file(folder).canonicalize().ok());
@@ -130,15 +130,15 @@ impl Request {
 /// The result of a verification.
 #[derive(Debug)]
 pub struct Verification {
-    /// The studies, in the order in which they were given.
+    /// The studies, in the order given.
     pub finished: Vec<Finished>,
-    /// What differs from the baseline; nothing after a blessing.
+    /// Differences from the baseline; empty after a blessing.
     pub changes: Vec<Change>,
-    /// The worst of all studies, and fail where something differs.
+    /// The worst verdict of all studies; fail if there are differences.
     pub verdict: Verdict,
-    /// What is known of the cause, where the verdict is not a pass.
+    /// The known facts about the cause, unless the verdict is a pass.
     pub diagnosis: Option<Diagnosis>,
-    /// Whether the baseline is new, where that was asked for.
+    /// Whether the baseline was replaced, if that was requested.
     pub blessing: Option<Result<(), Refusal>>,
     /// The folder of the reports.
     pub reports: PathBuf,
@@ -173,10 +173,10 @@ pub enum VerificationError {
     },
 }
 
-/// Runs the studies and writes baseline, if asked, and reports.
+/// Runs the studies and writes the reports, and the baseline if requested.
 ///
 /// # Errors
-/// [`VerificationError`]; a baseline that cannot be read and reports that cannot be written are found before anything is run.
+/// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported before anything is run.
 pub fn verify(
     project: &Project,
     studies: &[Box<dyn Study>],
@@ -190,18 +190,18 @@ pub fn verify(
     let folder = &request.reports;
     let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
     tidy(request)?;
-    // A folder that cannot be written is found before the run.
+    // A folder that is not writable is reported before the run.
     atomic::prepare_folder(folder).map_err(fail)?;
     let works_file = request.root.join("studies/work.json");
     let mut works = Works::read(&works_file)?;
-    // What is blessed may take longer than it did.
+    // Blessed runs may take longer than before.
     let allowed = |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
     let finished = run::run_within(studies, request.effort, &allowed, progress)?;
 
     let _lock = request.lock()?;
     // A request to end the process waits until everything is written.
     let _writing = writing::begin();
-    // Another run may have blessed in the meantime: under the lock it is read again.
+    // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
     let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
@@ -210,7 +210,7 @@ pub fn verify(
     let diagnosis = diagnose(project, &finished, &changes, &mistakes);
     let target = request.scope.report_folder(folder);
     let verification = Verification { finished, changes, verdict, diagnosis, blessing, reports: target.folder.clone() };
-    // Everything is made before anything is written.
+    // Everything is prepared before anything is written.
     let command = request.scope.command(project);
     let provenance =
         Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &verification.finished);
@@ -230,7 +230,7 @@ pub fn verify(
     Ok(verification)
 }
 
-/// Takes all changes for the baseline, or those that are asked for: all of them or none.
+/// Accepts all changes into the baseline, or those selected: all of them or none.
 fn bless(
     baseline: &mut Baseline,
     finished: &[Finished],

@@ -1,5 +1,5 @@
-//! The section of one study, and what heads the report of a run that passes: sentences of the project, one plot, and its statements,
-//! each with the numbers that answer it.
+//! The section of one study, and the head of the report of a passing run: sentences of the project, one plot, and its
+//! statements, each with the numbers that answer it.
 
 use super::Findings;
 use super::html::phrase;
@@ -11,19 +11,19 @@ use crate::run::Finished;
 use crate::study::outcome::{Figure, Table};
 use crate::text::number::RATE_PLACES;
 
-/// A longer table is folded: what it shows has been said in a sentence, a rate or a figure before.
+/// A longer table is folded: a sentence, a rate or a figure has already summarised it.
 const MOST_ROWS: usize = 12;
 
-/// So many tables of a study that passes are shown: rates, checks, errors, and one of its own.
+/// Most tables shown of a passing study: rates, checks, errors, and one of its own.
 const MOST_TABLES: usize = 4;
 
-/// So many figures of a study that passes are shown; the others are linked.
+/// Most figures shown of a passing study; the others are linked.
 const MOST_FIGURES: usize = 3;
 
-/// The section of a study in the Markdown report: in short where it passes.
+/// The section of a study in the Markdown report; short if it passes.
 ///
 /// * `again`: the command that runs it again.
-/// * `seen`: captions of figures further up: a twin of such a figure is linked, not shown.
+/// * `seen`: captions of figures shown earlier: a twin of such a figure is linked, not shown.
 pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'f str>) -> String {
     let Finished { header, outcome, .. } = finished;
     let head = format!("\n## {}\n\n> {}\n\n", header.id, text(&header.claim));
@@ -58,7 +58,7 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     head + &parts.join("\n")
 }
 
-/// All of a section but heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
+/// A whole section except heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
 pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished { header, outcome, .. } = finished;
     let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&summary(outcome)))];
@@ -70,7 +70,7 @@ pub(super) fn body(finished: &Finished, again: &str) -> String {
     parts.join("\n")
 }
 
-/// The verdict; in bold where it is not a pass.
+/// The verdict; in bold unless it is a pass.
 pub(super) fn marked(verdict: Verdict) -> String {
     if verdict == Verdict::Pass { verdict.to_string() } else { format!("**{verdict}**") }
 }
@@ -80,7 +80,7 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
     table(&cells(head), rows.iter().map(|row| cells(row)).collect())
 }
 
-/// A table under its title; a long one is folded, but open in a study that does not pass.
+/// A table under its title; a long one is folded, except in a study that does not pass.
 fn titled(table: &Table, passes: bool) -> String {
     let (Table { title, rows, .. }, lines) = (table, markdown(table));
     if rows.len() <= MOST_ROWS {
@@ -89,7 +89,7 @@ fn titled(table: &Table, passes: bool) -> String {
     folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
 }
 
-/// What can be unfolded under a summary, which is HTML.
+/// Lines that can be unfolded under a summary, in HTML.
 pub(super) fn folded(summary: &str, lines: &str, open: bool) -> String {
     let open = if open { " open=\"\"" } else { "" };
     format!("<details{open}>\n<summary>{summary}</summary>\n\n{lines}\n</details>\n")
@@ -99,15 +99,15 @@ fn cells(row: &[String]) -> Vec<String> {
     row.iter().map(|raw| cell(raw)).collect()
 }
 
-/// The picture with its caption, which is also what is read where it cannot be seen.
+/// The picture with its caption, which is also its text alternative.
 pub(super) fn figure(figure: &Figure) -> String {
     let alternative = figure.caption.replace(['[', ']', '\n', '`', '\\'], " ");
     format!("![{alternative}](figures/{})\n\n*{}*\n", figure.file, text(&figure.caption))
 }
 
-/// In Markdown, and the plot in it; empty where the run does not pass, or has none of the studies.
+/// In Markdown, with its plot; empty if the run does not pass or contains none of the studies.
 ///
-/// * `link`: a study's id as it is written.
+/// * `link`: how a study's id is written.
 pub(super) fn front<'f>(findings: &'f Findings<'_>, link: &dyn Fn(&str) -> String) -> (String, Option<&'f Figure>) {
     let record = findings.record;
     let front = &findings.project.front;

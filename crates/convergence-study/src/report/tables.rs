@@ -1,5 +1,5 @@
-//! The tables of one study, as plain text, the same ones for report and terminal: rates, checks, and the errors of each level, each
-//! with the rate from the level before beside it.
+//! The tables of one study, as plain text, the same for report and terminal: rates, checks, and the errors of each
+//! level, each with the rate from the previous level.
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};

@@ -52,15 +52,15 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     probe(&folder.join(PROBE)).map_err(naming)
 }
 
-/// Proves that a file of this name can be made. It makes one beside it: another process may be writing the file itself.
+/// Proves that a file of this name can be made. It makes one next to it: another process may be writing the file itself.
 fn probe(path: &Path) -> io::Result<()> {
     let beside = name_beside(path)?;
     fs::write(&beside, "")?;
-    // Another process may have tidied up.
+    // Another process may have removed it.
     if_there(fs::remove_file(&beside)).map(drop)
 }
 
-/// Removes the unfinished files that killed writers of `path` have left beside it. Call it where no other process writes this file.
+/// Removes the unfinished files that killed writers of `path` have left next to it. No other process may be writing this file.
 pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
         return Ok(());
@@ -94,7 +94,7 @@ fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
-/// The same error with the file named in front.
+/// The same error, preceded by the name of the file.
 pub fn naming(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
 }

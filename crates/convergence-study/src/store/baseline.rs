@@ -1,8 +1,8 @@
-//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance, and what the study files
-//! claimed when they were blessed: every value of every file.
+//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance, and the claims of
+//! the study files when they were blessed: every value of every file.
 //!
-//! The file is `studies/baseline.json`: it says what is expected, so it lives beside the claims, not among the files that a run
-//! writes. Only a blessing changes it. Numbers have all their digits.
+//! The file is `studies/baseline.json`: it states expectations, so it lives with the claims and not with the files that
+//! a run writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
 //! {
@@ -12,12 +12,12 @@
 //! }
 //! ```
 //!
-//! A claim that changed is blessed with a reason only, which is kept beside it; one that was withdrawn stays as `null` with the
-//! reason. A blessing takes the claims of the studies that were run: a claim is not changed without a run that passes.
+//! A changed claim is blessed only with a reason, which is kept with it; a withdrawn claim stays as `null` with the
+//! reason. A blessing accepts the claims of the studies that were run: a claim changes only with a run that passes.
 //!
-//! A number that is accepted alone, or blessed with a reason, keeps the reason likewise.
+//! A number that is accepted alone, or blessed with a reason, keeps its reason, too.
 //!
-//! The baseline can only make a run worse: studies are judged on their own first, and a run that did not pass is not blessed.
+//! The baseline can only make a run worse: studies are first judged on their own, and a run that did not pass is not blessed.
 
 mod change;
 
@@ -36,7 +36,7 @@ use crate::text::{json, visible};
 use change::Claims;
 pub use change::{BlessedClaim, Change, Movement};
 
-/// Version of the file's form.
+/// Version of the file format.
 const SCHEMA: u32 = 2;
 
 /// What to do about another version.
@@ -58,18 +58,18 @@ pub struct Baseline {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guarded {
-    /// Its value; `null`, which meets nothing, is read as NaN.
+    /// Its value; `null`, which agrees with nothing, is read as NaN.
     #[serde(deserialize_with = "json::nan")]
     pub value: f64,
-    /// The relative change that is tolerated.
+    /// The relative change tolerated.
     #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
-    /// Why it was changed; nothing where nobody said so.
+    /// Why it was changed; `None` if no reason was given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// Why a run was not taken for the baseline.
+/// Why a run was not accepted as baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Refusal {
     /// A study does not pass.
@@ -80,7 +80,7 @@ pub enum Refusal {
         /// Its verdict.
         verdict: Verdict,
     },
-    /// A guarded number is not finite, or its tolerance is no tolerance: no later run could meet it.
+    /// A guarded number is not finite, or its tolerance is invalid: no later run could reproduce it.
     #[error("not blessed: `{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet")]
     NotComparable {
         /// The study.
@@ -92,13 +92,13 @@ pub enum Refusal {
         /// Its tolerance.
         tolerance: f64,
     },
-    /// A claim of a study that was not run: it is not changed without a run that passes.
+    /// A claim of a study that was not run: it changes only with a run that passes.
     #[error("not accepted: `{study}` was not run; name it, or its tier")]
     NotRun {
         /// The study.
         study: String,
     },
-    /// Claims changed, and nobody said why.
+    /// Claims changed without a reason.
     #[error("not blessed: a changed claim needs a reason; repeat it with --bless --reason TEXT\n  {}", .claims.join("\n  "))]
     NoReason {
         /// The changes in words.
@@ -113,10 +113,10 @@ impl Default for Baseline {
 }
 
 impl Baseline {
-    /// Reads the file. One that is not there is empty: every number is then new.
+    /// Reads the file. A missing file is an empty baseline: every number is then new.
     ///
     /// # Errors
-    /// [`StoreError`] where there is a file that is not a baseline.
+    /// [`StoreError`] if the file exists but is not a baseline.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
         let expected = ["restore it, or remove it and run `verify --bless`", EXPECTED];
         Ok(read_if_there(path, Some(SCHEMA), expected)?.unwrap_or_default())
@@ -127,11 +127,11 @@ impl Baseline {
         write_json(path, self)
     }
 
-    /// Every guarded number of these studies that is not what it was, and every claim: moved, changed, new or vanished.
+    /// Every guarded number of these studies and every claim that differs: moved, changed, new or vanished.
     ///
-    /// * `known`: the headers of all studies that there are, run or not: claims are compared for all of them, numbers for those
-    ///   that were run. A study of the baseline that is not among them was deleted, which is one change, its numbers included; `None`
-    ///   where only a selection is of interest.
+    /// * `known`: the headers of all existing studies, run or not: claims are compared for all of them, numbers for
+    ///   those that were run. A study of the baseline that is not among them was deleted, which is one change,
+    ///   including its numbers; `None` if only a selection matters.
     pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
@@ -144,7 +144,7 @@ impl Baseline {
         changes.extend(others.flat_map(|header| self.changed_claims(header)));
         for id in self.vanished(known) {
             match self.claims.get(&id).and_then(|claims| change::vanished(&id, claims)) {
-                // That its numbers are gone is said by this.
+                // This change already covers its numbers.
                 Some(deleted) => changes.push(deleted),
                 None => changes.extend(change::of_numbers(&id, self.studies.get(&id).unwrap_or(&none), &[])),
             }
@@ -156,7 +156,7 @@ impl Baseline {
         change::of_claims(header, self.claims.get(&header.id), self.guards(&header.id))
     }
 
-    /// The ids of studies that the baseline has and that there are no more.
+    /// The ids of studies in the baseline that no longer exist.
     fn vanished(&self, known: Option<&[Header]>) -> Vec<String> {
         let Some(known) = known else { return vec![] };
         let known: BTreeSet<&String> = known.iter().map(|header| &header.id).collect();
@@ -164,14 +164,14 @@ impl Baseline {
         blessed.difference(&known).map(|id| (*id).clone()).collect()
     }
 
-    /// Takes the numbers of these studies that have moved, or are new, for the baseline; all others keep their digits. So do
-    /// the claims of these studies, which keep their reasons.
+    /// Accepts the numbers of these studies that have moved or are new; all others keep their digits. Likewise accepts
+    /// their claims; unchanged claims keep their reasons.
     ///
-    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are forgotten, their claims withdrawn.
-    /// * `reason`: why claims have changed or vanished; not asked for where none has, nor for a study that is new.
+    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are dropped, their claims withdrawn.
+    /// * `reason`: why claims have changed or vanished; not required if none has, nor for a new study.
     ///
     /// # Errors
-    /// [`Refusal`], and the baseline stays as it was.
+    /// [`Refusal`]; the baseline then stays unchanged.
     pub fn bless(
         &mut self,
         finished: &[Finished],
@@ -180,7 +180,7 @@ impl Baseline {
     ) -> Result<(), Refusal> {
         finished.iter().try_for_each(acceptable)?;
         let mut changes = self.compare(finished, known);
-        // The claims of studies that are known and were not run are left alone.
+        // Claims of known studies that were not run are left alone.
         let is_left = |id: &str| known.is_some_and(|known| known.iter().any(|header| header.id == *id));
         changes.retain(|change| find(finished, &change.study).is_some() || !is_left(&change.study));
         let unreasoned = changes.iter().filter(|change| reason.is_none() && change.movement.needs_a_reason());
@@ -194,12 +194,12 @@ impl Baseline {
         })
     }
 
-    /// Takes one of the changes that [`Baseline::compare`] has found; all others stay as they are.
+    /// Accepts one of the changes found by [`Baseline::compare`]; all others stay as they are.
     ///
-    /// * `reason`: kept beside the number or the claim.
+    /// * `reason`: kept with the number or the claim.
     ///
     /// # Errors
-    /// [`Refusal`], and the baseline stays as it was: as for [`Baseline::bless`], the study must pass.
+    /// [`Refusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must pass.
     pub fn accept(&mut self, finished: &[Finished], change: &Change, reason: &str) -> Result<(), Refusal> {
         find(finished, &change.study).map_or(Ok(()), acceptable)?;
         self.take(finished, change, Some(reason))
@@ -215,7 +215,7 @@ impl Baseline {
             }
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
-                // What stays is the reason.
+                // The reason stays.
                 let withdrawn = (change::ID.to_owned(), BlessedClaim { value: None, reason });
                 claims.insert(study.clone(), [withdrawn].into());
             }
@@ -242,7 +242,7 @@ impl Baseline {
         Ok(())
     }
 
-    /// A claim as it was blessed: of a study, by its dotted path.
+    /// A blessed claim of a study, by its dotted path.
     pub fn claim(&self, id: &str, path: &str) -> Option<&BlessedClaim> {
         self.claims.get(id)?.get(path)
     }

@@ -1,5 +1,5 @@
-//! What a failing run says about its cause: which settings separate what fails from what passes, which fields moved first, which
-//! known mistake it resembles, and where to look.
+//! What a failing run says about its cause: which settings separate failing from passing items, which fields moved
+//! first, which known mistake it resembles, and where to look.
 
 mod contrast;
 mod fingerprint;
@@ -20,26 +20,26 @@ use contrast::{Vote, contrast};
 pub use contrast::Contrast;
 pub use fingerprint::{Fingerprint, Fingerprints, Known, Resembling};
 
-/// Clearest failures, fields, and groups of moved numbers that are named.
+/// How many of the clearest failures, of fields, and of groups of moved numbers are named.
 const NAMED: usize = 3;
 
-/// What is known of the cause of a failure, as data; [`Diagnosis::lines`] has it in words.
+/// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Which settings separate what fails from what passes.
+    /// Which settings separate failing from passing items.
     pub contrast: Contrast,
-    /// Fields in the order in which they are wrong: those first that moved most within their studies.
+    /// Wrong fields, ordered by how much they moved within their studies.
     pub first: Vec<Field>,
-    /// Claims of checks that fail, the commonest first, and how many fail.
+    /// Claims of failing checks, the commonest first, and how many fail.
     pub checks: Vec<(String, usize)>,
-    /// Known mistakes that fail and move alike.
+    /// Known mistakes with similar failures and movements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub resembles: Vec<Resembling>,
     /// Where to look.
     pub look_at: Vec<String>,
     /// The studies with the clearest failures, the worst first.
     pub clearest: Vec<String>,
-    /// Moved numbers of studies that pass, those of one field and one factor together.
+    /// Moved numbers of passing studies, grouped by field and factor.
     pub moved: Vec<String>,
 }
 
@@ -48,21 +48,21 @@ pub struct Diagnosis {
 pub struct Field {
     /// Its name.
     pub name: String,
-    /// Its share in what moved, on the finest levels, summed over studies.
+    /// Its share of the movement, on the finest levels, summed over studies.
     #[serde(deserialize_with = "json::nan")]
     pub share: f64,
     /// The farthest rate that does not pass, with its order.
     #[serde(deserialize_with = "json::nan_pair")]
     pub rate: Option<[f64; 2]>,
-    /// The largest factor by which one of its errors grew; else by which a number changed.
+    /// The largest factor by which one of its errors grew, or by which another number changed.
     #[serde(deserialize_with = "json::nan")]
     pub factor: f64,
 }
 
-/// Diagnoses a run that does not pass; `None` for one that does.
+/// Diagnoses a run that does not pass; `None` for one that passes.
 ///
-/// * `changes`: what moved away from the baseline.
-/// * `known`: mistakes that were planted before.
+/// * `changes`: differences from the baseline.
+/// * `known`: mistakes that were planted earlier.
 pub fn diagnose(
     project: &Project,
     finished: &[Finished],
@@ -98,17 +98,17 @@ pub fn diagnose(
     })
 }
 
-/// Whether the words of a setting are those, alone or in brackets: `ID alone (SETTING)`.
+/// Whether the words of a setting are `what`, alone or in brackets: `ID alone (SETTING)`.
 pub fn names(words: &str, what: &str) -> bool {
     words == what || words.strip_suffix(')').is_some_and(|words| words.ends_with(&format!("({what}")))
 }
 
-/// Whether a number has moved or is gone: what is new has no cause.
+/// Whether a number has moved or vanished: a new one has no cause.
 fn is_number(change: &Change) -> bool {
     !change.movement.needs_a_reason() && change.movement.weight() > 0.0
 }
 
-/// The numbers of a study that moved, or are gone.
+/// The numbers of a study that moved or vanished.
 fn numbers<'c>(changes: &'c [Change], study: &'c str) -> impl Iterator<Item = (&'c str, &'c Movement)> {
     let of = move |change: &&Change| change.study == study && is_number(change);
     changes.iter().filter(of).map(|change| (change.name.as_str(), &change.movement))
@@ -143,12 +143,12 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
     votes
 }
 
-/// Fields by their share in what moved: within a study each is measured by its tolerance, on its finest level, where its own error has
-/// not yet been mixed with that of others for long.
+/// Fields by their share of the movement: within a study each is measured by its tolerance, on its finest level, where
+/// its own error has had the least time to mix with those of others.
 fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
     let mut fields: Vec<Field> = vec![];
     for Finished { header, outcome, .. } in finished {
-        // Levels are in order: the last number of a field is that of its finest.
+        // Levels are in order: the last number of a field belongs to its finest level.
         let mut finest: Vec<(String, f64, f64)> = vec![];
         for (name, movement) in numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate ")) {
             let weight = movement.weight().clamp(0.0, 1e12);
@@ -165,7 +165,7 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
         let most = finest.iter().map(|(_, weight, _)| *weight).fold(f64::MIN_POSITIVE, f64::max);
         for (name, weight, factor) in &finest {
             let rate = rates.iter().filter(|(of, _)| of == name).find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
-            // A study of one field wrong says nothing about which is first.
+            // A study with one wrong field does not show which is first.
             let share = if finest.len() > 1 { (weight / most).powi(8) } else { 0.1 };
             let found = fields.iter().position(|field| field.name == *name).unwrap_or(fields.len());
             if found == fields.len() {
@@ -184,7 +184,7 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
     fields
 }
 
-/// The claims of failing checks without the case that stands before a colon, the commonest first.
+/// The claims of failing checks without the case before the colon, the commonest first.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     let checks = failing.iter().flat_map(|study| &study.outcome.checks).filter(|check| !check.verdict.is_pass());
     let claims = checks.map(|check| check.claim.rsplit_once(": ").map_or(check.claim.as_str(), |(_, rest)| rest));
@@ -195,7 +195,7 @@ fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     claims
 }
 
-/// The studies that fail most clearly: by the distance of a rate from its order, in units of its tolerance; then those with checks wrong.
+/// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then studies with failing checks.
 fn clearest(failing: &[&Finished]) -> Vec<String> {
     let distance = |study: &Finished| {
         let missed = study.outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
@@ -207,7 +207,7 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
     clear.into_iter().take(NAMED).map(|(_, id)| id.to_owned()).collect()
 }
 
-/// Moved numbers of studies that pass: those of the same field that changed by the same factor have one cause.
+/// Moved numbers of passing studies: those of the same field that changed by the same factor have one cause.
 fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
     let passing = finished.iter().filter(|study| study.outcome.verdict == Verdict::Pass);
     let moved = passing.flat_map(|Finished { header, .. }| {
@@ -236,7 +236,7 @@ fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
 }
 
 impl Diagnosis {
-    /// What is known of the cause, in words: a word, and what it says.
+    /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = self.contrasted();
         if !self.first.is_empty() {

@@ -1,12 +1,12 @@
-//! A report replaces the former one as a set of files: after a crash the next run finds the old set or completes the new one.
+//! A report replaces the last one as a set of files: after a crash the next run finds the old set or completes the new one.
 //!
-//! 1. All files that differ from those of the former set are written into the folder `staging` of the workshop.
-//! 2. `staging` is renamed to `pending`. From this moment on the new set counts.
-//! 3. Its files are moved to their places, files of the former set alone are removed, and the manifest, which lists the
-//!    set, is moved last. After an interruption the whole step is repeated.
+//! 1. All files that differ from those of the previous set are written into the folder `staging` of the workshop.
+//! 2. `staging` is renamed to `pending`. From this moment on, the new set counts.
+//! 3. Its files are moved to their places, files only in the previous set are removed, and the manifest, which lists
+//!    the set, is moved last. After an interruption the whole step is repeated.
 //!
-//! Files that no manifest lists are never touched. (Exchanging the folder as a whole would lose what others write to it
-//! meanwhile.) A lock, which the operating system frees even after a crash, keeps two runs apart.
+//! Files that no manifest lists are never touched. (Exchanging the whole folder would lose files that others write to
+//! it meanwhile.) A lock, which the operating system releases even after a crash, keeps two runs apart.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -17,7 +17,7 @@ use crate::store::regular::{self, if_there};
 use crate::store::{atomic, writing};
 use crate::text::visible;
 
-/// The file that lists all files of the set, one a line.
+/// The file that lists all files of the set, one per line.
 pub const MANIFEST: &str = "manifest.txt";
 
 /// The files of a report by their path relative to its folder, with `/` between folders.
@@ -30,7 +30,7 @@ impl ReportSet {
     /// Adds a file.
     ///
     /// # Errors
-    /// A path that is there already or that leads out of the folder.
+    /// A path that already exists in the set or that leads out of the folder.
     pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> io::Result<()> {
         let path = path.into();
         let refuse =
@@ -38,7 +38,7 @@ impl ReportSet {
         if !stays_inside(&path) || path == MANIFEST {
             return refuse("has a name that no report may have");
         }
-        // Some file systems take names for equal that differ in upper and lower case.
+        // Some file systems ignore case in names.
         if self.files.keys().any(|known| known.eq_ignore_ascii_case(&path)) {
             return refuse("is there twice");
         }
@@ -56,7 +56,7 @@ impl ReportSet {
     }
 }
 
-/// Whether a relative path leads to a file below, and to nowhere else.
+/// Whether a relative path leads to a file below the folder.
 fn stays_inside(path: &str) -> bool {
     let plain = |component| matches!(component, Component::Normal(_));
     !path.is_empty()
@@ -69,7 +69,7 @@ fn stays_inside(path: &str) -> bool {
 pub struct ReportFolder {
     /// Where readers find the report.
     pub folder: PathBuf,
-    /// A folder on the same file system, for sets that are not yet in their place.
+    /// A folder on the same file system, for sets that are not yet in place.
     pub workshop: PathBuf,
 }
 
@@ -82,10 +82,10 @@ pub fn lock(path: &Path) -> io::Result<File> {
 }
 
 impl ReportFolder {
-    /// Replaces the former set by this one. Call it with the [`lock`] held.
+    /// Replaces the previous set by this one. The caller must hold the [`lock`].
     ///
     /// # Errors
-    /// That of the operating system; an interrupted replacement is completed by the next one.
+    /// The error of the operating system; the next replacement completes an interrupted one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = writing::begin();
         self.tidy()?;
@@ -102,15 +102,15 @@ impl ReportFolder {
         self.complete_interrupted()
     }
 
-    /// Whether a file is there as it should be: it is then left alone.
+    /// Whether a file already has its new content: it is then left alone.
     fn holds(&self, path: &str, bytes: &[u8]) -> bool {
         regular::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
-    /// Completes a replacement that was interrupted, and removes what was not yet one. Call it with the [`lock`] held.
+    /// Completes an interrupted replacement, and removes an unfinished set. The caller must hold the [`lock`].
     ///
     /// # Errors
-    /// That of the operating system, and a manifest that names files outside of the folder: then nothing is moved.
+    /// The error of the operating system, and a manifest that names files outside the folder: then nothing is moved.
     pub fn tidy(&self) -> io::Result<()> {
         self.complete_interrupted()?;
         remove_if_there(&self.staging())
@@ -135,11 +135,11 @@ impl ReportFolder {
         remove_if_there(&pending)
     }
 
-    /// Removes a file of a former set, and the folder that becomes empty with it.
+    /// Removes a file of a previous set, and its folder if that becomes empty.
     fn remove_stale(&self, path: &Path) -> io::Result<()> {
         if_there(fs::remove_file(path))?;
         if let Some(folder) = path.parent().filter(|folder| *folder != self.folder) {
-            // It fails where the folder is not empty; then the folder stays.
+            // This fails if the folder is not empty; then the folder stays.
             let _ = fs::remove_dir(folder);
         }
         Ok(())

@@ -1,7 +1,7 @@
-//! The verdicts as JUnit XML, for continuous integration.
+//! The verdicts as JUnit XML, for CI systems.
 //!
-//! One suite for each study, one test case for each rate and check; inconclusive is a failure of its own type. Without
-//! times: the file is committed and must not change when nothing has changed.
+//! One suite for each study, one test case for each rate and check; inconclusive is a separate type of failure. There
+//! are no times: the file is committed and must not change when nothing has changed.
 
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 
@@ -11,9 +11,9 @@ use crate::store::baseline::Change;
 use crate::store::diagnosis::Diagnosis;
 use crate::store::record::Record;
 
-/// The document, for a project of that name.
+/// The document, for the project of this name.
 ///
-/// What moved away from the baseline is a suite of its own, where there was one to compare with.
+/// Differences from the baseline form a separate suite, if there is a baseline.
 pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
     report.add_test_suites(record.studies.iter().map(suite));
@@ -22,7 +22,7 @@ pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     report.to_string()
 }
 
-/// Something judged, as a test case: its name, its verdict, and the reason where it is not a pass.
+/// A judged item, as a test case: its name, its verdict, and the reason unless it is a pass.
 pub type Judged = (String, Verdict, String);
 
 /// A document with one suite.
@@ -48,7 +48,7 @@ fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite
     for check in &outcome.checks {
         suite.add_test_case(case(&header.id, &check.claim, check.verdict, &check.evidence));
     }
-    // A study may not pass although each rate and check does, or may have none: then its verdict is a test case.
+    // A study may fail although each rate and check passes, or may have none: then its verdict is a test case.
     if outcome.verdict != Verdict::Pass && suite.failures == 0 {
         suite.add_test_case(case(&header.id, "verdict", outcome.verdict, &outcome.summary));
     }
@@ -72,7 +72,7 @@ fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
     case
 }
 
-/// What is known of the cause, as properties of a suite without test cases.
+/// The known facts about the cause, as properties of a suite without test cases.
 fn cause(diagnosis: &Diagnosis) -> TestSuite {
     let mut suite = TestSuite::new("what fails and what does not");
     for (word, text) in diagnosis.lines() {

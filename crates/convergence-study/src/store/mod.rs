@@ -33,7 +33,7 @@ pub enum StoreError {
         /// What was wrong.
         error: io::Error,
     },
-    /// Another form.
+    /// The file has another format.
     #[error("{}: {}; {expected}", visible::path(.path), visible::visible(&.error.to_string()))]
     Malformed {
         /// The file.
@@ -43,7 +43,7 @@ pub enum StoreError {
         /// What is expected, or what to do.
         expected: &'static str,
     },
-    /// Written by a version with another form.
+    /// A version with another format wrote the file.
     #[error("{}: schema: found {found}; expected {expected}", visible::path(.path))]
     Schema {
         /// The file.
@@ -55,10 +55,10 @@ pub enum StoreError {
     },
 }
 
-/// What a file holds. Another schema has other keys, so the number is read first.
+/// The content of a file. Another schema has other keys, so its number is read first.
 ///
-/// * `schema`: its version, where it has one.
-/// * `expected`: what to do about a file of another form, and about another schema.
+/// * `schema`: its version, if it has one.
+/// * `expected`: advice for a file with another format or schema.
 pub(crate) fn parsed<T: DeserializeOwned>(
     text: &str,
     path: &Path,
@@ -79,7 +79,7 @@ pub(crate) fn parsed<T: DeserializeOwned>(
     serde_json::from_str(text).map_err(malformed)
 }
 
-/// The same for a file; nothing where it is not there.
+/// The same for a file; `None` if it does not exist.
 pub(crate) fn read_if_there<T: DeserializeOwned>(
     path: &Path,
     schema: Option<u32>,
@@ -90,18 +90,18 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
     text.map(|text| parsed(&text, path, schema, expected)).transpose()
 }
 
-/// An object as JSON text with a line end, as it stands in files; a number that is not finite becomes `null`, for JSON has none.
+/// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`, because JSON has none.
 pub fn json(object: &impl Serialize) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(object)? + "\n")
 }
 
-/// Writes an object to a file, as a whole or not at all.
+/// Writes an object to a file, atomically.
 pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> Result<(), StoreError> {
     let written = json(object).and_then(|text| atomic::write(path, text));
     written.map_err(|error| StoreError::File { path: path.to_owned(), error })
 }
 
-/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, its bits mixed by splitmix64.
+/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by splitmix64.
 ///
 /// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.
 pub fn content_hash(bytes: &[u8]) -> u64 {

@@ -1,4 +1,4 @@
-//! Where a record comes from: machine, tools, revision and times. All that varies between two runs is here.
+//! Where a record comes from: machine, tools, revision and times. Everything that varies between two runs is here.
 
 use std::fs;
 use std::path::Path;
@@ -13,32 +13,32 @@ use crate::run::Finished;
 use crate::store::record::SCHEMA;
 use crate::store::{StoreError, read_if_there};
 
-/// Origin of a run. What cannot be found out is `null`.
+/// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// [`SCHEMA`].
     pub schema: u32,
     /// Version of this crate.
     pub crate_version: String,
-    /// What was run, as a command.
+    /// The command that was run.
     pub command: String,
     /// Git revision of the working tree.
     pub git_revision: Option<String>,
     /// Whether the working tree differs from that revision.
     pub git_modified: Option<bool>,
-    /// What `rustc --version` says.
+    /// The output of `rustc --version`.
     pub toolchain: Option<String>,
     /// Model of the processor.
     pub cpu: Option<String>,
     /// Operating system and architecture.
     pub platform: String,
-    /// Threads that the machine has.
+    /// Threads available on the machine.
     pub threads_available: Option<usize>,
-    /// Threads that were used.
+    /// Threads used.
     pub jobs: usize,
     /// End of the run, in seconds since 1970.
     pub finished_at: Option<u64>,
-    /// The most memory that the process has used, in bytes; known on Linux only.
+    /// Peak memory of the process in bytes; known only on Linux.
     pub peak_memory_bytes: Option<u64>,
     /// Time of each study.
     pub studies: Vec<StudyTime>,
@@ -49,16 +49,16 @@ pub struct Provenance {
 pub struct StudyTime {
     /// Its id.
     pub id: String,
-    /// Added up over all cases, whichever thread ran them.
+    /// Sum over all cases, on all threads.
     pub busy_seconds: f64,
     /// From the start of the first case to the end of the last one.
     pub wall_seconds: f64,
-    /// Cases whose results were kept from an earlier run.
+    /// Cases with results kept from an earlier run.
     #[serde(default, skip_serializing_if = "is_none")]
     pub kept_cases: usize,
 }
 
-/// Whether a count is left out.
+/// Whether to leave out a count.
 fn is_none(count: &usize) -> bool {
     *count == 0
 }
@@ -67,7 +67,7 @@ impl Provenance {
     /// Collects machine, tools, revision and times.
     ///
     /// * `root`: a folder of the working tree.
-    /// * `command`: what was run.
+    /// * `command`: the command that was run.
     pub fn collect(root: &Path, command: String, jobs: usize, finished: &[Finished]) -> Self {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self {
@@ -88,12 +88,12 @@ impl Provenance {
         }
     }
 
-    /// Reads the origin of a run; `None` where there is no file.
+    /// Reads the origin of a run; `None` if there is no file.
     pub fn read(path: &Path) -> Result<Option<Self>, StoreError> {
         read_if_there(path, None, ["remove it: `verify` writes it anew"; 2])
     }
 
-    /// Commit, date, machine and tools in a sentence each, as far as they are known.
+    /// Commit, date, machine and tools in a sentence each, as far as known.
     pub fn sentences(&self) -> Vec<String> {
         let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };
         let commit = self.git_revision.as_ref().map(|revision| format!("Commit {revision}{changed}."));
@@ -124,22 +124,22 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
     }
 }
 
-/// The most memory that this process has used so far, in bytes.
+/// The peak memory of this process so far, in bytes.
 ///
-/// Known on Linux only.
+/// Known only on Linux.
 fn peak_memory() -> Option<u64> {
     let text = fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
 }
 
-/// Standard output of a command that succeeds, without blanks around it.
+/// Trimmed standard output of a command that succeeds.
 fn output_of(command: &mut Command) -> Option<String> {
     let output = command.output().ok().filter(|output| output.status.success())?;
     String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
 }
 
-/// Known on Linux only.
+/// Known only on Linux.
 fn cpu_model() -> Option<String> {
     let text = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -1,11 +1,11 @@
-//! The record of a run: what was found, as data with a versioned schema. Reports are made of it, and programs read it.
+//! The record of a run: its findings, as data with a versioned schema. Reports are made from it, and programs read it.
 //!
-//! A study of a record is a [`Finished`] as it is, without its times: machine, revision and times belong to the
+//! A study of a record is a [`Finished`] without its times: machine, revision and times belong to the
 //! [`provenance`](crate::store::provenance). [`Record::committed`] has the digits of the file under version control, which must not
-//! change by a byte when nothing has changed; it is what reports are made of, so that they can be made anew from that file.
+//! change by a byte when nothing has changed; reports are made from it, so that this file suffices to make them anew.
 //!
-//! A number that is not finite is `null`, and `not_finite` says where and what it was; `failed_cases` says why. Read back, `null` is NaN.
-//! The pictures are files of their own beside the record, in [`FIGURES`].
+//! A number that is not finite is `null`; `not_finite` says where it is and what it was, `failed_cases` says why. Read
+//! back, `null` is NaN. The pictures are separate files next to the record, in [`FIGURES`].
 
 use std::path::Path;
 
@@ -18,13 +18,13 @@ use crate::store::diagnosis::Diagnosis;
 use crate::store::{StoreError, parsed, regular};
 use crate::text::number::{committed, committed_rate};
 
-/// Version of the schema; it grows when a field changes its name or its meaning, not when one is added.
+/// Version of the schema; it increases when a field changes its name or meaning, not when one is added.
 pub const SCHEMA: u32 = 1;
 
-/// What is read as a record.
+/// What counts as a record.
 const EXPECTED: &str = "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
 
-/// The folder of the pictures, beside the record.
+/// The folder of the pictures, next to the record.
 pub const FIGURES: &str = "figures";
 
 /// A whole run.
@@ -36,17 +36,17 @@ pub struct Record {
     pub crate_version: String,
     /// What was run, such as `quick`.
     pub scope: String,
-    /// The command that runs it again; empty in records of versions before.
+    /// The command that runs it again; empty in older records.
     #[serde(default)]
     pub command: String,
-    /// The verdict on the run, changes against the baseline included.
+    /// The verdict on the run, including changes from the baseline.
     pub verdict: Verdict,
-    /// What moved away from the baseline, in words.
+    /// Differences from the baseline, in words.
     pub baseline_changes: Vec<String>,
-    /// The same as data; `None` where there was no baseline to compare with.
+    /// The same as data; `None` without a baseline.
     #[serde(default)]
     pub changes: Option<Vec<Change>>,
-    /// What is known of the cause, where the run does not pass.
+    /// The known facts about the cause, if the run does not pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnosis: Option<Diagnosis>,
     /// The studies.
@@ -67,7 +67,7 @@ impl Record {
 
     /// The record of a run.
     ///
-    /// * `changes`: what moved away from the baseline; `None` where there was none to compare with.
+    /// * `changes`: differences from the baseline; `None` without a baseline.
     pub fn new(
         scope: &str,
         command: &str,
@@ -88,11 +88,11 @@ impl Record {
         }
     }
 
-    /// The same with the digits that are the same from run to run and, mostly, from machine to machine: see [`committed`].
+    /// The same with digits that do not vary between runs and hardly between machines: see [`committed`].
     #[must_use]
     pub fn committed(mut self) -> Self {
         for Finished { outcome, untested, .. } in &mut self.studies {
-            // Whether it was looked for depends on what was asked for.
+            // Whether it was searched for depends on the command.
             untested.clear();
             for level in &mut outcome.levels {
                 level.errors.iter_mut().for_each(|(_, error)| *error = committed(*error));

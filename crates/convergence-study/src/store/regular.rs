@@ -1,4 +1,4 @@
-//! Files that the harness itself has written, read back: a pipe or a device in their place would keep it waiting for ever.
+//! Reads files that the harness itself has written: a pipe or a device in their place would block it for ever.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -7,7 +7,7 @@ use std::path::Path;
 /// The text of a regular file.
 ///
 /// # Errors
-/// That of the operating system, and what is not a regular file or not UTF-8.
+/// The error of the operating system; also if the file is not a regular file or not UTF-8.
 pub fn read_to_string(path: &Path) -> io::Result<String> {
     check(path)?;
     fs::read_to_string(path)
@@ -19,13 +19,13 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-/// Opens a regular file; one that is missing is made where `options` say so.
+/// Opens a regular file; creates a missing one if `options` say so.
 pub(crate) fn open(path: &Path, options: &OpenOptions) -> io::Result<File> {
     if_there(check(path))?;
     options.open(path)
 }
 
-/// Nothing where the file is not there.
+/// `None` if the file does not exist.
 pub(crate) fn if_there<T>(result: io::Result<T>) -> io::Result<Option<T>> {
     match result {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),

@@ -1,6 +1,6 @@
-//! The work of each case when it was blessed, beside the baseline: a later run may do three times as much.
+//! The work of each case when it was blessed, stored next to the baseline: a later run may do three times as much.
 //!
-//! The file is `studies/work.json`. It guards nothing: it ends runs that go wrong, at the same step on every machine.
+//! The file is `studies/work.json`. It guards nothing: it stops runs that go wrong, at the same step on every machine.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::study::Header;
 /// How many times the blessed work of a case is allowed.
 const TIMES: u64 = 3;
 
-/// Share of its tier's work that a case may do beside: a small case may grow more.
+/// Share of its tier's work that a case may do in addition: a small case may grow more.
 const SPARE: u64 = 50;
 
 /// Tier, study and label of a case.
@@ -23,14 +23,14 @@ const SPARE: u64 = 50;
 pub struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
 
 impl Works {
-    /// Reads the file; nothing is limited where it is not there.
+    /// Reads the file; without a file nothing is limited.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
         let expected = "restore it, or remove it and run `verify --bless`";
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
 
-    /// The most work that a case may do: three times that of its blessing, or of the largest case of its study where it is new, and
-    /// two per cent of its tier's; `None` for a study that was never blessed.
+    /// The most work that a case may do: three times that of its blessing, or of the largest case of its study if the
+    /// case is new, plus two per cent of its tier's; `None` for a study that was never blessed.
     pub fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
         let tier = self.0.get(header.tier.name())?;
         let cases = tier.get(&header.id)?;
@@ -39,7 +39,7 @@ impl Works {
         Some(TIMES * own + all / SPARE)
     }
 
-    /// Takes the work of studies that were run; cases that count none are left out.
+    /// Accepts the work of studies that were run; cases that count none are left out.
     pub fn take(&mut self, finished: &[Finished]) {
         for Finished { header, work, .. } in finished {
             self.0.values_mut().for_each(|tier| drop(tier.remove(&header.id)));

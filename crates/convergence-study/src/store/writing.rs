@@ -1,7 +1,7 @@
 //! Finishes pending writes before the process exits on request.
 //!
-//! Code that writes files holds a [`Writing`] until they are complete; code that ends the process calls [`close`] first. A crash
-//! needs neither: files get their names only when they are complete.
+//! Code that writes files holds a [`Writing`] until they are complete; code that ends the process calls [`close`]
+//! first. A crash needs neither: files get their names only when they are complete.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -34,7 +34,7 @@ pub fn begin() -> Writing<'static> {
 
 /// Waits for pending writes and blocks new ones. Call it right before the process exits.
 ///
-/// * `patience`: it returns after this time even if a write is pending, such as to a disk that hangs.
+/// * `patience`: it returns after this time even if a write is pending, for example on a disk that hangs.
 pub fn close(patience: Duration) {
     REGISTER.close(patience);
 }

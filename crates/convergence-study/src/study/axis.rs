@@ -1,4 +1,4 @@
-//! What a convergence study refines.
+//! The quantity that a convergence study refines.
 
 /// What is refined from level to level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

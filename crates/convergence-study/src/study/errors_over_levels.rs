@@ -7,14 +7,14 @@ use super::levels::{self, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
 
-/// Errors by name, as one level has them.
+/// The errors of one level, by name.
 pub type NamedErrors = Vec<(String, f64)>;
 
-/// Names under which a level says its own step, where that is not 1/n.
+/// Names under which a level reports its own step, if that is not 1/n.
 pub const STEPS: [&str; 2] = ["h", "dt"];
 
-/// What the function of a study may return: errors with their names, or one error alone, which is then called `error`; or a
-/// [`Result`] of it.
+/// What the function of a study may return: errors with their names, or a single error, which is then called `error`;
+/// or a [`Result`] of either.
 pub trait IntoErrors {
     /// The errors by name.
     fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
@@ -46,9 +46,9 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
 
 /// A study that computes errors on every level of refinement and judges each against its claimed order; made by [`levels()`](levels()).
 ///
-/// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers that the baseline guards.
-/// Errors of which nothing is claimed are recorded only. A level that fails, or lacks an error that others have, fails the
-/// study.
+/// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers that the baseline
+/// guards. Errors without a claim are only recorded. If a level fails, or lacks an error that others have, the study
+/// fails.
 #[derive(Debug, Clone)]
 pub struct ErrorsOverLevels<F> {
     header: Header,
@@ -62,8 +62,8 @@ pub struct ErrorsOverLevels<F> {
 /// A study of the errors that a function computes on each level of refinement.
 ///
 /// * `counts`: what distinguishes the levels, such as the number of cells in one direction: coarse to fine.
-/// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The step is 1/count, or what `solve` returns
-///   beside the errors under one of the names [`STEPS`].
+/// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The step is 1/count,
+///   unless `solve` returns it with the errors under one of the names [`STEPS`].
 ///
 /// ```
 /// // The midpoint rule for the integral of exp over (0, 1).
@@ -91,7 +91,7 @@ impl<F> ErrorsOverLevels<F> {
         Self { header, ..self }
     }
 
-    /// The same study with a word for what is counted, such as `cells`, and what is refined by it, which names the step in figures.
+    /// The same study with a word for the counts, such as `cells`, and the refined quantity, which names the step in figures.
     pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
         Self { counted: counted.into(), axis, ..self }
     }
@@ -101,7 +101,7 @@ impl<F> ErrorsOverLevels<F> {
         self.claiming(error, Claim::new(order, DEFAULT_TOLERANCE))
     }
 
-    /// The same with all that can be claimed, such as another tolerance: 0 < tolerance < 0.5.
+    /// The same with any claim, for example with another tolerance: 0 < tolerance < 0.5.
     pub fn claiming(mut self, error: impl Into<String>, claim: Claim) -> Self {
         self.claims.push((error.into(), claim));
         self
@@ -111,14 +111,14 @@ impl<F> ErrorsOverLevels<F> {
         format!("{} = {count}", self.counted)
     }
 
-    /// What the levels have found, which [`until_decided`](super::until_decided) judges as it grows.
+    /// The levels found so far, which [`until_decided`](super::until_decided) judges as they grow.
     pub fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
         let own = |ran: &Ran<_, NamedErrors>| {
             ran.ok().and_then(|found| found.iter().find(|(name, _)| is_step(name)).cloned())
         };
         let has_own = ran.iter().any(|ran| own(ran).is_some());
         let refinement = |ran: &Ran<usize, NamedErrors>| {
-            // Where some levels say their step, 1/n is no substitute for that of the others.
+            // If some levels report their step, 1/n cannot stand in for that of the others.
             let other = if has_own { f64::NAN } else { 1.0 / ran.case.data as f64 };
             let step = own(ran).map_or(other, |(_, step)| step);
             Refinement::new(ran.case.label.clone(), &[(&self.counted, ran.case.data)], step)
@@ -140,7 +140,7 @@ fn is_step(name: &str) -> bool {
     STEPS.contains(&name)
 }
 
-/// The error of that name; NaN where there is none.
+/// The error of that name; NaN if there is none.
 fn named(errors: &NamedErrors, name: &str) -> f64 {
     errors.iter().find(|(known, _)| *known == name).map_or(f64::NAN, |(_, error)| *error)
 }
@@ -157,7 +157,7 @@ where
         &self.header
     }
 
-    /// A finer level is taken to cost more.
+    /// A finer level is assumed to cost more.
     fn cases(&self) -> Vec<Case<usize>> {
         let case = |&count: &usize| Case { label: self.label(count), cost: count as f64, data: count };
         self.counts.iter().map(case).collect()
@@ -259,7 +259,7 @@ mod tests {
             rate.pairwise[..2].iter().all(|rate| rate.is_nan())
                 && rate.pairwise[2..].iter().all(|r| (r - 2.0).abs() < 1e-9)
         );
-        // An error that was computed and is NaN is another thing.
+        // An error that was computed and is NaN is a different case.
         let nan = outcome(2.0, |n, error| [("e", if n == 8 { f64::NAN } else { error })]);
         assert_eq!((nan.verdict, nan.rates[0].1.kind), (Verdict::Fail, Reason::NonFiniteError));
         let lacks = |n, error| if n == 8 { vec![("e", error)] } else { vec![("e", error), ("f", 1.0)] };

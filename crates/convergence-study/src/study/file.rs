@@ -1,5 +1,5 @@
-//! Studies that files describe: the kinds that a project knows, what a kind reads, the table `[study]` of every file, and what
-//! files claim of an error: `order = 2` or `order = ">= 2"`, and `constant = [0.9, 1.1]` beside it.
+//! Studies described by files: the kinds that a project knows, what a kind reads, the table `[study]` of every file,
+//! and the claims of files about an error: `order = 2` or `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ pub struct KindRow {
     pub failure: &'static str,
 }
 
-/// All kinds of study of a project; the first is that of a file without `kind`.
+/// All kinds of study of a project; the first is the default for a file without `kind`.
 pub type Kinds = [KindRow];
 
 /// A study file, read once.
@@ -60,10 +60,10 @@ impl StudyFile {
         Ok(Self { path: path.to_owned(), study })
     }
 
-    /// Reads study files; each id must be that of one file.
+    /// Reads study files; ids must be unique.
     ///
     /// # Errors
-    /// As [`StudyFile::read`], and where two studies have the same id.
+    /// As [`StudyFile::read`], and if two studies have the same id.
     pub fn read_all(kinds: &Kinds, paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
         let mut files: Vec<Self> = Vec::with_capacity(paths.len());
         for path in paths {
@@ -85,12 +85,12 @@ fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k 
     }
     let names: Vec<String> = kinds.iter().map(|row| format!("\"{}\"", row.name)).collect();
     let study = root.require("study", "a table")?.section()?;
-    // A file without kind has the default one, which not every project knows.
+    // A file without kind has the default kind, which not every project knows.
     study.require("kind", &names.join(", "))?;
     Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
 }
 
-/// The error about a key of `[study]` of a file that was read before, with its line.
+/// The error about a key of `[study]` in a file read earlier, with its line.
 fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
     let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
         let study = root.require("study", "a table")?.section()?;
@@ -104,12 +104,12 @@ fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
 pub trait FromFile: Kind + Sized {
     /// Reads the study from the document of its file.
     ///
-    /// * `header`: the table `[study]`, read already.
+    /// * `header`: the table `[study]`, already read.
     /// * `root`: the document.
-    /// * `folder`: the folder of the file, which names of other files are relative to.
+    /// * `folder`: the folder of the file; names of other files are relative to it.
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
 
-    /// Reads a study from `text`; messages name `file`, and files that it names are looked for beside it.
+    /// Reads a study from `text`; messages name `file`, and other files are searched for next to it.
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| Self::from_document(Header::from_document(root)?, root, folder))
     }
@@ -117,14 +117,14 @@ pub trait FromFile: Kind + Sized {
     /// Reads a study file.
     ///
     /// # Errors
-    /// As [`FromFile::parse`], and where the file cannot be read.
+    /// As [`FromFile::parse`], and if the file cannot be read.
     fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
         Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
     }
 }
 
 impl Header {
-    /// Reads `[study]` of a document, and takes down every value of the document.
+    /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         let study = root.require("study", "a table with id, claim and tier")?.section()?;
         study.allow(&["id", "claim", "tier", "kind", "group"])?;
@@ -156,12 +156,12 @@ fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
 }
 
-/// The claim of a table, with the default tolerance: which a study may be given is its kind's affair.
+/// The claim of a table, with the default tolerance: each kind decides which claims its studies allow.
 ///
-/// * `key`: where the order is, or a number that is written in the same way.
+/// * `key`: the key of the order, or of a number written in the same way.
 ///
 /// # Errors
-/// An order or a constant that is no such number.
+/// An invalid order or constant.
 pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
     let allowed = "a number > 0, or a text such as \">= 2\"";
     let field = section.require(key, allowed)?;

@@ -10,30 +10,30 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::plots;
 use crate::text::number::plain_text;
 
-/// Root mean square misfit in log e up to which contributions are taken to add.
+/// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
-/// Steps that differ by less, relatively, are one step.
+/// Steps with a smaller relative difference are equal.
 const SAME_STEP: f64 = 1e-9;
 
-/// One error on a grid, and what is claimed of it.
+/// One error on a grid, and the claim about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridColumn {
     /// Its name.
     pub name: String,
-    /// The order in h; the tolerance is that of both orders.
+    /// The order in h; its tolerance applies to both orders.
     pub space: Claim,
     /// The order in dt.
     pub time: f64,
-    /// The errors, for each point of the grid; NaN where there is no result: the fit is then that of the others, and a check fails.
+    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others, and a check fails.
     pub errors: Vec<f64>,
 }
 
-/// How the errors of space and time add up.
+/// How the contributions of space and time combine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
-    /// Theory says that their squares do: they are orthogonal.
+    /// Theory says that their squares add: they are orthogonal.
     Squares,
-    /// Nothing is known: whichever of the two describes the errors better.
+    /// Unknown: the one of the two that describes the errors better.
     Either,
 }
 
@@ -46,11 +46,11 @@ pub struct Grid {
     pub times: usize,
     /// The errors.
     pub columns: Vec<GridColumn>,
-    /// How they add up.
+    /// How they combine.
     pub model: Model,
 }
 
-/// What a grid says of all errors.
+/// The verdict of a grid on all errors.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GridVerdict {
     /// Both orders of each error: `L2 in h`, `L2 in dt`.
@@ -82,7 +82,7 @@ impl Grid {
                     let all = missing.is_empty();
                     (name, if all { rate } else { rate.without_result(self.points.len(), &missing) })
                 })),
-                // Readers of study files refuse such a tolerance before.
+                // Readers of study files have already refused such a tolerance.
                 Err(error) => {
                     verdict.checks.extend(names.map(|name| Check::that(false, name, error.to_string())));
                 }
@@ -108,7 +108,7 @@ impl Grid {
         ]
     }
 
-    /// The first point that has another mesh width or time step than its row and column.
+    /// The first point whose mesh width or time step differs from that of its row and column.
     fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
         let differ = |one: f64, other: f64| (one / other - 1.0).abs() > SAME_STEP;
         self.points.iter().enumerate().find_map(|(index, point)| {
@@ -124,7 +124,7 @@ impl Grid {
     /// Each error over the grid, as a picture.
     ///
     /// * `id`: of the study; a picture is called `<id>-surface-<name>.svg`.
-    /// * `what`: what the name of an error stands for, such as `norm`.
+    /// * `what`: the meaning of an error's name, such as `norm`.
     pub fn figures(&self, id: &str, what: &str) -> Vec<Figure> {
         let widths: Vec<f64> = self.points.iter().step_by(self.times.max(1)).map(|[h, _]| *h).collect();
         let steps: Vec<f64> = self.points.iter().take(self.times).map(|[_, dt]| *dt).collect();
@@ -157,7 +157,7 @@ impl Grid {
                 let claim = format!("{name}: the squares of space and time error add");
                 Check::that(squares < plain && squares <= MISFIT, claim, evidence)
             }
-            // Nobody claimed it: where it does not hold, the orders are not known.
+            // Nobody claimed it: if it does not hold, the orders are unknown.
             Model::Either => Check {
                 claim: format!("{name}: the errors of space and time add, or their squares"),
                 verdict: if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive },

@@ -3,7 +3,7 @@
 /// The kind of a study whose file has no `kind`.
 pub(super) const DEFAULT_KIND: &str = "convergence";
 
-/// Longest id: it is part of file names, of which some systems take 255 bytes.
+/// Longest id: it becomes part of file names, which some systems limit to 255 bytes.
 const LONGEST_NAME: usize = 100;
 
 /// When a study is run.
@@ -34,25 +34,25 @@ impl Tier {
 pub struct Header {
     /// The study's name: small letters, digits, `.` and `-`.
     pub id: String,
-    /// What is claimed, in words.
+    /// The claim, in words.
     pub claim: String,
     /// When it is run.
     pub tier: Tier,
-    /// Which reader the rest of the file is for.
+    /// The kind, which selects the reader of the rest of the file.
     pub kind: String,
-    /// What sort of thing is claimed, under which reports list the study; the kind where the file does not say.
+    /// The group under which reports list the study, by the property claimed; by default the kind.
     #[serde(default)]
     pub group: String,
     /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of `input::Section::settings`: the
-    /// baseline keeps them, so that no claim changes unseen. Empty for a study that no file describes.
+    /// baseline keeps them, so that no claim changes unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
 }
 
 impl Header {
-    /// The header of a study that no file describes: of the quick tier, of the kind `convergence`.
+    /// The header of a study without a file: of the quick tier, of the kind `convergence`.
     ///
-    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`: it is part of file names.
+    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part of file names.
     /// * `claim`: one line of text.
     pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
         Self {
@@ -66,10 +66,10 @@ impl Header {
     }
 }
 
-/// What [`is_name`] asks of a name.
+/// What [`is_name`] requires.
 pub const NAME: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
 
-/// Whether a text can be a study's id: it stands in file names and on command lines.
+/// Whether a text can be a study's id, for file names and command lines.
 pub fn is_name(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
     text.len() <= LONGEST_NAME && text.starts_with(plain) && text.chars().all(|c| plain(c) || c == '.' || c == '-')

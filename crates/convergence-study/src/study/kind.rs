@@ -1,4 +1,4 @@
-//! A kind of study: typed for who writes one, erased for the runner; its computations, and the result of each or the reason why there is none.
+//! A kind of study: typed for its author, erased for the runner; its computations, and the result of each or the reason why it is missing.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -11,13 +11,13 @@ use crate::text::lists::{and_more, grouped};
 pub struct Case<D> {
     /// What distinguishes it from the study's other cases, such as `n = 64, 20 steps`.
     pub label: String,
-    /// Estimate of the work, in any unit that all studies of a project share: the runner starts with the costliest case.
+    /// Estimate of the work, in a unit common to all studies of a project: the runner starts with the costliest case.
     pub cost: f64,
-    /// What the computation needs to know.
+    /// The input of the computation.
     pub data: D,
 }
 
-/// A case after it was run: its data, and what it found.
+/// A case after its run: its data, and its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran<D, F> {
     /// The case.
@@ -46,7 +46,7 @@ impl<E: std::error::Error> From<E> for CaseFailure {
     }
 }
 
-/// Cases without a result in words, `label: reason`; those with the same reason on one line, which counts them.
+/// Cases without a result in words, `label: reason`; those with the same reason share one line, which counts them.
 ///
 /// * `failed`: label and reason of each.
 pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
@@ -55,13 +55,13 @@ pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>
     reasons.into_iter().map(line).collect()
 }
 
-/// A study of one kind, read and validated: its cases, how one is computed, how all are judged.
+/// A study of one kind, read and validated: its cases, how to compute one, how to judge all.
 ///
-/// A case is a pure function of its data, so that the study has the same outcome for any number of threads.
+/// A case is a pure function of its data, so the study has the same outcome for any number of threads.
 pub trait Kind: Send + Sync {
-    /// What a case needs to know.
+    /// The input of a case.
     type Data: Clone + Send + Sync;
-    /// What a case finds.
+    /// The result of a case.
     type Found: Send;
 
     /// Id, claim, tier and kind.
@@ -70,8 +70,8 @@ pub trait Kind: Send + Sync {
     /// The computations, in the order in which they are judged.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
-    /// A further case once all before it have run, such as a finer level while the rates decide nothing; asked for again and again.
-    /// `None` when there is enough.
+    /// Another case after all earlier ones have run, such as a finer level while the rates decide nothing; called
+    /// repeatedly until it returns `None`.
     ///
     /// * `ran`: all results so far, in the order of the cases.
     fn more(&self, _ran: &[Ran<Self::Data, Self::Found>]) -> Option<Case<Self::Data>> {
@@ -81,7 +81,7 @@ pub trait Kind: Send + Sync {
     /// Computes one case: the same result on every thread, at every time.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Why a result counts as a failed case although a part of it is kept: a number that was asked for is missing. `None` for a whole one.
+    /// Why a result counts as a failed case although part of it is kept: a required number is missing. `None` for a complete one.
     fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
         None
     }
@@ -91,7 +91,7 @@ pub trait Kind: Send + Sync {
         false
     }
 
-    /// From now on every case is computed, whatever was kept of earlier runs.
+    /// From now on every case is computed, ignoring results kept from earlier runs.
     fn compute_anew(&mut self) {}
 
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
@@ -102,18 +102,18 @@ pub trait Kind: Send + Sync {
         vec![]
     }
 
-    /// What a passing study is no test of, found by trying: asked for by `study` alone, for it may take longer than the study.
+    /// What a passing study fails to test, found by trial; only `study` requests it, because it may take longer than the study.
     fn untested(&self) -> Vec<Untested> {
         vec![]
     }
 }
 
-/// Something that a study seems to test and does not.
+/// Something that a study seems to test but does not.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Untested {
     /// Its name, such as that of a coefficient.
     pub what: String,
-    /// Why an error in it would not be seen.
+    /// Why an error in it would go unnoticed.
     pub why: String,
 }
 
@@ -138,10 +138,10 @@ pub trait Study: Send + Sync {
     /// What this study does, for `explain`: paragraphs, each with its title.
     fn details(&self) -> Vec<(String, String)>;
 
-    /// What it is no test of although it passes.
+    /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
 
-    /// From now on every case is computed, whatever was kept of earlier runs.
+    /// From now on every case is computed, ignoring results kept from earlier runs.
     fn compute_anew(&mut self);
 }
 
@@ -150,7 +150,7 @@ pub trait Plan: Send + Sync {
     /// Label and cost of each case.
     fn cases(&self) -> Vec<Case<()>>;
 
-    /// Adds the case that [`Kind::more`] asks for, all others having been run; its number, or `None` where there are enough.
+    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None` if there are enough.
     fn more(&self) -> Option<usize>;
 
     /// Runs case number `index` and keeps its result.
@@ -165,11 +165,11 @@ pub trait Plan: Send + Sync {
     /// Whether the result of case number `index` was kept from an earlier run.
     fn is_kept(&self, index: usize) -> bool;
 
-    /// Judges the results, each case having been run.
+    /// Judges the results after each case has run.
     fn judge(&self) -> Outcome;
 }
 
-/// A typed study as one that the runner takes.
+/// A typed study in the form that the runner takes.
 pub fn erased<'k, K: Kind + 'k>(kind: K) -> Box<dyn Study + 'k> {
     Box::new(Erased(kind))
 }

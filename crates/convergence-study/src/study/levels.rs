@@ -1,4 +1,4 @@
-//! Errors over levels of refinement: judged, guarded, drawn and listed in one way for all kinds of study.
+//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all kinds of study.
 
 #[cfg(feature = "reports")]
 use std::ops::Range;
@@ -16,12 +16,12 @@ use crate::plots::{self, Convergence, ErrorSeries};
 use crate::text::lists::distinct;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
 
-/// What a caption says of the lines.
+/// The explanation of the lines in a caption.
 #[cfg(feature = "reports")]
 const LINES: &str = " Lines: the rates observed, each through the finest error that it uses.";
 
-/// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by 1e-8 at
-/// most, a change of the computation by more.
+/// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by at
+/// most 1e-8, a change of the computation by more.
 pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// The same for an observed rate.
@@ -32,18 +32,18 @@ pub const RATE_TOLERANCE: f64 = 1e-4;
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
-    /// As measured; `None` where there is no result: the case failed, or found no such error.
+    /// As measured; `None` without a result: the case failed, or found no such error.
     pub errors: Vec<Option<f64>>,
-    /// What is claimed of it, if anything.
+    /// The claim about it, if there is one.
     pub claim: Option<Claim>,
-    /// Which look, of `plots::look`, it has in figures: the same wherever this error is drawn.
+    /// Its look in figures, of `plots::look`: the same wherever this error is drawn.
     pub look: usize,
 }
 
 impl ErrorColumn {
-    /// A column for every error that is claimed or was found: claimed ones first, then each in the order in which it occurs.
+    /// A column for every error claimed or found: claimed ones first, then the others in order of occurrence.
     ///
-    /// * `found`: the errors of each level by name, coarse to fine; `None` where the case failed.
+    /// * `found`: the errors of each level by name, coarse to fine; `None` if the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
         let found_names = found.iter().copied().flatten().flatten().map(|(name, _)| name.as_ref());
         let names = distinct(claims.iter().map(|(name, _)| name.as_ref()).chain(found_names));
@@ -68,7 +68,7 @@ pub struct Refinement {
     pub label: String,
     /// Its parameters by name, such as elements and steps.
     pub parameters: Vec<(String, f64)>,
-    /// The step that the errors are judged over: h, dt, or h = c dt.
+    /// The step over which the errors are judged: h, dt, or h = c dt.
     pub step: f64,
 }
 
@@ -105,7 +105,7 @@ impl Levels {
         (0..self.refinements.len()).map(|i| at(&column.errors, i).is_some()).collect()
     }
 
-    /// The labels of levels that have no result for some error that is claimed.
+    /// The labels of levels that lack a result for some claimed error.
     #[cfg(feature = "reports")]
     fn without_result(&self) -> Vec<&str> {
         let lacks =
@@ -113,12 +113,12 @@ impl Levels {
         self.refinements.iter().enumerate().filter(|(i, _)| lacks(*i)).map(|(_, level)| level.label.as_str()).collect()
     }
 
-    /// One verdict for each error of which an order is claimed. A level without a result makes it fail; the rate is that of the others.
+    /// One verdict for each error with a claimed order. A level without a result makes it fail; the rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
         self.judge_by(|judge| judge)
     }
 
-    /// The same by a rule with other settings, such as the floor below which these errors are not known.
+    /// The same by a rule with other settings, such as the floor below which these errors are unknown.
     pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
         let known = self.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
@@ -126,7 +126,7 @@ impl Levels {
         let verdict = |column: &ErrorColumn| {
             let claim = column.claim?;
             let points = self.points(column);
-            // A tolerance that no verdict can be based on; readers of study files refuse it before.
+            // No verdict can be based on such a tolerance; readers of study files have already refused it.
             let judged = Judge::new(claim.tolerance).map(|judge| claim.judge(&settings(judge), &points));
             let judged = judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
             let judged = judged.among(&labels, &self.has_result(column));
@@ -139,9 +139,9 @@ impl Levels {
     }
 
     #[cfg(feature = "reports")]
-    /// The errors that were judged, each with the line of its rate where that is known, and triangles for the orders claimed.
+    /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
     ///
-    /// * `caption`: what is drawn, as a sentence; what the lines are is added where there are any.
+    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
     pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
         let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
         let series = claimed.map(|(column, claim)| {
@@ -171,7 +171,7 @@ impl Levels {
         Figure { file, caption, svg }
     }
 
-    /// The same with the coarsest levels alone.
+    /// The same with only the coarsest levels.
     pub fn coarsest(&self, levels: usize) -> Self {
         let column = |column: &ErrorColumn| ErrorColumn {
             errors: column.errors.iter().copied().take(levels).collect(),
@@ -184,7 +184,7 @@ impl Levels {
         }
     }
 
-    /// All that errors over levels give: rates with their verdicts, errors, guarded numbers and the figure `<id>-<what>.svg`.
+    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `<id>-<what>.svg`.
     pub fn outcome(&self, id: &str, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
         let rates = self.judge();
         #[cfg(feature = "reports")]
@@ -229,17 +229,17 @@ impl Levels {
     }
 }
 
-/// The error of a level; `None` where it has no result.
+/// The error of a level; `None` without a result.
 fn at(errors: &[Option<f64>], level: usize) -> Option<f64> {
     errors.get(level).copied().flatten()
 }
 
-/// The same as a number of the record: NaN where there is no result.
+/// The same as a number of the record: NaN without a result.
 fn number(errors: &[Option<f64>], level: usize) -> f64 {
     at(errors, level).unwrap_or(f64::NAN)
 }
 
-/// A range of levels among those that have a result.
+/// A range of levels, counted among those with a result.
 #[cfg(feature = "reports")]
 fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
     let before = |end: usize| has[..end.min(has.len())].iter().filter(|has| **has).count();
@@ -254,7 +254,7 @@ pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
     })
 }
 
-/// Order, rate, interval and verdict of each error, in a table of its own: for rates that decide nothing.
+/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
     let row = |(name, rate): &(String, RateVerdict)| {
         let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| format!("{rate:.3}")).collect();
@@ -278,7 +278,7 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
     }
 }
 
-/// The rate with the digits that its interval leaves it, in a table that shows the interval as well.
+/// The rate with the digits that its interval justifies, in a table that also shows the interval.
 fn rate_in(rate: &RateVerdict) -> String {
     match (rate.fitted, rate.interval) {
         (Some(_), Some([low, high])) if high - low > WIDEST_INTERVAL => "no rate".to_owned(),
@@ -287,7 +287,7 @@ fn rate_in(rate: &RateVerdict) -> String {
     }
 }
 
-/// Rates and orders in a sentence: of all errors where all pass, else of those that do not, each with its reason.
+/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with its reason.
 pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
     let shown = rates.iter().filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
@@ -299,10 +299,10 @@ pub fn summary(rates: &Rates) -> String {
     shown.map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// What the check of [`completion`] claims.
+/// The claim of the check of [`completion`].
 pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
 
-/// Fails unless every case has a result, and one without a number that is not finite.
+/// Fails unless every case has a result with finite numbers only.
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
 pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
@@ -345,7 +345,7 @@ mod tests {
         [4, 8, 16, 32, 64].map(|n| Refinement::new(format!("cells = {n}"), &[("cells", n)], 1.0 / n as f64)).into()
     }
 
-    /// Errors of the second order on five levels, times these factors.
+    /// Errors of second order on five levels, times these factors.
     fn scattered(factors: [f64; 5]) -> Levels {
         let refinements = halved();
         let errors =

@@ -1,4 +1,4 @@
-//! What a study has found: the one form in which studies of every kind reach record, baseline and report.
+//! The findings of a study: studies of every kind reach record, baseline and report in this form.
 
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
@@ -7,16 +7,16 @@ use crate::text::json;
 /// The result of a study, which is also its record.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
-    /// The worst verdict of checks and rates; inconclusive where there is nothing that was judged.
+    /// The worst verdict of checks and rates; inconclusive if nothing was judged.
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
-    /// The numbers to read first, in a few words; empty where the rates are what was claimed.
+    /// The numbers to read first, in a few words; empty if the rates are the claim.
     #[serde(default)]
     pub headline: String,
     /// Errors of each level of a convergence study.
     pub levels: Vec<LevelErrors>,
-    /// Rates judged, each with its norm.
+    /// Judged rates, each with its norm.
     #[serde(with = "rates")]
     pub rates: Vec<(String, RateVerdict)>,
     /// Everything judged that is not a rate.
@@ -34,19 +34,19 @@ pub struct Outcome {
 /// The errors at one level of refinement, one for each norm.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LevelErrors {
-    /// Its parameters by name, such as elements and steps: keys of their own.
+    /// Its parameters by name, such as elements and steps: separate keys in JSON.
     #[serde(flatten, with = "json::counted")]
     pub parameters: Vec<(String, f64)>,
-    /// The step that the errors are judged over; nothing where they are not.
+    /// The step over which the errors are judged; `None` if they are not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
-    /// What the level cost, in a unit of the study's choice, where that is known.
+    /// The cost of the level, in a unit of the study's choice, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<f64>,
-    /// Errors by name; NaN where there is no result.
+    /// Errors by name; NaN without a result.
     #[serde(with = "json::named")]
     pub errors: Vec<(String, f64)>,
-    /// The names of those errors for which the level has no result.
+    /// The names of the errors for which the level has no result.
     #[serde(rename = "without_result", default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
 }
@@ -57,7 +57,7 @@ impl LevelErrors {
         self.parameters.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
     }
 
-    /// The error of that name; NaN where there is none.
+    /// The error of that name; NaN if there is none.
     pub fn error(&self, name: &str) -> f64 {
         self.errors.iter().find(|(known, _)| known == name).map_or(f64::NAN, |(_, error)| *error)
     }
@@ -66,7 +66,7 @@ impl LevelErrors {
 /// Something judged.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Check {
-    /// What is claimed.
+    /// The claim.
     pub claim: String,
     /// The outcome.
     pub verdict: Verdict,
@@ -82,14 +82,14 @@ impl Check {
     }
 }
 
-/// A table, printed with its columns lined up.
+/// A table, printed with aligned columns.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Table {
     /// What it shows.
     pub title: String,
     /// Column heads.
     pub head: Vec<String>,
-    /// Rows of cells, as many as heads.
+    /// Rows of cells, one for each head.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -110,9 +110,9 @@ impl Table {
 pub struct Figure {
     /// File name without folder, `<id>-<what>.svg`.
     pub file: String,
-    /// What is to be seen, in a sentence: caption and alternative text.
+    /// What the figure shows, in a sentence: caption and alternative text.
     pub caption: String,
-    /// The picture; in a record it is a file of its own.
+    /// The picture; in a record it is a separate file.
     #[serde(skip)]
     pub svg: String,
 }
@@ -132,13 +132,13 @@ pub struct Quantity {
     /// Value.
     #[serde(deserialize_with = "json::nan")]
     pub value: f64,
-    /// Relative change that is tolerated.
+    /// Relative change tolerated.
     #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
 }
 
 impl Quantity {
-    /// * `tolerance`: relative change that is tolerated.
+    /// * `tolerance`: relative change tolerated.
     pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
         Self { name: name.into(), value, tolerance }
     }
@@ -153,7 +153,7 @@ pub struct NotFinite {
     pub value: String,
 }
 
-/// Rates as objects: the norm, what was judged, and advice where it is not a pass.
+/// Rates as objects: the norm, the judgement, and advice unless it is a pass.
 mod rates {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -164,7 +164,7 @@ mod rates {
         norm: &'r str,
         #[serde(flatten)]
         rate: &'r RateVerdict,
-        /// What the reason means, and what to do; only where it is not a pass.
+        /// What the reason means, and what to do; absent for a pass.
         #[serde(skip_serializing_if = "Option::is_none")]
         advice: Option<&'static str>,
     }
@@ -189,13 +189,13 @@ mod rates {
 }
 
 impl Outcome {
-    /// The errors of that name over their steps, NaN where a level has none.
+    /// The errors of that name over their steps; NaN on a level without one.
     pub fn levels_of(&self, name: &str) -> Vec<Level> {
         let level = |level: &LevelErrors| Level { step: level.step.unwrap_or(f64::NAN), error: level.error(name) };
         self.levels.iter().map(level).collect()
     }
 
-    /// Puts an outcome together; the verdict is the worst of all rates and checks.
+    /// Builds an outcome; the verdict is the worst of all rates and checks.
     pub fn new(summary: impl Into<String>, rates: Vec<(String, RateVerdict)>, checks: Vec<Check>) -> Self {
         let verdicts = rates.iter().map(|(_, rate)| rate.verdict).chain(checks.iter().map(|check| check.verdict));
         Self {
@@ -211,7 +211,7 @@ impl Outcome {
         }
     }
 
-    /// Adds what another part of the study has found, but for summary and headline.
+    /// Adds the findings of another part of the study, except for summary and headline.
     pub fn extend(&mut self, part: Self) {
         self.verdict = Verdict::worst([self.verdict, part.verdict]);
         self.levels.extend(part.levels);

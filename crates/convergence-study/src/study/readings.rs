@@ -1,4 +1,4 @@
-//! Numbers that a case finds, each declared once: shown in tables, looked through for NaN, guarded by the baseline.
+//! Numbers that a case finds, each declared once: shown in tables, checked for NaN, guarded by the baseline.
 
 use super::outcome::{Quantity, Table};
 use crate::text::lists::distinct;
@@ -6,45 +6,45 @@ use crate::text::lists::distinct;
 /// A number that a case finds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Its name, which heads its column of a table.
+    /// Its name, which is the head of its column in a table.
     pub name: String,
-    /// The number; `None` where there need not be one.
+    /// The number; `None` if it may be missing.
     pub value: Option<f64>,
-    /// How a table shows it; `None` where no table does.
+    /// Its text in a table; `None` if no table shows it.
     text: Option<String>,
-    /// The name under which the baseline guards it, and the relative change that is tolerated.
+    /// The name under which the baseline guards it, and the relative change tolerated.
     guard: Option<(String, f64)>,
 }
 
 impl Reading {
-    /// A number that no table shows and that is not guarded.
+    /// A number that is neither shown in tables nor guarded.
     pub fn new(name: impl Into<String>, value: impl Into<Option<f64>>) -> Self {
         Self { name: name.into(), value: value.into(), text: None, guard: None }
     }
 
-    /// A cell that is no number.
+    /// A cell that is not a number.
     pub fn text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { text: Some(text.into()), ..Self::new(name, None) }
     }
 
-    /// The same number, shown in tables; as a dash where there is none.
+    /// The same number, shown in tables; as a dash if it is missing.
     pub fn shown(self, text: impl Fn(f64) -> String) -> Self {
         Self { text: Some(self.value.map_or_else(|| "-".to_owned(), text)), ..self }
     }
 
-    /// The same number, shown with so many digits after the first.
+    /// The same number, shown with this many digits after the first.
     pub fn scientific(self, digits: usize) -> Self {
         self.shown(|value| format!("{value:.digits$e}"))
     }
 
-    /// The same number, shown with so many digits after the point.
+    /// The same number, shown with this many digits after the point.
     pub fn fixed(self, digits: usize) -> Self {
         self.shown(|value| format!("{value:.digits$}"))
     }
 
     /// The same number, guarded by the baseline.
     ///
-    /// * `tolerance`: relative change that is tolerated.
+    /// * `tolerance`: relative change tolerated.
     pub fn guarded(self, name: impl Into<String>, tolerance: f64) -> Self {
         Self { guard: Some((name.into(), tolerance)), ..self }
     }
@@ -65,9 +65,9 @@ pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quant
     readings.into_iter().filter_map(quantity).collect()
 }
 
-/// The readings that are shown, a column each; a row that lacks one has a dash.
+/// The readings that are shown, one column each; a dash for a missing one.
 ///
-/// * `rows`: the cells of a row that are no readings, and its readings.
+/// * `rows`: the leading cells of a row, which are not readings, and its readings.
 pub fn table(title: impl Into<String>, first: &[&str], rows: &[(Vec<String>, Vec<Reading>)]) -> Table {
     let shown = rows.iter().flat_map(|(_, readings)| readings).filter(|reading| reading.text.is_some());
     let names = distinct(shown.map(|reading| reading.name.as_str()));

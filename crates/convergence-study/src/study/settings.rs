@@ -1,11 +1,11 @@
-//! What something judged exercises: settings, as pairs of text, by which a diagnosis tells what fails from what passes.
+//! What a judged item exercises: settings, as pairs of text, by which a diagnosis separates failing from passing items.
 
 use super::Header;
 
-/// A setting: what is set, and its value in words that can stand alone, such as `axis` and `refined in space`.
+/// A setting: its key, and its value in words that can stand alone, such as `axis` and `refined in space`.
 pub type Setting = (String, String);
 
-/// The field or norm that a judged item is about: its name without the level, and without the case that stands before a colon.
+/// The field or norm of a judged item: its name without the level, and without the case before a colon.
 ///
 /// * `item`: the name of a rate, the claim of a check, or the name of a guarded number.
 pub fn field(item: &str) -> String {
@@ -22,19 +22,19 @@ pub fn field(item: &str) -> String {
 /// The setting that only the items of one study share.
 pub const STUDY: &str = "study";
 
-/// That setting: where nothing else separates, a study fails alone.
+/// That setting: if nothing else separates, a study fails alone.
 pub fn study(header: &Header) -> Setting {
     (STUDY.to_owned(), format!("{} alone", header.id))
 }
 
-/// The settings of an item as any project has them: study, kind, field, and every value of the study's file.
+/// The settings of an item that exist in any project: study, kind, field, and every value of the study's file.
 ///
 /// * `item`: as for [`field`].
 pub fn of_file(header: &Header, item: &str) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let told = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [study(header), pair("field", &field(item)), pair("kind", &header.kind)];
-    // Of a list, such as the words of a command, each entry is a setting of its own.
+    // Each entry of a list, such as the words of a command, is a separate setting.
     let entries = |(path, value): &Setting| {
         let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
         let entry = |(k, entry): (usize, &str)| (format!("{path}[{k}]"), format!("{path} {}", entry.trim_matches('"')));

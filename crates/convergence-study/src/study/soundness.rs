@@ -1,14 +1,14 @@
 //! Requirements on every outcome, whatever the kind of study.
 //!
-//! A verdict cannot be better than those of its rates and checks, nothing passes on numbers that are not finite, and names
-//! that record, baseline and report use as keys are unique.
+//! A verdict cannot be better than those of its rates and checks, nothing passes on numbers that are not finite, and
+//! names used as keys by record, baseline and report are unique.
 
 use std::collections::HashSet;
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::outcome::{Check, Figure, Outcome};
 
-/// The outcome with its verdict derived anew, and with a failing check where it does not meet the requirements.
+/// The outcome with its verdict recomputed, and with a failing check if it does not meet the requirements.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
@@ -54,7 +54,7 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     defects
 }
 
-/// Whether a rate that passes has the numbers to pass on.
+/// Whether a passing rate has the numbers to justify it.
 fn rests_on_numbers(rate: &RateVerdict) -> bool {
     let interval = rate.interval.is_some_and(|[low, high]| low.is_finite() && high.is_finite());
     interval && rate.fitted.is_some_and(f64::is_finite)

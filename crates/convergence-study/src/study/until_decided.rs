@@ -1,8 +1,8 @@
-//! Levels until it is decided: a study begins with four and adds the next finer one while its rates decide nothing, a level can
-//! mend that, and its cost fits the budget.
+//! Levels until there is a decision: a study begins with four and adds the next finer one while its rates decide
+//! nothing, another level can help, and its cost fits the budget.
 //!
-//! Looking again costs few wrong passes: the rule answers for its interval at every look, and a claim that is off fails at one of them.
-//! `rule-calibration` has the row that measures it. A fixed number of levels at most keeps that so.
+//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a wrong claim fails at one
+//! of them. `rule-calibration` has a row that measures this. A limit on the number of levels keeps it so.
 
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
@@ -10,10 +10,10 @@ use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
 use crate::study::outcome::Outcome;
 
-/// Levels at the first look, each twice as fine as the one before.
+/// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
 
-/// Levels at most.
+/// Most levels.
 pub const MOST_LEVELS: usize = 8;
 
 /// What a study that adds levels does next.
@@ -23,16 +23,16 @@ pub enum Next {
     Another,
     /// It ends: every rate has passed or failed.
     Decided,
-    /// It ends: what is not decided for this reason, no finer level mends.
+    /// It ends: no finer level can resolve this reason.
     Beyond(Reason),
     /// It ends with [`MOST_LEVELS`].
     Most,
-    /// It ends: the next level would cost so much.
+    /// It ends: the next level would cost this much.
     TooDear(f64),
 }
 
 /// * `rates`: those of the levels so far.
-/// * `cost`: what the next level will take, in the unit of `budget`, of which the levels so far have taken `spent`.
+/// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
 pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
     let open: Vec<Reason> =
         rates.iter().map(|(_, rate)| rate.kind).filter(|kind| kind.verdict() == Verdict::Inconclusive).collect();
@@ -42,22 +42,22 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     }
     match levels {
         MOST_LEVELS.. => Next::Most,
-        // Not `>`, which NaN would pass.
+        // Not `>`, which would let NaN pass.
         _ if !(spent + cost <= budget) => Next::TooDear(cost),
         _ => Next::Another,
     }
 }
 
-/// The same where the cost is time: the next level takes as many times longer as the last one did, and at least twice as long.
+/// The same with time as cost: the next level takes longer by the same factor as the last one did, and by at least two.
 ///
-/// * `seconds`: what each level took; two at least.
+/// * `seconds`: time of each level; at least two.
 pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
     let [.., before, last] = seconds else { return Next::Another };
     next(rates, seconds.len(), last * (last / before).max(2.0), seconds.iter().sum(), budget)
 }
 
-/// The outcome of a study that adds levels: it says how the study ended, and guards its first levels alone, for another machine may
-/// afford others.
+/// The outcome of a study that adds levels: it says how the study ended, and guards only its first levels, because
+/// another machine may afford others.
 pub fn ended(mut outcome: Outcome, next: Next, levels: &Levels, budget: f64, unit: &str) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
     outcome.summary =
@@ -90,7 +90,7 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
     }
 }
 
-/// Errors whose verdict has been the same since fewer levels, each with their number.
+/// Errors whose verdict has not changed since fewer levels, each with that number of levels.
 fn fewer(levels: &Levels, rates: &Rates) -> Vec<(String, usize)> {
     let looks: Vec<_> =
         (FIRST.len()..levels.refinements.len()).map(|count| (count, levels.coarsest(count).judge())).collect();
@@ -108,14 +108,14 @@ pub fn is_auto(field: &Field<'_>) -> bool {
     field.text().is_ok_and(|text| text == "auto")
 }
 
-/// The key `budget` of `[refine]`; `None` where no list is left to the study.
+/// The key `budget` of `[refine]`; `None` if no list is left to the study.
 ///
-/// * `counts`: the keys of lists, of which all that are there must be `"auto"` or none.
-/// * `usual`: the budget of a file that does not say.
-/// * `allowed`: what a budget is, in words.
+/// * `counts`: the keys of lists; all lists present must be `"auto"`, or none.
+/// * `usual`: the default budget.
+/// * `allowed`: what a budget may be, in words.
 ///
 /// # Errors
-/// [`InputError`] where only some lists are, or `"auto"` stands beside `grid = true`, or a budget without it.
+/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`, or a budget without it.
 #[cfg(feature = "files")]
 pub fn budget(
     section: &Section<'_>,

@@ -28,8 +28,8 @@ pub struct AsymptoticRange {
 /// The asymptotic range, by two rules applied in this order:
 ///
 /// 1. Fine levels are dropped as long as the finest error is at most `floor`. The floor is an absolute number that the
-/// caller knows ([`FLOOR_MARGIN`] times round-off or solver tolerance) and is *never* guessed from the data: errors
-/// that stop falling above it are the signature of an inconsistent scheme, and dropping those levels would hide it.
+///    caller knows ([`FLOOR_MARGIN`] times round-off or solver tolerance) and is *never* guessed from the data: errors
+///    that stop falling above it are the signature of an inconsistent scheme, and dropping those levels would hide it.
 /// 2. Coarse levels are dropped while the pairwise rate that starts there differs from the finest remaining rate by more
 ///    than [`PRE_ASYMPTOTIC_SPREAD`]: all the rates in the range then lie within that distance of the finest.
 ///

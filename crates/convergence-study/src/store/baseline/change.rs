@@ -1,4 +1,4 @@
-//! What differs between a baseline and a run: in numbers, and in what study files claim, value by value.
+//! Differences between a baseline and a run: in numbers, and in the claims of study files, value by value.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fmt;
@@ -37,7 +37,7 @@ impl Change {
         format!("{}:{}", self.study, self.subject())
     }
 
-    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; of anything else, as it is displayed.
+    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; any other change as displayed.
     pub fn words(&self) -> String {
         let Self { study, name, movement } = self;
         match movement {
@@ -61,7 +61,7 @@ impl Change {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Movement {
-    /// It changed by more than is tolerated.
+    /// It changed by more than the tolerance.
     Moved {
         /// The baseline's value.
         #[serde(deserialize_with = "json::nan")]
@@ -73,7 +73,7 @@ pub enum Movement {
         #[serde(deserialize_with = "json::nan")]
         tolerance: f64,
     },
-    /// Its tolerance is another one: a guard is not loosened in passing.
+    /// Its tolerance differs: a guard must not be loosened unnoticed.
     Tolerance {
         /// The baseline's tolerance.
         #[serde(deserialize_with = "json::nan")]
@@ -82,35 +82,35 @@ pub enum Movement {
         #[serde(deserialize_with = "json::nan")]
         to: f64,
     },
-    /// The baseline does not have it.
+    /// The baseline lacks it.
     New {
         /// Its value.
         #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
-    /// The run does not have it.
+    /// The run lacks it.
     Vanished {
         /// The baseline's value.
         #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
-    /// A value of the study's file is another one, is new or has vanished.
+    /// A value of the study's file differs, is new or has vanished.
     Claim {
-        /// The value that was blessed; nothing where there was none.
+        /// The blessed value; `None` if there was none.
         from: Option<String>,
-        /// The value in the file; nothing where there is none.
+        /// The value in the file; `None` if there is none.
         to: Option<String>,
-        /// What the entry of a list that holds the value is about, such as the norm of `expect[0]`; nothing where no value says so.
+        /// The subject of the list entry that holds the value, such as the norm of `expect[0]`; `None` if no value gives it.
         entry: Option<String>,
     },
-    /// The baseline knows no claim of the study.
+    /// The baseline has no claim of the study.
     NewFile {
         /// How many values its file has.
         values: usize,
-        /// How many numbers of the study the baseline guards all the same; more than 0 where its claims were taken away.
+        /// How many numbers of the study the baseline guards nevertheless; more than 0 if its claims were removed.
         guarded: usize,
     },
-    /// The study's file is no longer there.
+    /// The study's file no longer exists.
     VanishedFile {
         /// How many values it had.
         values: usize,
@@ -118,12 +118,12 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// Whether it is about one value of a study file.
+    /// Whether it concerns one value of a study file.
     pub fn is_of_one_claim(&self) -> bool {
         matches!(self, Self::Claim { .. })
     }
 
-    /// Whether a blessing has to say why: a claim was changed, withdrawn with its study, or is missing beside guarded numbers.
+    /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is missing although numbers are guarded.
     pub fn needs_a_reason(&self) -> bool {
         match self {
             Self::NewFile { guarded, .. } => *guarded > 0,
@@ -131,8 +131,8 @@ impl Movement {
         }
     }
 
-    /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite where old and new
-    /// value cannot be compared, 0 for what is new.
+    /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite if old and
+    /// new value cannot be compared, 0 for new ones.
     pub fn weight(&self) -> f64 {
         match *self {
             Self::Moved { from, to, tolerance } => {
@@ -152,7 +152,7 @@ pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
     tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()
 }
 
-/// The changes of one study: in the run's order, then what has vanished.
+/// The changes of one study: in the run's order, then those that have vanished.
 pub(super) fn of_numbers(study: &str, expected: &BTreeMap<String, Guarded>, found: &[Quantity]) -> Vec<Change> {
     let change = |name: &String, movement| Change::new(study, name, movement);
     let mut changes = Vec::new();
@@ -235,13 +235,13 @@ const WHOLE_FILE: &str = "study file";
 /// The value that stands for a whole file after it has vanished.
 pub(super) const ID: &str = "study.id";
 
-/// A value of a study file as it was blessed.
+/// A blessed value of a study file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BlessedClaim {
-    /// Its text in the form of [`Header::settings`]; `null` where it was withdrawn.
+    /// Its text in the form of [`Header::settings`]; `null` if it was withdrawn.
     pub value: Option<String>,
-    /// Why it was changed or withdrawn; nothing for the first value.
+    /// Why it was changed or withdrawn; `None` for the first value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -249,7 +249,7 @@ pub struct BlessedClaim {
 /// The claims of one study, by the dotted path of the value.
 pub(super) type Claims = BTreeMap<String, BlessedClaim>;
 
-/// What differs between the claims as they were blessed and the file as it is: by path; one change for a file that is new.
+/// Differences between the blessed claims and the current file, by path; a new file is one change.
 ///
 /// * `guarded`: how many numbers of the study are guarded.
 pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usize) -> Vec<Change> {
@@ -272,7 +272,7 @@ pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usiz
     changed.map(change).collect()
 }
 
-/// Keys by which an entry of a list says what it is about.
+/// Keys that give the subject of a list entry.
 const ENTRY_KEYS: [&str; 5] = ["norm", "error", "value", "quantity", "name"];
 
 /// What the entry of a list that holds a value is about, by another value of the same entry.

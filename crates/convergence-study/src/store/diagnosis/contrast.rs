@@ -1,68 +1,68 @@
-//! Which settings separate what fails from what passes: spectrum-based fault localisation by Ochiai's coefficient.
+//! Which settings separate failing from passing items: spectrum-based fault localisation by Ochiai's coefficient.
 //!
-//! Of failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 where exactly those with the setting fail.
+//! For failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 if exactly those with the setting fail.
 
 use serde::{Deserialize, Serialize};
 
 use super::names;
 use crate::study::settings::{STUDY, Setting};
 
-/// Taken off for a second setting: it must tell more than it costs to read.
+/// Subtracted for a second setting: it must explain more than it costs to read.
 const SECOND: f64 = 0.02;
 
-/// Taken off where a study is named: a setting that separates as well says more.
+/// Subtracted if a study is named: a setting that separates as well says more.
 const ALONE: f64 = 0.06;
 
-/// What a conjunction must do better than no setting at all.
+/// How much better a conjunction must be than no setting at all.
 const GAIN: f64 = 0.04;
 
-/// The settings that are combined in pairs, the best by themselves: those of long files are many.
+/// How many of the best single settings are combined in pairs: long files have many settings.
 const COMBINED: usize = 80;
 
-/// Groups of passing items that are named.
+/// Most groups of passing items that are named.
 const GROUPS: usize = 3;
 
-/// A setting that all failing items share says something where at most this share of the passing ones has it.
+/// A setting shared by all failing items is informative if at most this share of the passing ones has it.
 const RARE: f64 = 0.95;
 
-/// Settings that all failing items share, of which so many are named.
+/// Most settings shared by all failing items that are named.
 const SHARED: usize = 3;
 
-/// Items of one study with the same settings: one vote, however many levels the study has.
+/// Items of one study with the same settings: one vote, whatever the number of levels.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Vote {
-    /// What they exercise.
+    /// The settings that they exercise.
     pub(super) settings: Vec<Setting>,
     /// Whether any of them fails, or has moved.
     pub(super) fails: bool,
-    /// How many of them fail, of how many.
+    /// How many of them fail, and how many there are.
     pub(super) count: [usize; 2],
 }
 
-/// The conjunction of at most two settings that separates failing from passing items best; none where nothing separates them.
+/// The conjunction of at most two settings that best separates failing from passing items; empty if nothing separates them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contrast {
-    /// The settings; empty where none separates.
+    /// The settings; empty if none separates.
     pub settings: Vec<Setting>,
     /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a study.
     pub score: f64,
-    /// Items with these settings: how many fail, of how many.
+    /// Items with these settings: how many fail, and how many there are.
     pub fails: [usize; 2],
-    /// Other settings that every failing item has, and few of the passing ones: the rarest first.
+    /// Other settings that every failing item has, but few of the passing ones: the rarest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shared: Vec<Setting>,
-    /// Items without them, by what they have instead: how many pass, of how many.
+    /// Items without them, by their alternative settings: how many pass, and how many there are.
     pub passes: Vec<(String, [usize; 2])>,
 }
 
-/// A set of votes, and how well it agrees with those that fail.
+/// A set of votes, and how well it agrees with the failing ones.
 struct Set<'v> {
     settings: Vec<&'v Setting>,
     holds: Vec<bool>,
     score: f64,
 }
 
-/// Votes with the settings in common, and their score.
+/// Votes that share these settings, and their score.
 fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<'v> {
     let failing = votes.iter().filter(|vote| vote.fails).count() as f64;
     let with = holds.iter().filter(|holds| **holds).count() as f64;
@@ -73,13 +73,13 @@ fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<
     Set { settings, holds, score: score - second - alone }
 }
 
-/// The best conjunction of at most two settings. Of equals the one that is named first.
+/// The best conjunction of at most two settings. Of equals, the first named.
 pub(super) fn contrast(votes: &[Vote]) -> Contrast {
     let mut singles: Vec<Set<'_>> = vec![];
     for setting in votes.iter().flat_map(|vote| &vote.settings) {
         if singles.iter().all(|known| known.settings[0] != setting) {
             let holds: Vec<bool> = votes.iter().map(|vote| vote.settings.contains(setting)).collect();
-            // Two settings of the same votes say the same.
+            // Two settings with the same votes are equivalent.
             if singles.iter().all(|known| known.holds != holds) {
                 singles.push(set(votes, vec![setting], holds));
             }
@@ -114,7 +114,7 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
             continue;
         }
         let lacks = best.settings.iter().find(|setting| !vote.settings.contains(setting));
-        // By name they would be too many.
+        // There would be too many names.
         let instead = lacks.filter(|(key, _)| key != STUDY);
         let instead = instead.and_then(|(key, _)| vote.settings.iter().find(|(other, _)| other == key));
         let name = instead.map_or("the others", |(_, value)| value);
@@ -132,7 +132,7 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     Contrast { shared: shared(votes, &settings), settings, score, fails, passes }
 }
 
-/// The settings of all failing votes, but for those `named` and for what most of the passing ones have, too.
+/// The settings of all failing votes, except those `named` and those that most passing votes share.
 fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
     let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
     let Some((first, others)) = failing.split_first() else { return vec![] };
@@ -145,7 +145,7 @@ fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
     let mut shared: Vec<(f64, &Setting)> =
         of_all.map(|one| (share(one), one)).filter(|(share, _)| *share <= RARE).collect();
     shared.sort_by(|(one, _), (next, _)| one.total_cmp(next));
-    // A method without the choice has one name under several keys.
+    // A method without the choice has the same name under several keys.
     shared.dedup_by(|(_, (_, one)), (_, (_, kept))| one == kept);
     shared.into_iter().take(SHARED).map(|(_, one)| one.clone()).collect()
 }
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!((values, found.fails), (vec!["one step", "a > 0"], [60, 62]));
         assert_eq!(found.passes, [("a = 0".to_owned(), [31, 31]), ("any order".to_owned(), [24, 24])]);
         assert!((found.score - 0.98).abs() < 1e-12);
-        // A second setting that tells nothing more is not named.
+        // A second setting that adds nothing is not named.
         let one = contrast(&votes[..2]);
         assert_eq!(one.settings, [("coupling".to_owned(), "a > 0".to_owned())]);
     }

@@ -1,4 +1,4 @@
-//! What a mistake does to a run: which items fail and which fields move, and in which direction. Runs are alike where these are.
+//! The effect of a mistake on a run: which items fail, which fields move, and in which direction. Similar runs agree in these.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::store::baseline::{Change, Movement};
 use crate::store::{StoreError, read_if_there};
 use crate::study::settings::field;
 
-/// Logarithm of the ratio that counts as much as a failure.
+/// Logarithm of the ratio that weighs as much as a failure.
 const LARGE: f64 = 2.0;
 
 /// What fails and moves: study and field, and how much, from -1 to 1.
@@ -19,7 +19,7 @@ const LARGE: f64 = 2.0;
 pub struct Fingerprint(BTreeMap<String, f64>);
 
 impl Fingerprint {
-    /// Of a run: 1 for each field with a rate or check that does not pass; for one that moved the logarithm of its ratio.
+    /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field the logarithm of its ratio.
     pub fn of(finished: &[Finished], changes: &[Change]) -> Self {
         let mut items = BTreeMap::new();
         for Finished { header, outcome, .. } in finished {
@@ -32,7 +32,7 @@ impl Fingerprint {
             let Movement::Moved { from, to, .. } = movement else { continue };
             let log = (to / from).abs().ln();
             let size = if log.is_nan() { 1.0 } else { (log / LARGE).clamp(-1.0, 1.0) };
-            // With two digits: it is a file that people commit.
+            // With two digits, because people commit the file.
             let least = if size < 0.0 { -0.1 } else { 0.1 };
             let size = if size.abs() < 0.1 { least } else { (100.0 * size).round() / 100.0 };
             items.insert(format!("{study}: {}", field(name)), size);
@@ -40,7 +40,7 @@ impl Fingerprint {
         Self(items)
     }
 
-    /// Cosine of the angle between two: 1 where they are alike, 0 where they share nothing.
+    /// Cosine of the angle between two: 1 if they are alike, 0 if they share nothing.
     pub fn likeness(&self, other: &Self) -> f64 {
         let both: f64 = self.0.iter().filter_map(|(item, size)| Some(size * other.0.get(item)?)).sum();
         let norm = |of: &Self| of.0.values().map(|size| size * size).sum::<f64>().sqrt();
@@ -49,7 +49,7 @@ impl Fingerprint {
     }
 }
 
-/// A mistake that was planted, and what it did.
+/// A mistake that was planted, and its effect.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Known {
@@ -57,15 +57,15 @@ pub struct Known {
     pub mistake: String,
     /// The file that it was planted in.
     pub file: String,
-    /// What it did.
+    /// Its effect.
     pub items: Fingerprint,
 }
 
-/// All of them, with the likeness from which on one is named.
+/// All of them, with the least likeness for naming one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fingerprints {
-    /// Measured by leaving each one out: from here on the nearest is oftener of the same file than not.
+    /// Found by leaving each one out: above this, the nearest is more often than not in the same file.
     pub threshold: f64,
     /// The mistakes.
     pub known: Vec<Known>,
@@ -83,7 +83,7 @@ pub struct Resembling {
 }
 
 impl Fingerprints {
-    /// Reads the file; none are known where it is not there.
+    /// Reads the file; without a file no mistakes are known.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
         let expected = "remove it: `dev regressions --write` makes it anew";
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
